@@ -1,0 +1,3 @@
+"""glrt: a physically based path tracer in OpenGL compute shaders."""
+
+__version__ = "0.1.0"

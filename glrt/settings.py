@@ -4,9 +4,11 @@ The command line, the panel and the kernel read these models; so does `[render]`
 """
 
 from enum import StrEnum
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from glrt.errors import UsageError
 
 Method = Literal["naive", "nee", "mis"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -24,7 +26,7 @@ class Cost(StrEnum):
 
 
 def _setting(default: Any, help_text: str, cost: Cost, unit: str = "", **limits: Any) -> Any:
-    extra = {"cost": cost.value, "unit": unit}
+    extra: dict[str, Any] = {"cost": cost.value, "unit": unit}
     return Field(default, description=help_text, json_schema_extra=extra, **limits)
 
 
@@ -67,10 +69,53 @@ class Settings(RenderSettings):
     roulette: bool = _setting(
         True, "end dim paths by Russian roulette: another variance, the same mean", Cost.RECOMPILE
     )
-    seed: int = _setting(
-        0, "chooses the random numbers", Cost.RESTART, "", ge=0, le=0xFFFFFFFF
-    )
+    seed: int = _setting(0, "chooses the random numbers", Cost.RESTART, "", ge=0, le=0xFFFFFFFF)
     exposure: float = _setting(
         0.0, "brightness of PNG files and of the display", Cost.FREE, "EV", ge=-50, le=50
     )
     tonemap: ToneMap = _setting("neutral", "tone curve of PNG files and of the display", Cost.FREE)
+
+    @model_validator(mode="after")
+    def _crop_lies_in_the_frame(self) -> Self:
+        left, top, width, height = self.crop or (0, 0, self.width, self.height)
+        if not (width and height and left + width <= self.width and top + height <= self.height):
+            raise ValueError(
+                f"crop {left} {top} {width} {height} (left, top, width, height) is not a part of "
+                f"the frame of {self.width} x {self.height} pixels"
+            )
+        return self
+
+
+def settings_for(base: RenderSettings, **overrides: Any) -> Settings:
+    """`base` with other values of some fields; UsageError names each bad one and its range."""
+    values = {**base.model_dump(), **overrides}
+    try:
+        return Settings.model_validate(values)
+    except ValidationError as error:
+        raise UsageError("; ".join(_advice(problem) for problem in error.errors())) from None
+
+
+def cost_of_change(before: Settings, after: Settings) -> Cost:
+    """The dearest class among the fields that differ."""
+    order = list(Cost)
+    changed = [
+        Cost(_extra(name)["cost"])
+        for name in Settings.model_fields
+        if getattr(before, name) != getattr(after, name)
+    ]
+    return max(changed, key=order.index, default=Cost.FREE)
+
+
+def _extra(name: str) -> dict[str, Any]:
+    extra = Settings.model_fields[name].json_schema_extra
+    assert isinstance(extra, dict)
+    return extra
+
+
+def _advice(problem: Any) -> str:
+    text = problem["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+    if problem["type"] == "extra_forbidden":
+        return f"there is no setting '{problem['loc'][0]}': {', '.join(Settings.model_fields)}"
+    if not problem["loc"]:
+        return str(text)
+    return f"{problem['loc'][0]} {text[0].lower() + text[1:]}, got {problem['input']!r}"

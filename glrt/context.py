@@ -1,0 +1,169 @@
+"""OpenGL contexts without a window: EGL, OSMesa, moderngl's own hidden window.
+
+EGL needs no display server. OSMesa is software drawn into plain memory (Mesa 25.1 removed it).
+The hidden window is what Windows, macOS and an X server offer.
+"""
+
+import ctypes
+import os
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import moderngl
+
+from glrt.errors import ContextError
+
+Choice = Literal["auto", "egl", "osmesa", "window"]
+ROUTES = ("egl", "window", "osmesa")  # in this order: the last is never hardware
+REQUIRED = 430  # compute shaders
+_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi")
+_OSMESA_LIBRARIES = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
+ADVICE = (
+    "On Debian or Ubuntu install libgl1 libegl1 libegl-mesa0 libgl1-mesa-dri (software OpenGL is "
+    "among them), or the driver of your GPU; `glrt doctor` tries every route."
+)
+
+
+@dataclass(frozen=True)
+class Context:
+    """An open context: moderngl's, the route it came by, and what draws behind it."""
+
+    gl: moderngl.Context
+    route: str
+
+    @property
+    def renderer(self) -> str:
+        """The driver's name of the renderer."""
+        return str(self.gl.info["GL_RENDERER"])
+
+    @property
+    def version(self) -> str:
+        """The driver's version of OpenGL."""
+        return str(self.gl.info["GL_VERSION"])
+
+    @property
+    def is_software(self) -> bool:
+        """Whether the processor draws."""
+        return any(word in self.renderer.lower() for word in _SOFTWARE)
+
+
+def open_context(choice: Choice = "auto") -> Context:
+    """Open a route, or the best: hardware before software, else the first that works.
+
+    Raises ContextError with the reason of every route that failed.
+    """
+    failures: list[str] = []
+    software: Context | None = None
+    for route in ROUTES if choice == "auto" else (choice,):
+        for context in _try_route(route, failures):
+            if choice != "auto" or not context.is_software:
+                return _prefer(context, software)
+            software = _prefer(software or context, context)
+        if software and not _may_be_hardware(route):
+            break
+    if software:
+        return software
+    raise ContextError(f"no usable OpenGL {REQUIRED / 100}: {'; '.join(failures)}. {ADVICE}")
+
+
+def open_route(route: str) -> Context:
+    """Open the first context of one route; ContextError says why it cannot be."""
+    failures: list[str] = []
+    for context in _try_route(route, failures):
+        return context
+    raise ContextError("; ".join(failures))
+
+
+def _prefer(chosen: Context, other: Context | None) -> Context:
+    if other and other is not chosen:
+        other.gl.release()
+    return chosen
+
+
+def _may_be_hardware(route: str) -> bool:
+    """Whether a later route than this one can be hardware."""
+    return route == "egl" and _has_display()
+
+
+def _has_display() -> bool:
+    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY"))
+
+
+def _try_route(route: str, failures: list[str]) -> Iterator[Context]:
+    """Every context that a route offers, one at a time; EGL may offer several devices."""
+    for device in range(16 if route == "egl" else 1):
+        try:
+            gl = _create(route, device)
+        except Exception as error:  # each backend raises what it likes: it becomes the reason
+            if device == 0:
+                failures.append(f"{route}: {error}")
+            return
+        yield Context(gl, route)
+
+
+def _create(route: str, device: int) -> moderngl.Context:
+    if route == "window" and not _has_display():
+        raise ContextError("there is no display (DISPLAY is not set)")
+    options: dict[str, Any] = {"standalone": True}
+    if route == "egl":
+        options |= {"backend": "egl", "device_index": device}
+    if route == "osmesa":
+        options = {"context": OSMesa()}
+    return moderngl.create_context(require=REQUIRED, **options)
+
+
+# In OSMesa's names: FORMAT = RGBA, DEPTH_BITS, PROFILE = CORE, CONTEXT_MAJOR_VERSION and _MINOR_.
+_ATTRIBUTES = (0x22, 0x1908, 0x30, 24, 0x33, 0x34, 0x36, 4, 0x37, 5, 0)
+_UNSIGNED_BYTE = 0x1401
+
+
+class OSMesa:
+    """The loader that moderngl asks for: OSMesa through ctypes."""
+
+    def __init__(self) -> None:
+        """Open a core context of OpenGL 4.5, the newest that OSMesa has."""
+        self._library = _load_osmesa()
+        create = self._library.OSMesaCreateContextAttribs
+        create.restype, create.argtypes = ctypes.c_void_p, [ctypes.c_void_p, ctypes.c_void_p]
+        self._context = create((ctypes.c_int * len(_ATTRIBUTES))(*_ATTRIBUTES), None)
+        if not self._context:
+            raise ContextError("OSMesa has no OpenGL 4.5 core context")
+        self._pixel = (ctypes.c_ubyte * 4)()  # the default framebuffer: unused, but required
+        self.__enter__()
+
+    def load_opengl_function(self, name: str) -> int:
+        """The address of an OpenGL function, 0 if there is none."""
+        find = self._library.OSMesaGetProcAddress
+        find.restype, find.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
+        return find(name.encode()) or 0
+
+    def __enter__(self) -> "OSMesa":
+        """Make the context current."""
+        bind = self._library.OSMesaMakeCurrent
+        bind.restype = ctypes.c_ubyte
+        bind.argtypes = [ctypes.c_void_p, ctypes.c_void_p, *[ctypes.c_int] * 3]
+        if not bind(self._context, self._pixel, _UNSIGNED_BYTE, 1, 1):
+            raise ContextError("OSMesaMakeCurrent failed")
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Stay current: OSMesa knows no previous context."""
+
+    def release(self) -> None:
+        """Destroy the context."""
+        if self._context:
+            destroy = self._library.OSMesaDestroyContext
+            destroy.restype, destroy.argtypes = None, [ctypes.c_void_p]
+            destroy(self._context)
+            self._context = None
+
+
+def _load_osmesa() -> ctypes.CDLL:
+    for name in _OSMESA_LIBRARIES:
+        try:
+            return ctypes.CDLL(name)
+        except OSError:
+            continue
+    raise ContextError("no OSMesa library (Debian: libosmesa6)")

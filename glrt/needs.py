@@ -1,0 +1,137 @@
+"""What the kernel must be able to do for a scene and its settings, and nothing else."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+from glrt.scene import Material, Scene
+from glrt.settings import Settings
+
+ROULETTE_START = 3  # bounces before the first game
+
+
+@dataclass(frozen=True)
+class Needs:
+    """The features compiled into a kernel; each is a constant of its prelude, in upper case."""
+
+    has_sphere: bool
+    has_plane: bool
+    has_quad: bool
+    has_mirror: bool
+    has_rough_metal: bool
+    has_dielectric: bool
+    has_lens: bool
+    has_background: bool
+    has_sphere_light: bool
+    has_quad_light: bool
+    sample_lights: bool
+    weight_both: bool
+    roulette: bool
+
+    def constants(self) -> dict[str, bool | int]:
+        """The prelude: what the compiler may take for granted."""
+        flags = {field.name.upper(): bool(getattr(self, field.name)) for field in fields(self)}
+        return {**flags, "ROULETTE_START": ROULETTE_START}
+
+
+class Feature(NamedTuple):
+    """A feature of the kernel, whether it is compiled in, and why."""
+
+    name: str
+    present: bool
+    reason: str
+
+
+def needs_of(scene: Scene, settings: Settings) -> Needs:
+    """The features that this scene, rendered with these settings, makes use of."""
+    shapes = {shape.shape for shape in scene.objects}
+    used = list(used_materials(scene).values())
+    lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
+    sample_lights = settings.method != "naive" and bool(lamps & {"sphere", "quad"})
+    return Needs(
+        has_sphere="sphere" in shapes,
+        has_plane="plane" in shapes,
+        has_quad="quad" in shapes,
+        has_mirror=any(m.type == "metal" and m.roughness == 0 for m in used),
+        has_rough_metal=any(m.type == "metal" and m.roughness > 0 for m in used),
+        has_dielectric=any(m.type == "dielectric" for m in used),
+        has_lens=scene.camera.defocus_angle > 0,
+        has_background=any(map(any, scene.background_colors)),
+        has_sphere_light=sample_lights and "sphere" in lamps,
+        has_quad_light=sample_lights and "quad" in lamps,
+        sample_lights=sample_lights,
+        weight_both=sample_lights and settings.method == "mis",
+        roulette=settings.roulette,
+    )
+
+
+def is_light(material: Material) -> bool:
+    """Whether a material emits."""
+    return material.type == "light"
+
+
+def used_materials(scene: Scene) -> dict[str, Material]:
+    """The materials that some object is made of, in the order of the scene file."""
+    names = {shape.material for shape in scene.objects}
+    return {name: material for name, material in scene.materials.items() if name in names}
+
+
+def explain(scene: Scene, settings: Settings) -> list[Feature]:
+    """Every feature of the kernel: in or out, and what in the scene decides that."""
+    needs = needs_of(scene, settings)
+    used = used_materials(scene)
+
+    def made_of(kind: str, **limits: bool) -> list[str]:
+        return [name for name, m in used.items() if m.type == kind and _matches(m, limits)]
+
+    def shapes(kind: str) -> str:
+        return _count(sum(1 for shape in scene.objects if shape.shape == kind), kind)
+
+    lens, method = scene.camera.defocus_angle, settings.method
+    mirrors, rough = made_of("metal", rough=False), made_of("metal", rough=True)
+    lamps = _lamps(scene)
+    return [
+        Feature("spheres", needs.has_sphere, shapes("sphere")),
+        Feature("planes", needs.has_plane, shapes("plane")),
+        Feature("quads", needs.has_quad, shapes("quad")),
+        Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
+        Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
+        Feature("glass", needs.has_dielectric, _made_of(made_of("dielectric"), "dielectric")),
+        Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
+        Feature("background", needs.has_background, _background(scene)),
+        Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
+        Feature("sphere lamps", needs.has_sphere_light, f"method {method}, {lamps}"),
+        Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
+        Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
+        Feature("roulette", needs.roulette, _roulette(settings)),
+    ]
+
+
+def _matches(material: Material, limits: dict[str, bool]) -> bool:
+    rough = getattr(material, "roughness", 0.0) > 0
+    return all(rough == wanted for wanted in limits.values())
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+
+
+def _made_of(names: Iterable[str], kind: str) -> str:
+    listed = ", ".join(names)
+    return f"{kind}: {listed}" if listed else f"nothing is {kind}"
+
+
+def _background(scene: Scene) -> str:
+    return "its light is not black" if any(map(any, scene.background_colors)) else "black"
+
+
+def _roulette(settings: Settings) -> str:
+    if not settings.roulette:
+        return "turned off"
+    return f"turned on; it begins after bounce {ROULETTE_START}"
+
+
+def _lamps(scene: Scene) -> str:
+    lit = [s.shape for s in scene.objects if is_light(scene.materials[s.material])]
+    kinds = [_count(lit.count(kind), f"{kind} lamp") for kind in ("sphere", "quad", "plane")]
+    return ", ".join(text for text in kinds if not text.startswith("no ")) or "no lamp"

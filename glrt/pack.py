@@ -1,0 +1,198 @@
+"""Scene -> the arrays of the kernel's blocks, keyed by block name.
+
+Positions are taken relative to the camera in float64: far from the origin nothing is lost.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.layout import read_constants, read_structs, record
+from glrt.needs import is_light, used_materials
+from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere
+from glrt.shader import read
+
+Array = np.ndarray[Any, Any]
+
+_TEXT = read("scene.glsl")
+STRUCTS = read_structs(_TEXT)
+CONSTANTS = read_constants(_TEXT)
+
+
+class Shapes(NamedTuple):
+    """The objects by kind; the kernel numbers them through in this order."""
+
+    spheres: list[Sphere]
+    planes: list[Plane]
+    quads: list[Quad]
+
+    def in_order(self) -> list[Shape]:
+        """All shapes; the place in the list is the kernel's number."""
+        return [*self.spheres, *self.planes, *self.quads]
+
+
+def shapes_of(scene: Scene) -> Shapes:
+    """Sort the objects by kind, keeping the order of the scene file within each."""
+    return Shapes(
+        [s for s in scene.objects if isinstance(s, Sphere)],
+        [s for s in scene.objects if isinstance(s, Plane)],
+        [s for s in scene.objects if isinstance(s, Quad)],
+    )
+
+
+def pack_scene(scene: Scene) -> dict[str, Array]:
+    """Arrays for the storage blocks of the kernel, keyed by block name."""
+    shapes = shapes_of(scene)
+    eye = np.array(scene.camera.position, np.float64)
+    names = {name: index for index, name in enumerate(used_materials(scene))}
+    lamps = _lamp_shapes(scene, shapes)
+    light_of = {shape: light for light, shape in enumerate(lamps)}
+    return {
+        "Spheres": _pack_spheres(shapes.spheres, eye, names, light_of),
+        "Planes": _pack_planes(shapes.planes, eye, names),
+        "Quads": _pack_quads(
+            shapes.quads, eye, names, light_of, len(shapes.spheres) + len(shapes.planes)
+        ),
+        "Materials": _pack_materials(scene),
+        "Lights": _pack_lights(scene, shapes, lamps),
+    }
+
+
+def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
+    """The fields of the struct Camera; `aspect` is width over height of the full frame."""
+    forward = _unit(_vector(camera.look_at) - _vector(camera.position))
+    right = _unit(np.cross(forward, _vector(camera.up)))
+    tan_y = math.tan(math.radians(camera.fov) / 2)
+    tan_lens = math.tan(math.radians(camera.defocus_angle) / 2)
+    return {
+        "right": right,
+        "tan_x": tan_y * aspect,
+        "up": np.cross(right, forward),
+        "tan_y": tan_y,
+        "forward": forward,
+        "lens_radius": tan_lens * camera.resolved_focus_distance,
+        "tan_lens": tan_lens,
+    }
+
+
+def pack_frame(**values: object) -> bytes:
+    """The bytes of the uniform block Frame."""
+    return record(STRUCTS["Frame"], values).tobytes()
+
+
+def light_probabilities(power: Sequence[float]) -> Array:
+    """How often each lamp is chosen: half by its power, half evenly, so that none is left out."""
+    weight = np.asarray(power, np.float64)
+    count = len(weight)
+    even = np.full(count, 1 / count)
+    return even if weight.sum() == 0 else 0.5 * even + 0.5 * weight / weight.sum()
+
+
+def alias_table(probability: Array) -> tuple[Array, Array]:
+    """Vose's tables (`keep`, `alias`) for drawing an index in constant time (IEEE TSE 1991)."""
+    count = len(probability)
+    keep, alias = np.ones(count), np.arange(count)
+    share = np.asarray(probability, np.float64) * count
+    small = [i for i in range(count) if share[i] < 1]
+    large = [i for i in range(count) if share[i] >= 1]
+    while small and large:
+        low, high = small.pop(), large[-1]
+        keep[low], alias[low] = share[low], high
+        share[high] -= 1 - share[low]
+        if share[high] < 1:
+            small.append(large.pop())
+    return keep, alias
+
+
+def _pack_spheres(
+    spheres: list[Sphere], eye: Array, names: dict[str, int], light_of: dict[int, int]
+) -> Array:
+    rows = np.zeros(len(spheres), STRUCTS["Sphere"])
+    if spheres:
+        rows["center"] = np.array([s.center for s in spheres], np.float64) - eye
+        rows["radius"] = [s.radius for s in spheres]
+        rows["material"] = [names[s.material] for s in spheres]
+        rows["light"] = [light_of.get(i, CONSTANTS["NO_LIGHT"]) for i in range(len(spheres))]
+    return rows
+
+
+def _pack_planes(planes: list[Plane], eye: Array, names: dict[str, int]) -> Array:
+    rows = np.zeros(len(planes), STRUCTS["Plane"])
+    for row, plane in zip(rows, planes, strict=True):
+        normal = _unit(_vector(plane.normal))
+        row["point"] = normal * np.dot(normal, _vector(plane.point) - eye)  # nearest to the eye
+        row["normal"] = normal
+        row["material"] = names[plane.material]
+    return rows
+
+
+def _pack_quads(
+    quads: list[Quad], eye: Array, names: dict[str, int], light_of: dict[int, int], first: int
+) -> Array:
+    rows = np.zeros(len(quads), STRUCTS["Quad"])
+    for index, (row, quad) in enumerate(zip(rows, quads, strict=True)):
+        u, v = _vector(quad.edge_u), _vector(quad.edge_v)
+        normal = np.cross(u, v)
+        area = np.linalg.norm(normal)
+        row["corner"], row["edge_u"], row["edge_v"] = _vector(quad.corner) - eye, u, v
+        row["normal"], row["area"] = normal / area, area
+        row["dual_u"] = np.cross(v, normal / area) / area
+        row["dual_v"] = np.cross(normal / area, u) / area
+        row["material"] = names[quad.material]
+        row["light"] = light_of.get(first + index, CONSTANTS["NO_LIGHT"])
+    return rows
+
+
+def _pack_materials(scene: Scene) -> Array:
+    kinds = {"metal": "METAL", "dielectric": "DIELECTRIC"}
+    used = used_materials(scene)
+    rows = np.zeros(len(used), STRUCTS["Material"])
+    for row, (name, material) in zip(rows, used.items(), strict=True):
+        row["kind"] = CONSTANTS[kinds.get(material.type, "MATTE")]
+        row["color"] = getattr(material, "color", 0.0)
+        row["alpha"] = getattr(material, "roughness", 0.0) ** 2
+        row["ior"] = getattr(material, "ior", 1.0)
+        row["emission"] = scene.emission(name) if is_light(material) else 0.0
+    return rows
+
+
+def _lamp_shapes(scene: Scene, shapes: Shapes) -> list[int]:
+    """The numbers of the shapes that can be sampled: lamps of finite area."""
+    return [
+        number
+        for number, shape in enumerate(shapes.in_order())
+        if not isinstance(shape, Plane) and is_light(scene.materials[shape.material])
+    ]
+
+
+def _pack_lights(scene: Scene, shapes: Shapes, lamps: list[int]) -> Array:
+    rows = np.zeros(len(lamps), STRUCTS["Light"])
+    if lamps:
+        everything = shapes.in_order()
+        probability = light_probabilities([_power(scene, everything[n]) for n in lamps])
+        rows["shape"], rows["probability"] = lamps, probability
+        rows["keep"], rows["alias"] = alias_table(probability)
+    return rows
+
+
+def _power(scene: Scene, shape: Shape) -> float:
+    """Flux of a lamp, up to a factor common to all: area of its bright sides times radiance."""
+    if isinstance(shape, Sphere):
+        area = 4 * math.pi * shape.radius**2
+    elif isinstance(shape, Quad):
+        normal = np.cross(_vector(shape.edge_u), _vector(shape.edge_v))
+        area = 2 * float(np.linalg.norm(normal))
+    else:
+        area = 0.0
+    return area * sum(scene.emission(shape.material))
+
+
+def _vector(value: Sequence[float]) -> Array:
+    return np.array(value, np.float64)
+
+
+def _unit(value: Array) -> Array:
+    unit: Array = value / np.linalg.norm(value)
+    return unit

@@ -1,0 +1,198 @@
+"""Scene + Settings -> samples on a film, step by step."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import moderngl
+
+from glrt import __version__
+from glrt.context import Choice, Context, open_context
+from glrt.errors import UsageError
+from glrt.film import Film, standard_error
+from glrt.image import Image
+from glrt.kernel import Kernel
+from glrt.needs import needs_of
+from glrt.pack import STRUCTS, pack_camera, pack_frame, pack_scene
+from glrt.recipe import Recipe
+from glrt.scene import Scene
+from glrt.schedule import Schedule, iterations_per_sample, most_samples
+from glrt.settings import Cost, Settings, cost_of_change, settings_for
+from glrt.shader import Source
+
+
+class Renderer:
+    """Renders a scene a few samples at a time.
+
+    A different scene or setting given to `update` restarts, or does not, by its cost class.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        settings: Settings | None = None,
+        context: Context | Choice = "auto",
+        **overrides: Any,
+    ) -> None:
+        """Open OpenGL, compile the kernel, allocate the film.
+
+        `overrides` are fields of Settings; the rest comes from the scene's `[render]`.
+        Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
+        """
+        self.scene = scene
+        self.settings = settings_for(settings or scene.render, **overrides)
+        self.context = context if isinstance(context, Context) else open_context(context)
+        self._needs = needs_of(self.scene, self.settings)
+        self._buffers: dict[str, moderngl.Buffer] = {}
+        with self.context.gl:
+            self._upload()
+            self._film = Film(self.context.gl, *self.size)
+            self._compile()
+
+    @property
+    def samples(self) -> int:
+        """How many samples each pixel has."""
+        return self._film.samples
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture in pixels: of the crop, if there is one."""
+        if self.settings.crop:
+            return self.settings.crop[2], self.settings.crop[3]
+        return self.settings.width, self.settings.height
+
+    def update(self, scene: Scene | None = None, **changes: Any) -> Cost | None:
+        """Go on with another scene or other settings; returns what that cost, None for nothing.
+
+        The one place where accumulation starts again.
+        """
+        before = self.scene, self.settings
+        self.scene = scene or self.scene
+        self.settings = settings_for(self.settings, **changes)
+        if (self.scene, self.settings) == before:
+            return None
+        cost = cost_of_change(before[1], self.settings)
+        if self.scene == before[0] and cost is Cost.FREE:
+            return Cost.FREE
+        with self.context.gl:
+            self._upload()
+            self._film.restart(*self.size)
+            return self._recompile()
+
+    def step(self, samples: int) -> None:
+        """Add `samples` samples to every pixel in one dispatch, within the driver's loop limit."""
+        if not 1 <= samples <= self.most_samples:
+            raise UsageError(
+                f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
+            )
+        with self.context.gl:
+            self._dispatch(samples, *self.size)
+            self._film.advance(samples)
+            self.context.gl.finish()
+
+    def render(
+        self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
+    ) -> "Renderer":
+        """Step until each pixel has `samples` (default: the settings'), or `goes_on` says no.
+
+        `goes_on` is asked after each dispatch.
+        """
+        target = samples or self.settings.samples
+        while self.samples < target:
+            count = self._schedule.next_count(target - self.samples)
+            start = time.perf_counter()
+            self.step(count)
+            self._schedule.record(count, time.perf_counter() - start)
+            if goes_on and not goes_on(self):
+                break
+        return self
+
+    def image(self) -> Image:
+        """The picture so far, with its standard error and its recipe."""
+        with self.context.gl:
+            film = self._film.read()
+        recipe = Recipe(
+            scene=self.scene,
+            settings=self.settings,
+            samples=self.samples,
+            version=__version__,
+            renderer=self.context.renderer,
+        )
+        return Image(film.mean, standard_error(film, self.samples), self.samples, recipe)
+
+    def nonfinite(self) -> int:
+        """How many samples were dropped because they were not finite."""
+        with self.context.gl:
+            return int(self._film.read().dropped.sum())
+
+    def release(self) -> None:
+        """Free what the driver holds; the context stays."""
+        with self.context.gl:
+            self._film.release()
+            self._kernel.release()
+            for buffer in self._buffers.values():
+                buffer.release()
+
+    def _upload(self) -> None:
+        """Give the driver the scene, and find how much of it a dispatch may take."""
+        arrays = pack_scene(self.scene)
+        self._counts = {name: len(rows) for name, rows in arrays.items()}
+        for name, rows in arrays.items():
+            self._store(name, rows.tobytes() or bytes(rows.itemsize))  # never an empty buffer
+        self._store("FrameBlock", bytes(STRUCTS["Frame"].itemsize))
+        rounds = iterations_per_sample(self.scene, self.settings)
+        self.most_samples = most_samples(rounds, self.context.is_software)
+        self._schedule = Schedule(self.most_samples)
+
+    def _store(self, name: str, data: bytes) -> None:
+        if name in self._buffers:
+            self._buffers[name].release()
+        self._buffers[name] = self.context.gl.buffer(data)
+
+    def _compile(self) -> None:
+        start = time.perf_counter()
+        self._kernel = Kernel(self.context.gl, Source("trace.comp", self._needs.constants()))
+        self._dispatch(0, 1, 1)  # drivers compile in the first dispatch; this one adds nothing
+        self.context.gl.finish()
+        self.compile_seconds = time.perf_counter() - start
+
+    def _recompile(self) -> Cost:
+        needs = needs_of(self.scene, self.settings)
+        if needs == self._needs:
+            return Cost.RESTART
+        self._kernel.release()
+        self._needs = needs
+        self._compile()
+        return Cost.RECOMPILE
+
+    def _dispatch(self, samples: int, width: int, height: int) -> None:
+        self._buffers["FrameBlock"].write(self._frame(samples))
+        self._kernel.bind(self._buffers, self._film.images())
+        self._kernel.run(width, height)
+
+    def _frame(self, sample_count: int) -> bytes:
+        settings, scene = self.settings, self.scene
+        bottom, top = scene.background_colors
+        return pack_frame(
+            camera=pack_camera(scene.camera, settings.width / settings.height),
+            background_bottom=bottom,
+            bounces=settings.bounces,
+            background_top=top,
+            seed=settings.seed,
+            size=(settings.width, settings.height),
+            origin=settings.crop[:2] if settings.crop else (0, 0),
+            first_sample=self.samples,
+            sample_count=sample_count,
+            sphere_count=self._counts["Spheres"],
+            plane_count=self._counts["Planes"],
+            quad_count=self._counts["Quads"],
+            light_count=self._counts["Lights"],
+        )
+
+
+def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:
+    """Render a scene; `settings` are fields of Settings, and `context`."""
+    renderer = Renderer(scene, samples=samples, **settings)
+    image = renderer.render().image()
+    renderer.release()
+    return image

@@ -1,0 +1,88 @@
+// Light sampling. A lamp is chosen with a fixed probability; then a point on a quad by area, or
+// a direction in the cone that a sphere fills. Densities are per solid angle at the ray's origin
+// and contain the choice.
+//
+// The density is 0, and scattering alone finds the light, for planes (infinite area), for the
+// background, for the lamp just left, and for a sphere that contains the point.
+
+struct LightSample {
+    Ray ray;
+    float distance;
+    float pdf;      // 0: nothing was sampled
+    vec3 radiance;
+    int shape;
+};
+
+// 1 - cos of the cone that a sphere fills, without the cancellation of 1 - sqrt(1 - s2);
+// 0 when it contains the point.
+float cone_of_sphere(vec3 to_center, float radius) {
+    float s2 = radius * radius / dot(to_center, to_center);
+    if (s2 >= 1.0) return 0.0;
+    float one_minus_cos = s2 / (1.0 + sqrt(1.0 - s2));
+    return one_minus_cos;
+}
+
+// The density of choosing this lamp and sampling this ray, which meets it at this distance.
+float pdf_light(int index, Ray ray, float distance) {
+    Light light = light_at(index);
+    if (light.shape == ray.leaves) return 0.0;
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < frame.sphere_count)) {
+        Sphere sphere = sphere_at(light.shape);
+        float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
+        if (one_minus_cos == 0.0) return 0.0;
+        float pdf = light.probability / (2.0 * PI * one_minus_cos);
+        return pdf;
+    }
+    Quad quad = quad_at(light.shape - frame.sphere_count - frame.plane_count);
+    float cos_light = abs(dot(ray.direction, quad.normal));
+    if (cos_light == 0.0) return 0.0;
+    float pdf = light.probability * (distance / quad.area) * (distance / cos_light);
+    return pdf;
+}
+
+// The alias method (Vose 1991): one number chooses a lamp, however many there are.
+int choose_light(float u) {
+    float scaled = u * float(frame.light_count);
+    int index = min(int(scaled), frame.light_count - 1);
+    Light light = light_at(index);
+    return scaled - float(index) < light.keep ? index : light.alias;
+}
+
+LightSample no_light_sample(Ray ray) {
+    return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE);
+}
+
+LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
+    Sphere sphere = sphere_at(shape);
+    vec3 to_center = sphere.center - ray.origin;
+    float one_minus_cos = cone_of_sphere(to_center, sphere.radius);
+    if (one_minus_cos == 0.0 || shape == ray.leaves) return no_light_sample(ray);
+    vec3 local = sample_cone(one_minus_cos, u);
+    ray.direction = normalized(frame_around(normalized(to_center)) * local);
+    float distance = sphere_distance(ray, sphere, shape);
+    if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
+    vec3 radiance = material_at(sphere.material).emission;
+    return LightSample(ray, distance, pdf_light(index, ray, distance), radiance, shape);
+}
+
+LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
+    Quad quad = quad_at(shape - frame.sphere_count - frame.plane_count);
+    vec3 to_point = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v - ray.origin;
+    float distance = length(to_point);
+    if (distance == 0.0) return no_light_sample(ray);
+    ray.direction = to_point / distance;
+    vec3 radiance = material_at(quad.material).emission;
+    return LightSample(ray, distance, pdf_light(index, ray, distance), radiance, shape);
+}
+
+// From the origin of `ray`, whose direction is ignored.
+LightSample sample_light(Ray ray, inout Sampler rng) {
+    float choice = next_1d(rng);
+    vec2 u = next_2d(rng);
+    int index = choose_light(choice);
+    int shape = light_at(index).shape;
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < frame.sphere_count)) {
+        return sample_sphere(ray, index, shape, u);
+    }
+    return sample_quad(ray, index, shape, u);
+}

@@ -1,0 +1,85 @@
+// One path from the camera: radiance in linear sRGB.
+//
+// Emission found by scattering and emission sampled on lamps are the same light; METHOD says how
+// they share it. naive: scattering alone. nee: sampling, where its density is not 0. mis: both,
+// weighted by the power heuristic (Veach 1997, eq. 9.14).
+
+vec3 background(vec3 direction) {
+    float t = 0.5 * (direction.y + 1.0);
+    vec3 radiance = frame.background_bottom + t * (frame.background_top - frame.background_bottom);
+    return radiance;
+}
+
+// p_a^2 / (p_a^2 + p_b^2), written so that no square overflows to NaN; p_a is above 0.
+float power_heuristic(float p_a, float p_b) {
+    float ratio = p_b / p_a;
+    float weight = 1.0 / (1.0 + ratio * ratio);
+    return weight;
+}
+
+// The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if it
+// comes from the camera or a delta.
+float emission_weight(Ray ray, Hit hit, int light, float pdf) {
+    if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
+    float light_pdf = pdf_light(light, ray, hit.distance);
+    if (light_pdf == 0.0) return 1.0;
+    return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
+}
+
+// Direct light from one sampled point, scattered towards wo. The direction of `from` is ignored.
+vec3 direct_light(Vertex vertex, Ray from, inout Sampler rng) {
+    LightSample light = sample_light(from, rng);
+    if (light.pdf == 0.0) return vec3(0.0);
+    vec3 wi = to_local(vertex.frame, light.ray.direction);
+    if (wi.z <= 0.0) return vec3(0.0);
+    vec3 weight = eval_material(vertex, wi) / light.pdf;
+    if (WEIGHT_BOTH) weight *= power_heuristic(light.pdf, pdf_material(vertex, wi));
+    if (occluded(light.ray, light.distance, light.shape)) return vec3(0.0);
+    vec3 radiance = weight * light.radiance;
+    return radiance;
+}
+
+// Divides the survivors' throughput by their chance: another variance, the same mean.
+bool roulette_ends(inout vec3 throughput, inout Sampler rng) {
+    float survival = min(max(throughput.x, max(throughput.y, throughput.z)), 1.0);
+    if (next_1d(rng) >= survival) return true;
+    throughput /= survival;
+    return false;
+}
+
+vec3 trace_path(Ray ray, inout Sampler rng) {
+    vec3 radiance = vec3(0.0);
+    vec3 throughput = vec3(1.0);
+    float scale = 1.0;  // of radiance by refraction, which roulette ignores
+    float pdf = 0.0;
+    for (int depth = 0; depth <= frame.bounces; ++depth) {
+        Hit hit = closest_hit(ray);
+        if (hit.shape == NO_SHAPE) {
+            if (HAS_BACKGROUND) radiance += scale * throughput * background(ray.direction);
+            break;
+        }
+        Surface surface = surface_at(ray, hit);
+        Material material = material_at(surface.material);
+        float emitted = emission_weight(ray, hit, surface.light, pdf);
+        radiance += scale * throughput * material.emission * emitted;
+        if (depth == frame.bounces) break;
+
+        float side = dot(ray.direction, surface.normal) < 0.0 ? 1.0 : -1.0;  // 1: outer
+        mat3 around = frame_around(side * surface.normal);
+        Vertex vertex = Vertex(around, to_local(around, -ray.direction), material);
+        ray = Ray(surface.position, ray.direction, surface.shape, side < 0.0);
+        if (SAMPLE_LIGHTS && !is_delta(material)) {
+            radiance += scale * throughput * direct_light(vertex, ray, rng);
+        }
+
+        Scattering next = sample_material(vertex, side > 0.0, rng);
+        throughput *= next.weight;
+        if (throughput == vec3(0.0)) break;
+        if (HAS_DIELECTRIC) scale *= next.scale;
+        if (ROULETTE && depth >= ROULETTE_START && roulette_ends(throughput, rng)) break;
+        pdf = next.pdf;
+        ray.direction = next.direction;
+        ray.inward = (side < 0.0) != next.crosses;
+    }
+    return radiance;
+}

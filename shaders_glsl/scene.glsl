@@ -1,0 +1,79 @@
+// The structs that host and kernels share. The host reads this very file (glrt/layout.py), so a
+// field is declared once, here. Rows of four words: std140 and std430 then agree, and the same
+// array can lie in a uniform block or in a storage block.
+//
+// Positions are in scene units, relative to the camera; axes are those of the world.
+// Colours are linear sRGB. Shapes are numbered through: spheres, then planes, then quads.
+
+const int NO_SHAPE = -1;
+const int NO_LIGHT = -1;
+
+const int MATTE = 0;       // Lambert's law; lamps are of this kind too
+const int METAL = 1;       // mirror or GGX
+const int DIELECTRIC = 2;  // smooth interface with Fresnel reflection
+
+struct Sphere {
+    vec3 center;
+    float radius;
+    int material;
+    int light;  // index into the lights, or NO_LIGHT
+};
+
+struct Plane {
+    vec3 point;
+    int material;
+    vec3 normal;  // unit
+};
+
+struct Quad {
+    vec3 corner;
+    int material;
+    vec3 normal;  // unit, along cross(edge_u, edge_v)
+    int light;
+    vec3 edge_u;
+    float area;
+    vec3 edge_v;
+    vec3 dual_u;  // dot(dual_u, p - corner) is 0 at the corner, 1 at the end of edge_u
+    vec3 dual_v;
+};
+
+struct Material {
+    vec3 color;      // albedo or reflectance
+    int kind;        // MATTE, METAL or DIELECTRIC
+    vec3 emission;   // radiance, light intensity included
+    float alpha;     // GGX roughness, the square of the scene file's; 0: mirror
+    float ior;       // inside over outside
+};
+
+struct Light {
+    int shape;
+    float probability;  // of being chosen
+    float keep;         // alias method: this light with probability `keep`, else `alias`
+    int alias;
+};
+
+struct Camera {
+    vec3 right;     // unit
+    float tan_x;    // half the width of the image plane at distance 1
+    vec3 up;        // unit
+    float tan_y;
+    vec3 forward;   // unit
+    float lens_radius;
+    float tan_lens; // lens radius over focus distance
+};
+
+struct Frame {
+    Camera camera;
+    vec3 background_bottom;  // radiance from below and from above
+    int bounces;             // scattering events on a path
+    vec3 background_top;
+    uint seed;
+    ivec2 size;              // of the full frame, pixels
+    ivec2 origin;            // of the crop in it
+    int first_sample;        // how many samples each pixel has
+    int sample_count;        // how many this dispatch adds
+    int sphere_count;
+    int plane_count;
+    int quad_count;
+    int light_count;
+};

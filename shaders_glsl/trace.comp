@@ -1,0 +1,56 @@
+// Adds samples to a crop of the frame. One swap of source and target a dispatch; the samples of
+// one dispatch go through registers, so that one dispatch of N equals N of one, bit for bit.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "scene.glsl"
+
+layout(std140) uniform FrameBlock { Frame frame; };
+layout(std430) readonly buffer Spheres { Sphere spheres[]; };
+layout(std430) readonly buffer Planes { Plane planes[]; };
+layout(std430) readonly buffer Quads { Quad quads[]; };
+layout(std430) readonly buffer Materials { Material materials[]; };
+layout(std430) readonly buffer Lights { Light lights[]; };
+
+Sphere sphere_at(int index) { return spheres[index]; }
+Plane plane_at(int index) { return planes[index]; }
+Quad quad_at(int index) { return quads[index]; }
+Material material_at(int index) { return materials[index]; }
+Light light_at(int index) { return lights[index]; }
+
+#include "rng.glsl"
+#include "sampler.glsl"
+#include "warp.glsl"
+#include "camera.glsl"
+#include "shape.glsl"
+#include "material.glsl"
+#include "light.glsl"
+#include "path.glsl"
+#include "film.glsl"
+
+layout(rgba32f) uniform readonly image2D source_mean;  // a: dropped samples
+layout(rgba32f) uniform readonly image2D source_variance;
+layout(rgba32f) uniform writeonly image2D target_mean;
+layout(rgba32f) uniform writeonly image2D target_variance;
+
+Pixel load_pixel(ivec2 texel) {
+    if (frame.first_sample == 0) return empty_pixel();  // whatever the source holds
+    vec4 mean = imageLoad(source_mean, texel);
+    vec4 variance = imageLoad(source_variance, texel);
+    return Pixel(mean.rgb, mean.a, variance.rgb);
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, imageSize(target_mean)))) return;
+    ivec2 place = frame.origin + texel;
+    Pixel pixel = load_pixel(texel);
+    int end = frame.first_sample + frame.sample_count;
+    for (int i = frame.first_sample; i < end; ++i) {
+        Sampler rng = make_sampler(pixel_seed(place, i, frame.seed));
+        Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
+        add_sample(pixel, trace_path(ray, rng), i);
+    }
+    imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));
+    imageStore(target_variance, texel, vec4(pixel.variance, 0.0));
+}
