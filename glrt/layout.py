@@ -18,18 +18,20 @@ _ROW = 16  # bytes: structs are aligned to it in std140
 
 class _Type(NamedTuple):
     dtype: np.dtype[Any]
-    alignment: int
+    uniform: int  # alignment in std140, bytes
+    storage: int  # alignment in std430
 
 
 def read_structs(glsl: str) -> dict[str, np.dtype[Any]]:
     """Map each struct of a GLSL source to the dtype that has its layout.
 
-    Raises KeyError for a type that is not a scalar, a vector or an earlier struct.
+    Raises KeyError for a type that is not a scalar, a vector or an earlier struct, and for a
+    struct that uniform and storage blocks lay out differently.
     """
     types = _basic_types()
     structs: dict[str, np.dtype[Any]] = {}
     for name, body in _STRUCT.findall(_COMMENT.sub("", glsl)):
-        types[name] = _Type(_struct_dtype(name, body, types), _ROW)
+        types[name] = _struct_type(name, body, types)
         structs[name] = types[name].dtype
     return structs
 
@@ -54,29 +56,39 @@ def record(dtype: np.dtype[Any], values: Mapping[str, object]) -> np.ndarray[Any
 def _basic_types() -> dict[str, _Type]:
     types = {}
     for scalar, prefix, code in (("float", "", "f4"), ("int", "i", "i4"), ("uint", "u", "u4")):
-        types[scalar] = _Type(np.dtype(code), 4)
+        types[scalar] = _Type(np.dtype(code), 4, 4)
         for size, alignment in ((2, 8), (3, 16), (4, 16)):
-            types[f"{prefix}vec{size}"] = _Type(np.dtype((code, (size,))), alignment)
+            types[f"{prefix}vec{size}"] = _Type(np.dtype((code, (size,))), alignment, alignment)
     return types
 
 
-def _struct_dtype(name: str, body: str, types: dict[str, _Type]) -> np.dtype[Any]:
-    names: list[str] = []
-    formats: list[np.dtype[Any]] = []
-    offsets: list[int] = []
-    end = 0
-    for declaration in filter(None, map(str.strip, body.split(";"))):
-        match declaration.split():
-            case [type_name, field] if type_name in types and field.isidentifier():
-                dtype, alignment = types[type_name]
-            case _:
-                raise KeyError(f"struct {name}: `{declaration}` is not a plain field")
-        names.append(field)
-        formats.append(dtype)
+def _struct_type(name: str, body: str, types: dict[str, _Type]) -> _Type:
+    declarations = filter(None, map(str.strip, body.split(";")))
+    fields = dict(_field(name, declaration, types) for declaration in declarations)
+    formats = [kind.dtype for kind in fields.values()]
+    storage = max(kind.storage for kind in fields.values())
+    offsets = _offsets(formats, [kind.uniform for kind in fields.values()], _ROW)
+    if offsets != _offsets(formats, [kind.storage for kind in fields.values()], storage):
+        raise KeyError(f"struct {name}: std140 and std430 differ; fill rows of four words")
+    *starts, size = offsets
+    layout = {"names": list(fields), "formats": formats, "offsets": starts, "itemsize": size}
+    return _Type(np.dtype(layout), _ROW, storage)  # type: ignore[call-overload]
+
+
+def _field(struct: str, declaration: str, types: dict[str, _Type]) -> tuple[str, _Type]:
+    match declaration.split():
+        case [type_name, field] if type_name in types and field.isidentifier():
+            return field, types[type_name]
+    raise KeyError(f"struct {struct}: `{declaration}` is not a plain field")
+
+
+def _offsets(formats: list[np.dtype[Any]], alignments: list[int], whole: int) -> list[int]:
+    """Where each field starts, and last the size of the struct, a multiple of `whole`."""
+    offsets, end = [], 0
+    for dtype, alignment in zip(formats, alignments, strict=True):
         offsets.append(_round_up(end, alignment))
         end = offsets[-1] + dtype.itemsize
-    layout = {"names": names, "formats": formats, "offsets": offsets}
-    return np.dtype({**layout, "itemsize": _round_up(end, _ROW)})  # type: ignore[call-overload,no-any-return]
+    return [*offsets, _round_up(end, whole)]
 
 
 def _round_up(value: int, multiple: int) -> int:

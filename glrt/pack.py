@@ -4,7 +4,7 @@ Positions are taken relative to the camera in float64: far from the origin nothi
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from glrt.layout import read_constants, read_structs, record
 from glrt.needs import is_light, used_materials
 from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere
+from glrt.settings import Settings
 from glrt.shader import read
 
 Array = np.ndarray[Any, Any]
@@ -77,9 +78,30 @@ def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
     }
 
 
-def pack_frame(**values: object) -> bytes:
-    """The bytes of the uniform block Frame."""
-    return record(STRUCTS["Frame"], values).tobytes()
+def pack_frame(
+    scene: Scene, settings: Settings, counts: Mapping[str, int], first_sample: int, samples: int
+) -> bytes:
+    """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
+
+    `counts` are the rows of each storage block.
+    """
+    bottom, top = scene.background_colors
+    frame = {
+        "camera": pack_camera(scene.camera, settings.width / settings.height),
+        "background_bottom": bottom,
+        "bounces": settings.bounces,
+        "background_top": top,
+        "seed": settings.seed,
+        "size": (settings.width, settings.height),
+        "origin": settings.crop[:2] if settings.crop else (0, 0),
+        "first_sample": first_sample,
+        "sample_count": samples,
+        "sphere_count": counts["Spheres"],
+        "plane_count": counts["Planes"],
+        "quad_count": counts["Quads"],
+        "light_count": counts["Lights"],
+    }
+    return record(STRUCTS["Frame"], frame).tobytes()
 
 
 def light_probabilities(power: Sequence[float]) -> Array:

@@ -5,20 +5,22 @@ from collections.abc import Callable
 from typing import Any
 
 import moderngl
+import numpy as np
 
-from glrt import __version__
 from glrt.context import Choice, Context, open_context
+from glrt.display import Display
 from glrt.errors import UsageError
 from glrt.film import Film, standard_error
 from glrt.image import Image
 from glrt.kernel import Kernel
 from glrt.needs import needs_of
-from glrt.pack import STRUCTS, pack_camera, pack_frame, pack_scene
+from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.recipe import Recipe
 from glrt.scene import Scene
 from glrt.schedule import Schedule, iterations_per_sample, most_samples
 from glrt.settings import Cost, Settings, cost_of_change, settings_for
 from glrt.shader import Source
+from glrt.version import VERSION
 
 
 class Renderer:
@@ -115,10 +117,18 @@ class Renderer:
             scene=self.scene,
             settings=self.settings,
             samples=self.samples,
-            version=__version__,
+            version=VERSION,
             renderer=self.context.renderer,
         )
         return Image(film.mean, standard_error(film, self.samples), self.samples, recipe)
+
+    def display(self) -> np.ndarray[Any, Any]:
+        """The picture so far through the display pass: (H, W, 3) uint8 sRGB, row 0 on top."""
+        with self.context.gl:
+            display = Display(self.context.gl)
+            codes = display.read(self._film.mean, self.settings)
+            display.release()
+        return codes
 
     def nonfinite(self) -> int:
         """How many samples were dropped because they were not finite."""
@@ -166,28 +176,10 @@ class Renderer:
         return Cost.RECOMPILE
 
     def _dispatch(self, samples: int, width: int, height: int) -> None:
-        self._buffers["FrameBlock"].write(self._frame(samples))
+        frame = pack_frame(self.scene, self.settings, self._counts, self.samples, samples)
+        self._buffers["FrameBlock"].write(frame)
         self._kernel.bind(self._buffers, self._film.images())
         self._kernel.run(width, height)
-
-    def _frame(self, sample_count: int) -> bytes:
-        settings, scene = self.settings, self.scene
-        bottom, top = scene.background_colors
-        return pack_frame(
-            camera=pack_camera(scene.camera, settings.width / settings.height),
-            background_bottom=bottom,
-            bounces=settings.bounces,
-            background_top=top,
-            seed=settings.seed,
-            size=(settings.width, settings.height),
-            origin=settings.crop[:2] if settings.crop else (0, 0),
-            first_sample=self.samples,
-            sample_count=sample_count,
-            sphere_count=self._counts["Spheres"],
-            plane_count=self._counts["Planes"],
-            quad_count=self._counts["Quads"],
-            light_count=self._counts["Lights"],
-        )
 
 
 def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:

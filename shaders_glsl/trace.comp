@@ -4,20 +4,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "scene.glsl"
-
-layout(std140) uniform FrameBlock { Frame frame; };
-layout(std430) readonly buffer Spheres { Sphere spheres[]; };
-layout(std430) readonly buffer Planes { Plane planes[]; };
-layout(std430) readonly buffer Quads { Quad quads[]; };
-layout(std430) readonly buffer Materials { Material materials[]; };
-layout(std430) readonly buffer Lights { Light lights[]; };
-
-Sphere sphere_at(int index) { return spheres[index]; }
-Plane plane_at(int index) { return planes[index]; }
-Quad quad_at(int index) { return quads[index]; }
-Material material_at(int index) { return materials[index]; }
-Light light_at(int index) { return lights[index]; }
-
+#include "blocks.glsl"
 #include "rng.glsl"
 #include "sampler.glsl"
 #include "warp.glsl"

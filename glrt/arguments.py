@@ -1,0 +1,174 @@
+"""The command line: options of a render generated from Settings, errors in one paragraph."""
+
+import argparse
+from difflib import get_close_matches
+from typing import Any, NoReturn, get_args
+
+from glrt.context import ROUTES
+from glrt.errors import UsageError
+from glrt.settings import RenderSettings, Settings
+from glrt.version import VERSION
+
+LATER = {
+    "--resume": "adding samples to an older picture",
+    "--pipeline fragment": "the pipeline for OpenGL 4.1",
+    "inspect --error": "the choice of the cheapest method",
+}
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse, but an error is a UsageError with a did-you-mean."""
+
+    def __init__(self, **options: Any) -> None:
+        """Abbreviations are off: a script must not change its meaning when options are added."""
+        super().__init__(allow_abbrev=False, **options)
+
+    def error(self, message: str) -> NoReturn:
+        """Raise what argparse would print."""
+        raise UsageError(f"{message}. See `{self.prog} --help`.")
+
+    def parse(self, arguments: list[str] | None) -> argparse.Namespace:
+        """Parse everything; an unknown option gets the nearest known one as advice."""
+        result, unknown = self.parse_known_args(arguments)
+        if unknown:
+            raise UsageError(self._advice(unknown[0], str(result.command)))
+        return result
+
+    def _advice(self, word: str, command: str) -> str:
+        options = [
+            option
+            for action in self._commands()[command]._actions
+            for option in action.option_strings
+        ]
+        near = get_close_matches(word.partition("=")[0], options, n=1)
+        question = f" Did you mean {near[0]}?" if near else ""
+        kind = "option" if word.startswith("-") else "argument"
+        return f"unknown {kind} {word!r}.{question} See `{self.prog} {command} --help`."
+
+    def _commands(self) -> dict[str, argparse.ArgumentParser]:
+        for action in self._actions:
+            if isinstance(action, argparse._SubParsersAction):
+                return dict(action.choices)
+        return {}
+
+
+def make_parser() -> Parser:
+    """The parser of all commands; the result has `command` and what the command needs."""
+    parser = Parser(prog="glrt", description="A path tracer in OpenGL compute shaders.")
+    parser.add_argument("--version", action="version", version=f"glrt {VERSION}")
+    commands = parser.add_subparsers(
+        dest="command", metavar="COMMAND", required=True, parser_class=Parser
+    )
+    _add_render(commands.add_parser("render", help="render a scene to a file", **_HELP["render"]))
+    _add_inspect(commands.add_parser("inspect", help="what a scene needs", **_HELP["inspect"]))
+    commands.add_parser("doctor", help="which OpenGL routes work here", **_HELP["doctor"])
+    commands.add_parser("schema", help="the scene format as JSON Schema", **_HELP["schema"])
+    return parser
+
+
+_HELP: dict[str, dict[str, Any]] = {
+    "render": {
+        "description": "Render a scene without a window.",
+        "epilog": "The first limit reached of --samples, --time and --error ends the render; "
+        "--time or --error without --samples lifts the sample limit to 1048576. Ctrl-C saves "
+        "what was rendered. Exit codes: 0 done, 1 --error not reached, 2 bad usage or scene, "
+        "3 no usable OpenGL, 4 the render failed, 130 and 143 interrupted.",
+    },
+    "inspect": {"description": "Say what the kernel for a scene contains and leaves out, and why."},
+    "doctor": {"description": "Try every OpenGL route and say which one is used."},
+    "schema": {"description": "Print the JSON Schema of scene files, for editors."},
+}
+
+_SCENE = "a scene file, the name of a scene that comes with glrt, or a picture rendered by glrt"
+
+
+def _add_render(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=_SCENE)
+    parser.add_argument(
+        "-o",
+        dest="outputs",
+        metavar="FILE",
+        action="append",
+        required=True,
+        help="the picture: .exr (radiance and its error), .png or .npy; may be repeated",
+    )
+    _add_settings(parser)
+    parser.add_argument("--time", type=float, metavar="SECONDS", help="stop then; from the start")
+    parser.add_argument(
+        "--error", type=float, metavar="E", help="stop at this relative RMS error: 0.02 is 2 %%"
+    )
+    parser.add_argument(
+        "--context", choices=["auto", *sorted(ROUTES)], default="auto", help="OpenGL route"
+    )
+    parser.add_argument(
+        "--pipeline", choices=["auto", "compute", "fragment"], default="auto", help="kernel kind"
+    )
+    parser.add_argument("--resume", metavar="FILE", help=argparse.SUPPRESS)
+    parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
+    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _add_inspect(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=_SCENE)
+    _add_settings(parser)
+    parser.add_argument("--error", metavar="E", help=argparse.SUPPRESS)
+
+
+def _add_settings(parser: argparse.ArgumentParser) -> None:
+    """An option for each field of Settings; absent ones leave no trace in the result."""
+    group = parser.add_argument_group("settings")
+    for name, field in Settings.model_fields.items():
+        options = _options(name, field.annotation)
+        wish = "the scene's" if name in RenderSettings.model_fields else field.default
+        unit = (field.json_schema_extra or {}).get("unit")  # type: ignore[union-attr]
+        notes = "; ".join(filter(None, [str(unit or ""), f"default: {wish}"]))
+        text = f"{field.description} ({notes})".replace("%", "%%")
+        group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
+    group.add_argument(
+        "--light",
+        dest="lights",
+        metavar="GROUP=X",
+        action="append",
+        type=_light,
+        default=[],
+        help="intensity of a light group, from 0; may be repeated",
+    )
+
+
+def _options(name: str, annotation: Any) -> dict[str, Any]:
+    if name == "crop":
+        return {"nargs": 4, "type": int, "metavar": ("X", "Y", "W", "H")}
+    if annotation is bool:
+        return {"action": argparse.BooleanOptionalAction}
+    if choices := get_args(annotation):
+        return {"choices": choices}
+    return {"type": annotation, "metavar": "N" if annotation is int else "EV"}
+
+
+def _light(text: str) -> tuple[str, float]:
+    group, equals, value = text.rpartition("=")
+    try:
+        return (group, float(value)) if equals and group else _refuse_light(text)
+    except ValueError:
+        return _refuse_light(text)
+
+
+def _refuse_light(text: str) -> NoReturn:
+    raise argparse.ArgumentTypeError(f"{text!r} is not GROUP=X, such as ceiling=0.5")
+
+
+def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The settings that stand on the command line."""
+    return {name: value for name, value in vars(arguments).items() if name in Settings.model_fields}
+
+
+def refuse_later(arguments: argparse.Namespace) -> None:
+    """UsageError for what the format of the command line knows and this version does not do."""
+    given = {
+        "--resume": getattr(arguments, "resume", None) is not None,
+        "--pipeline fragment": getattr(arguments, "pipeline", "") == "fragment",
+        "inspect --error": arguments.command == "inspect" and arguments.error is not None,
+    }
+    for option, is_given in given.items():
+        if is_given:
+            raise UsageError(f"{option} ({LATER[option]}) is not in glrt {VERSION}; leave it out.")

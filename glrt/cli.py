@@ -1,0 +1,205 @@
+"""The commands `render`, `inspect`, `doctor` and `schema`."""
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from glrt.arguments import make_parser, refuse_later, settings_given
+from glrt.errors import GlrtError, RenderError, UsageError
+from glrt.job import Interruption, Limits, peak_bytes, run, samples_limit, since_start
+from glrt.library import load_recipe
+from glrt.scene import Scene, with_lights
+from glrt.settings import Settings, settings_for
+
+INTERRUPTED = 128  # plus the number of the signal
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a command; returns its exit code. `arguments` are those of the process by default."""
+    commands: dict[str, Callable[[argparse.Namespace], int]] = {
+        "render": render,
+        "inspect": inspect,
+        "doctor": doctor,
+        "schema": schema,
+    }
+    try:
+        parsed = make_parser().parse(arguments)
+        refuse_later(parsed)
+        return commands[parsed.command](parsed)
+    except GlrtError as error:
+        return _fail(str(error), error.exit_code)
+    except KeyboardInterrupt:
+        return _fail("interrupted before anything was rendered", INTERRUPTED + 2)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except (OSError, MemoryError) as error:
+        return _fail(f"the render failed: {error or 'out of memory'}", RenderError.exit_code)
+
+
+def render(arguments: argparse.Namespace) -> int:
+    """`glrt render`: the exit code says whether the picture is what was asked for."""
+    from glrt.image import check_writable
+
+    scene, settings, limits = _job(arguments)
+    for output in arguments.outputs:
+        check_writable(output)
+    with Interruption().watched() as interruption:
+        return _render(arguments, scene, settings, limits, interruption)
+
+
+def inspect(arguments: argparse.Namespace) -> int:
+    """`glrt inspect`: what the kernel contains and leaves out."""
+    from glrt.needs import explain
+    from glrt.schedule import LOOP_LIMIT, iterations_per_sample
+
+    scene, settings = _scene_and_settings(arguments)
+    print(f"{arguments.scene}: {scene.title or 'no title'}")
+    print(f"method {settings.method}, {settings.bounces} bounces, {len(scene.objects)} objects\n")
+    for feature in explain(scene, settings):
+        print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
+    rounds = iterations_per_sample(scene, settings)
+    fit = f"{LOOP_LIMIT // rounds} fit" if rounds <= LOOP_LIMIT else "too many"
+    print(f"\nA sample takes up to {rounds} rounds of loops: {fit} a dispatch on llvmpipe.")
+    return 0
+
+
+def doctor(_arguments: argparse.Namespace) -> int:
+    """`glrt doctor`: exit code 3 when no route works."""
+    from glrt.doctor import report
+
+    text, works = report()
+    print(text)
+    return 0 if works else 3
+
+
+def schema(_arguments: argparse.Namespace) -> int:
+    """`glrt schema`: the scene format as JSON Schema."""
+    print(json.dumps(Scene.model_json_schema(), indent=2))
+    return 0
+
+
+def _job(arguments: argparse.Namespace) -> tuple[Scene, Settings, Limits]:
+    scene, settings = _scene_and_settings(arguments)
+    for name in ("time", "error"):
+        value = getattr(arguments, name)
+        if value is not None and not 0 < value < float("inf"):
+            raise UsageError(f"--{name} must be a number above 0, got {value:g}.")
+    open_ended = arguments.time is not None or arguments.error is not None
+    samples = samples_limit(getattr(arguments, "samples", None), settings.samples, open_ended)
+    settings = settings_for(settings, samples=samples)
+    return scene, settings, Limits(samples, arguments.time, arguments.error)
+
+
+def _scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
+    scene, recipe = load_recipe(arguments.scene)
+    settings = settings_for(recipe or scene.render, **settings_given(arguments))
+    return with_lights(scene, dict(arguments.lights)), settings
+
+
+def _render(
+    arguments: argparse.Namespace,
+    scene: Scene,
+    settings: Settings,
+    limits: Limits,
+    interruption: Interruption,
+) -> int:
+    from glrt.renderer import Renderer
+
+    renderer = Renderer(scene, settings, context=arguments.context)
+    setup = since_start() - renderer.compile_seconds
+    start = time.perf_counter()
+    with _watch(arguments, limits) as watch:
+        error = run(renderer, limits, interruption, watch)
+    seconds = {
+        "setup": setup,
+        "compile": renderer.compile_seconds,
+        "render": time.perf_counter() - start,
+    }
+    if not renderer.samples:
+        return _fail("interrupted before anything was rendered", _signal_code(interruption))
+    image = renderer.image()
+    for output in arguments.outputs:
+        image.save(output)
+    _tell(arguments, renderer, seconds, error)
+    if interruption.signal is not None:
+        text = f"interrupted after {renderer.samples} samples, which are saved"
+        return _fail(text, _signal_code(interruption))
+    if limits.error is not None and (error is None or error > limits.error):
+        text = "unknown" if error is None else f"{error:.3g}"
+        return _fail(
+            f"--error {limits.error:g} was not reached: it is {text} after {renderer.samples} "
+            "samples. The picture is saved; give more --samples or --time.",
+            1,
+        )
+    return 0
+
+
+def _signal_code(interruption: Interruption) -> int:
+    return INTERRUPTED + (interruption.signal or 0)
+
+
+@contextmanager
+def _watch(arguments: argparse.Namespace, limits: Limits) -> Iterator[Any]:
+    if arguments.quiet or not sys.stderr.isatty():
+        yield None
+        return
+    from glrt.progress import progress_bar
+
+    with progress_bar(limits) as watch:
+        yield watch
+
+
+def _tell(
+    arguments: argparse.Namespace, renderer: Any, seconds: dict[str, float], error: float | None
+) -> None:
+    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    width, height = renderer.size
+    rate = renderer.samples * width * height / max(seconds["render"], 1e-9)
+    if arguments.json:
+        print(json.dumps(_figures(arguments, renderer, seconds, rate, error)), flush=True)
+    elif not arguments.quiet:
+        known = "" if error is None else f", estimated error {100 * error:.2g} %"
+        names = ", ".join(arguments.outputs)
+        print(
+            f"Wrote {names}: {width} x {height}, {renderer.samples} samples in "
+            f"{seconds['render']:.1f} s ({rate / 1e6:.2f} million samples/s){known}.",
+            file=sys.stderr,
+        )
+
+
+def _figures(
+    arguments: argparse.Namespace,
+    renderer: Any,
+    seconds: dict[str, float],
+    rate: float,
+    error: float | None,
+) -> dict[str, Any]:
+    settings = renderer.settings
+    return {
+        "scene": arguments.scene,
+        "width": settings.width,
+        "height": settings.height,
+        "samples": renderer.samples,
+        "bounces": settings.bounces,
+        "method": settings.method,
+        "seed": settings.seed,
+        "pipeline": "compute",
+        "context": renderer.context.route,
+        "renderer": renderer.context.renderer,
+        "seconds": {name: round(value, 4) for name, value in seconds.items()},
+        "samples_per_second": round(rate, 1),
+        "error": error,
+        "nonfinite": renderer.nonfinite(),
+        "peak_bytes": peak_bytes(),
+    }
+
+
+def _fail(message: str, code: int) -> int:
+    print(f"glrt: {' '.join(message.split())}", file=sys.stderr)
+    return code

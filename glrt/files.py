@@ -1,0 +1,88 @@
+"""Files that appear whole or not at all: written beside, then renamed."""
+
+import os
+import secrets
+import shutil
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+from glrt.errors import RenderError, UsageError
+
+# Of libraries, not only of the system: OpenEXR raises RuntimeError when a disk is full.
+_WRITE_FAILURES = (OSError, RuntimeError, UnicodeError, MemoryError)
+
+
+def write_whole(path: Path, write: Callable[[Path], None]) -> None:
+    """Let `write` fill a new file in the same folder, which then takes the name `path`.
+
+    A reader sees the old file or the new one. Raises `RenderError` if that fails; the old file is
+    then as it was, and nothing is left beside it.
+    """
+    try:
+        target = path.resolve()  # of a link, the file that it names
+        temporary = _beside(target)
+        try:
+            _create(temporary)
+            write(temporary)
+            _rename(temporary, target)
+        finally:
+            with suppress(OSError):
+                temporary.unlink(missing_ok=True)
+    except _WRITE_FAILURES as error:
+        raise RenderError(
+            f"Cannot write {path}: {reason(error)}. No file was changed; make room, or choose "
+            "another place."
+        ) from error
+
+
+def check_writable(path: Path) -> None:
+    """Raise `UsageError` if `write_whole` could not write there; leaves nothing behind."""
+    try:
+        problem = _obstacle(path)
+    except (OSError, RuntimeError, ValueError) as error:
+        problem = reason(error)
+    if problem:
+        raise UsageError(f"Cannot write {path}: {problem}. Choose another place or name.")
+
+
+def reason(error: BaseException) -> str:
+    """What an error says, without its number and its full stop."""
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    return (str(error) or type(error).__name__).rstrip(".")
+
+
+def _obstacle(path: Path) -> str | None:
+    """Why a write would fail; raises what the system says if only trying tells.
+
+    Permission bits say nothing to root, nor of a disk that is mounted read-only.
+    """
+    target = path.resolve()
+    if not target.parent.is_dir():
+        return f"there is no folder {path.parent}"
+    if target.exists() and not target.is_file():
+        return "that is a folder or a device, not a file"
+    if target.exists():
+        target.open("ab").close()
+    probe = _beside(target)
+    _create(probe)
+    probe.unlink()
+    return None
+
+
+def _beside(target: Path) -> Path:
+    return target.with_name(f".glrt-{secrets.token_hex(8)}{target.suffix}")
+
+
+def _create(path: Path) -> None:
+    """An empty file that did not exist, with the permissions that any new file gets."""
+    os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+
+
+def _rename(temporary: Path, target: Path) -> None:
+    if target.exists():
+        shutil.copymode(target, temporary)
+    with temporary.open("rb+") as file:
+        os.fsync(file.fileno())  # a full disk may speak up only here
+    os.replace(temporary, target)

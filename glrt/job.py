@@ -1,0 +1,126 @@
+"""A render with limits: samples, seconds and error; the first one reached ends it."""
+
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from glrt.renderer import Renderer
+from glrt.settings import MAX_SAMPLES
+
+FIRST_LOOK = 64  # samples; the error is judged there and at each doubling
+
+
+@dataclass(frozen=True)
+class Limits:
+    """When to stop: `deadline` in seconds since the process started, `error` as a fraction."""
+
+    samples: int
+    deadline: float | None = None
+    error: float | None = None
+
+
+class Interruption:
+    """Remembers SIGINT or SIGTERM, so that a dispatch ends and the picture is saved."""
+
+    def __init__(self) -> None:
+        """Nothing has happened yet."""
+        self.signal: int | None = None
+
+    @contextmanager
+    def watched(self) -> Iterator["Interruption"]:
+        """Catch the two signals inside; a second one ends the process at once."""
+        watched = (signal.SIGINT, signal.SIGTERM)
+        before = {number: signal.signal(number, self._remember) for number in watched}
+        try:
+            yield self
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    def _remember(self, number: int, _frame: object) -> None:
+        self.signal = number
+        signal.signal(number, signal.SIG_DFL)
+
+
+def run(
+    renderer: Renderer,
+    limits: Limits,
+    interruption: Interruption,
+    watch: Callable[[Renderer], None] | None = None,
+) -> float | None:
+    """Render to the first limit; returns the estimated error, None below two samples.
+
+    `watch` is called after each dispatch, to show progress. At least one dispatch is made, unless
+    the interruption came before it.
+    """
+
+    def goes_on(renderer: Renderer) -> bool:
+        if watch:
+            watch(renderer)
+        late = limits.deadline is not None and since_start() >= limits.deadline
+        return interruption.signal is None and not late
+
+    for look in _looks(limits):
+        if interruption.signal is not None:
+            break
+        renderer.render(look, goes_on)
+        if renderer.samples < look:
+            break
+        if limits.error is not None and _is_reached(renderer.image().error, limits.error):
+            break
+    return renderer.image().error if renderer.samples else None
+
+
+def _looks(limits: Limits) -> Iterator[int]:
+    """The sample counts at which to look at the error, and the last one."""
+    look = FIRST_LOOK
+    while limits.error is not None and look < limits.samples:
+        yield look
+        look *= 2
+    yield limits.samples
+
+
+def _is_reached(error: float | None, wanted: float) -> bool:
+    return error is not None and error <= wanted
+
+
+def samples_limit(given: int | None, default: int, open_ended: bool) -> int:
+    """Samples to take: as given; else the scene's, or 2^20 when time or error end the render."""
+    return given or (MAX_SAMPLES if open_ended else default)
+
+
+_IMPORTED = time.perf_counter()
+
+
+def since_start() -> float:
+    """Seconds since this process started; where the system does not tell, since the import."""
+    return time.perf_counter() - _IMPORTED + _AGE_AT_IMPORT
+
+
+def _process_age() -> float:
+    """Linux: uptime minus start time, the 22nd word of /proc/self/stat, in clock ticks."""
+    try:
+        from os import sysconf
+
+        started = float(Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19])
+        uptime = float(Path("/proc/uptime").read_text().split()[0])
+        return max(0.0, uptime - started / sysconf("SC_CLK_TCK"))
+    except (ImportError, OSError, ValueError, IndexError):
+        return 0.0
+
+
+_AGE_AT_IMPORT = _process_age()
+
+
+def peak_bytes() -> int | None:
+    """The most memory this process has held, in bytes; None where the system does not tell."""
+    try:
+        from resource import RUSAGE_SELF, getrusage
+    except ImportError:
+        return None
+    unit = 1 if sys.platform == "darwin" else 1024
+    return getrusage(RUSAGE_SELF).ru_maxrss * unit

@@ -1,0 +1,71 @@
+"""Progress of a render on a terminal: samples, seconds, estimated error, forecast."""
+
+import math
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Protocol
+
+from glrt.job import Limits
+from glrt.renderer import Renderer
+
+LOOK = 2.0  # seconds between estimates of the error, which read the film back
+
+
+class Watch(Protocol):
+    """What is called after each dispatch."""
+
+    def __call__(self, renderer: Renderer) -> None: ...
+
+
+@contextmanager
+def progress_bar(limits: Limits) -> Iterator[Watch]:
+    """A bar on stderr; it vanishes when the render ends."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.fields[rest]}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("render", total=1.0, done="compiling", rest="")
+        forecast = Forecast(limits)
+
+        def watch(renderer: Renderer) -> None:
+            state: dict[str, Any] = forecast.after(renderer)
+            bar.update(task, **state)
+
+        yield watch
+
+
+class Forecast:
+    """How far a render is, and how long it will take, by samples, time and error."""
+
+    def __init__(self, limits: Limits) -> None:
+        """Start the clock."""
+        self._limits = limits
+        self._start = time.perf_counter()
+        self._looked = self._start
+        self._error: float | None = None
+
+    def after(self, renderer: Renderer) -> dict[str, Any]:
+        """The fields of the bar after a dispatch."""
+        now = time.perf_counter()
+        if now - self._looked >= LOOK:
+            self._looked, self._error = now, renderer.image().error
+        seconds = now - self._start
+        total = self._total_seconds(renderer.samples, seconds)
+        left = max(0.0, total - seconds)
+        error = f"error {100 * self._error:.2g} %  " if self._error else ""
+        done = f"{renderer.samples} of {self._limits.samples} samples"
+        share = min(1.0, seconds / total) if total else 1.0
+        rest = f"{error}{seconds:.0f} s, {left:.0f} s to go"
+        return {"completed": share, "done": done, "rest": rest}
+
+    def _total_seconds(self, samples: int, seconds: float) -> float:
+        """Seconds to the first limit: the error falls with the square root of the samples."""
+        rate = samples / seconds
+        candidates = [self._limits.samples / rate]
+        if self._limits.deadline is not None:
+            candidates.append(self._limits.deadline)
+        if self._limits.error and self._error:
+            candidates.append(seconds * math.pow(self._error / self._limits.error, 2))
+        return min(candidates)

@@ -1,0 +1,118 @@
+"""How large the error of an image is, and whether it is more than chance.
+
+An estimate is a pixel's mean with the standard error of that mean; all sums are in float64.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
+
+
+def relative_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
+    """Relative RMS error: sqrt(mean(stderr^2 / (radiance^2 + 0.01 * mean(radiance)^2))).
+
+    Both arrays have one shape, (H, W, 3) for an image; all means run over pixels and channels.
+    None where `stderr` holds NaN: there are fewer than two observations. A black image without
+    noise has error 0.
+    """
+    variance = np.square(np.asarray(stderr, np.float64))
+    if np.isnan(variance).any():
+        return None
+    value = np.asarray(radiance, np.float64)
+    scale = np.square(value) + DARK * value.mean() ** 2
+    ratio = np.where(variance > 0, np.inf, 0.0)
+    np.divide(variance, scale, out=ratio, where=scale > 0)
+    return math.sqrt(ratio.mean())
+
+
+def p_value(z: float) -> float:
+    """Two-sided: how often a standard normal number lies at least |z| from 0, erfc(|z| / sqrt(2)).
+
+    By `erfc` in float64: 1 - cdf would lose every digit where many tests put the threshold.
+    """
+    return math.erfc(abs(z) / math.sqrt(2))
+
+
+def sidak_threshold(alpha: float, tests: int) -> float:
+    """The p-value below which one of k independent tests fails: 1 - (1 - alpha)^(1/k).
+
+    Then all k together fail by chance with probability `alpha`.
+    """
+    return -math.expm1(math.log1p(-alpha) / tests)
+
+
+@dataclass(frozen=True)
+class ZTest:
+    """The verdict of `z_test`; `str` of it explains a failed assertion."""
+
+    z: float  # of the worst value, with its sign
+    p: float  # two-sided, of the worst value alone
+    threshold: float  # Sidak-corrected: p below it fails
+    tests: int
+
+    @property
+    def passed(self) -> bool:
+        """Whether chance alone explains the worst value."""
+        return self.p >= self.threshold
+
+    def __bool__(self) -> bool:
+        return self.passed
+
+    def __str__(self) -> str:
+        return (
+            f"worst z {self.z:.2f} of {self.tests}: p {self.p:.3g}, threshold {self.threshold:.3g}"
+        )
+
+
+def z_scores(
+    mean: ArrayLike, stderr: ArrayLike, truth: ArrayLike, floor: float = 0.0
+) -> NDArray[np.float64]:
+    """(mean - truth) / max(stderr, floor), broadcast; where that is 0/0, the score is 0.
+
+    `floor` covers what `stderr` does not know, such as float32 rounding. A noisy truth adds its
+    own: pass `np.hypot(stderr, stderr_of_truth)`. Raises ValueError for NaN and infinities: a
+    comparison with NaN, or an infinite `stderr`, would pass in silence.
+    """
+    difference = np.asarray(mean, np.float64) - np.asarray(truth, np.float64)
+    spread = np.maximum(np.asarray(stderr, np.float64), floor)
+    difference, spread = np.broadcast_arrays(difference, spread)
+    if not (np.isfinite(difference).all() and np.isfinite(spread).all()):
+        raise ValueError("NaN or infinity in a z-test: too few observations, or a broken mean")
+    scores = np.where(difference == 0, 0.0, np.copysign(np.inf, difference))
+    return np.divide(difference, spread, out=scores, where=spread > 0)
+
+
+def z_test(
+    mean: ArrayLike, stderr: ArrayLike, truth: ArrayLike, alpha: float = 1e-3, floor: float = 0.0
+) -> ZTest:
+    """Test every value against its truth; all together fail by chance with probability `alpha`.
+
+    The arguments are those of `z_scores`. True in a condition if the test passed.
+    """
+    scores = z_scores(mean, stderr, truth, floor).ravel()
+    worst = float(scores[np.abs(scores).argmax()])
+    return ZTest(worst, p_value(worst), sidak_threshold(alpha, scores.size), scores.size)
+
+
+def block_means(image: ArrayLike, size: int = 8) -> NDArray[np.float64]:
+    """Means of blocks of size x size pixels: (H, W, ...) to (H // size, W // size, ...).
+
+    They show what pixels hide, such as seeds that neighbours share. Rows and columns that fill
+    no block are left out. Raises ValueError for an image smaller than one block.
+    """
+    pixels = np.asarray(image, np.float64)
+    rows, columns = pixels.shape[0] // size, pixels.shape[1] // size
+    if rows == 0 or columns == 0:
+        raise ValueError(f"{pixels.shape[1]} x {pixels.shape[0]} pixels hold no block of {size}")
+    whole = pixels[: rows * size, : columns * size]
+    blocks = whole.reshape(rows, size, columns, size, *pixels.shape[2:])
+    return np.asarray(blocks.mean(axis=(1, 3)))
+
+
+def block_stderr(stderr: ArrayLike, size: int = 8) -> NDArray[np.float64]:
+    """Standard error of `block_means` if pixels are independent: sqrt(sum(stderr^2)) / size^2."""
+    return np.sqrt(block_means(np.square(np.asarray(stderr, np.float64)), size)) / size

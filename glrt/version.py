@@ -1,0 +1,3 @@
+"""The version of glrt."""
+
+VERSION = "0.1.0"
