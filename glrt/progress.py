@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
-from glrt.job import Limits
+from glrt.job import Limits, since_start
 from glrt.renderer import Renderer
 
 LOOK = 2.0  # seconds between estimates of the error, which read the film back
@@ -43,6 +43,7 @@ class Forecast:
         """Start the clock."""
         self._limits = limits
         self._start = time.perf_counter()
+        self._age = since_start()
         self._looked = self._start
         self._error: float | None = None
 
@@ -65,7 +66,7 @@ class Forecast:
         rate = samples / seconds
         candidates = [self._limits.samples / rate]
         if self._limits.deadline is not None:
-            candidates.append(self._limits.deadline)
+            candidates.append(self._limits.deadline - self._age)
         if self._limits.error and self._error:
             candidates.append(seconds * math.pow(self._error / self._limits.error, 2))
         return min(candidates)

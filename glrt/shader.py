@@ -9,7 +9,7 @@ from glrt.resources import folder
 
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".
-_LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?:?")
+_LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
 _STRUCT = re.compile(r"^struct\s+(\w+)", re.MULTILINE)
 _FLOATS = ("float", "vec2", "vec3", "vec4", "mat3")
 
