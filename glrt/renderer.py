@@ -43,6 +43,7 @@ class Renderer:
         """
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
+        self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context)
         self._needs = needs_of(self.scene, self.settings)
         self._buffers: dict[str, moderngl.Buffer] = {}
@@ -136,12 +137,14 @@ class Renderer:
             return int(self._film.read().dropped.sum())
 
     def release(self) -> None:
-        """Free what the driver holds; the context stays."""
+        """Free what the driver holds, the context too unless it was given."""
         with self.context.gl:
             self._film.release()
             self._kernel.release()
             for buffer in self._buffers.values():
                 buffer.release()
+        if self._owns_context:
+            self.context.gl.release()
 
     def _upload(self) -> None:
         """Give the driver the scene, and find how much of it a dispatch may take."""
@@ -185,6 +188,7 @@ class Renderer:
 def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:
     """Render a scene; `settings` are fields of Settings, and `context`."""
     renderer = Renderer(scene, samples=samples, **settings)
-    image = renderer.render().image()
-    renderer.release()
-    return image
+    try:
+        return renderer.render().image()
+    finally:
+        renderer.release()
