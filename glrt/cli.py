@@ -30,7 +30,9 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         parsed = make_parser().parse(arguments)
         refuse_later(parsed)
-        return commands[parsed.command](parsed)
+        code = commands[parsed.command](parsed)
+        sys.stdout.flush()  # a reader that has gone is found out here, not at exit
+        return code
     except GlrtError as error:
         return _fail(str(error), error.exit_code)
     except KeyboardInterrupt:

@@ -239,6 +239,9 @@ def test_version_is_the_packages() -> None:
 
 
 def test_closed_pipe_is_no_error() -> None:
-    command = f'"{sys.executable}" -m glrt schema | head -1; exit ${{PIPESTATUS[0]}}'
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    """The pause lets `head` go first; a buffer in Python is what a user has."""
+    child = "import sys, time, glrt.cli as c; time.sleep(0.3); sys.exit(c.main(['schema']))"
+    command = f'"{sys.executable}" -c "{child}" | true; exit ${{PIPESTATUS[0]}}'
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment)
     assert (done.returncode, done.stderr) == (0, "")

@@ -1,0 +1,34 @@
+# Each command makes what it needs first: system libraries, then the environment .venv.
+# PYTHON is the interpreter of the environment; ARGS goes to pytest: make test ARGS="-k furnace"
+PYTHON ?= python3
+ARGS ?=
+
+BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
+IN_ENVIRONMENT = .venv/bin/python -m
+
+.PHONY: help render test check gallery clean
+
+help: ## show this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
+
+render: ## render scenes/cornell.toml to cornell.png
+	@$(BOOTSTRAP) render
+	.venv/bin/glrt render cornell -o cornell.png
+
+test: ## run the tests, without the slow ones
+	@$(BOOTSTRAP) test
+	$(IN_ENVIRONMENT) pytest -m "not slow" $(ARGS)
+
+check: ## look over the source: ruff and mypy
+	@$(BOOTSTRAP) check
+	$(IN_ENVIRONMENT) ruff check
+	$(IN_ENVIRONMENT) ruff format --check
+	$(IN_ENVIRONMENT) mypy
+
+gallery: ## render every scene into gallery/
+	@$(BOOTSTRAP) render
+	$(IN_ENVIRONMENT) glrt.lab.gallery
+
+clean: ## remove .venv and all caches; pictures stay
+	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache
+	find glrt tests tools -name __pycache__ -prune -exec rm -rf {} +
