@@ -113,7 +113,7 @@ def _render(
 ) -> int:
     from glrt.renderer import Renderer
 
-    renderer = Renderer(scene, settings, context=arguments.context)
+    renderer = Renderer(scene, settings, arguments.context, tier="baked")
     setup = since_start() - renderer.compile_seconds
     start = time.perf_counter()
     with _watch(arguments, limits) as watch:

@@ -7,6 +7,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
+from glrt.blocks import Tier, blocks_text, padded, tier_for
 from glrt.context import Choice, Context, open_context
 from glrt.display import Display
 from glrt.errors import UsageError
@@ -34,18 +35,20 @@ class Renderer:
         scene: Scene,
         settings: Settings | None = None,
         context: Context | Choice = "auto",
+        tier: Tier = "generic",
         **overrides: Any,
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
 
-        `overrides` are fields of Settings; the rest comes from the scene's `[render]`.
+        `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
+        "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context)
-        self._needs = needs_of(self.scene, self.settings)
+        self._wanted_tier = tier
         self._buffers: dict[str, moderngl.Buffer] = {}
         with self.context.gl:
             self._upload()
@@ -77,10 +80,15 @@ class Renderer:
         cost = cost_of_change(before[1], self.settings)
         if self.scene == before[0] and cost is Cost.FREE:
             return Cost.FREE
+        compiled = self._source
         with self.context.gl:
             self._upload()
             self._film.restart(*self.size)
-            return self._recompile()
+            if self._source.text == compiled.text:
+                return Cost.RESTART
+            self._kernel.release()
+            self._compile()
+            return Cost.RECOMPILE
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel in one dispatch, within the driver's loop limit."""
@@ -120,6 +128,7 @@ class Renderer:
             samples=self.samples,
             version=VERSION,
             renderer=self.context.renderer,
+            tier=self.tier,
         )
         return Image(film.mean, standard_error(film, self.samples), self.samples, recipe)
 
@@ -151,8 +160,12 @@ class Renderer:
         arrays = pack_scene(self.scene)
         self._counts = {name: len(rows) for name, rows in arrays.items()}
         for name, rows in arrays.items():
-            self._store(name, rows.tobytes() or bytes(rows.itemsize))  # never an empty buffer
+            self._store(name, padded(rows))
         self._store("FrameBlock", bytes(STRUCTS["Frame"].itemsize))
+        self.tier = tier_for(arrays, self._wanted_tier)
+        parts = {"blocks.glsl": blocks_text(arrays, self.tier)}
+        constants = needs_of(self.scene, self.settings).constants()
+        self._source = Source("trace.comp", constants, parts=parts)
         rounds = iterations_per_sample(self.scene, self.settings)
         self.most_samples = most_samples(rounds, self.context.is_software)
         self._schedule = Schedule(self.most_samples)
@@ -164,19 +177,10 @@ class Renderer:
 
     def _compile(self) -> None:
         start = time.perf_counter()
-        self._kernel = Kernel(self.context.gl, Source("trace.comp", self._needs.constants()))
+        self._kernel = Kernel(self.context.gl, self._source)
         self._dispatch(0, 1, 1)  # drivers compile in the first dispatch; this one adds nothing
         self.context.gl.finish()
         self.compile_seconds = time.perf_counter() - start
-
-    def _recompile(self) -> Cost:
-        needs = needs_of(self.scene, self.settings)
-        if needs == self._needs:
-            return Cost.RESTART
-        self._kernel.release()
-        self._needs = needs
-        self._compile()
-        return Cost.RECOMPILE
 
     def _dispatch(self, samples: int, width: int, height: int) -> None:
         frame = pack_frame(self.scene, self.settings, self._counts, self.samples, samples)
@@ -187,7 +191,7 @@ class Renderer:
 
 def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:
     """Render a scene; `settings` are fields of Settings, and `context`."""
-    renderer = Renderer(scene, samples=samples, **settings)
+    renderer = Renderer(scene, tier="baked", samples=samples, **settings)
     try:
         return renderer.render().image()
     finally:

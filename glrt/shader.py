@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Mapping
-from pathlib import Path
 from typing import NamedTuple
 
 from glrt.resources import folder
@@ -22,7 +21,7 @@ class Line(NamedTuple):
 
 
 class Source:
-    """The text of a shader, assembled; every float local is `precise`.
+    """The text of a shader, assembled; every float local and inout parameter is `precise`.
 
     Then constant folding, inlining and another entry point change no bit of what it computes:
     the driver may neither fuse nor reorder its arithmetic.
@@ -33,15 +32,14 @@ class Source:
         entry: str,
         constants: Mapping[str, bool | int] | None = None,
         version: str = "430 core",
-        text: str | None = None,
+        parts: Mapping[str, str] | None = None,
     ) -> None:
-        """Read `entry` from the shader folder, or take `text` under that name."""
+        """Read `entry` and what it includes from `parts`, by name, or from the shader folder."""
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
-        body = folder("shaders_glsl").joinpath(entry).read_text() if text is None else text
-        lines = [Line(line, "prelude") for line in head] + _expand(entry, body, set())
+        files = _Files(parts or {})
+        lines = [Line(line, "prelude") for line in head] + files.expand(entry, "the kernel")
         structs = _STRUCT.findall("\n".join(line.text for line in lines))
-        local = re.compile(rf"^(\s+)({'|'.join([*_FLOATS, *structs])})(\s+\w+\s*=)")
-        self.lines = [Line(local.sub(r"\1precise \2\3", text), where) for text, where in lines]
+        self.lines = [Line(_precise(text, structs), origin) for text, origin in lines]
 
     @property
     def text(self) -> str:
@@ -62,6 +60,13 @@ def read(name: str) -> str:
     return folder("shaders_glsl").joinpath(name).read_text()
 
 
+def _precise(line: str, structs: list[str]) -> str:
+    """The line with `precise` before a local that it initialises and before inout parameters."""
+    kinds = "|".join([*_FLOATS, *structs])
+    line = re.sub(rf"^(\s+)({kinds})(\s+\w+\s*=)", r"\1precise \2\3", line)
+    return re.sub(rf"\binout ({kinds})\b", r"precise inout \1", line)
+
+
 def _declare(constant: tuple[str, bool | int]) -> str:
     name, value = constant
     if isinstance(value, bool):
@@ -69,21 +74,29 @@ def _declare(constant: tuple[str, bool | int]) -> str:
     return f"const int {name} = {value};"
 
 
-def _expand(name: str, text: str, seen: set[str]) -> list[Line]:
-    if name in seen:
-        return []
-    seen.add(name)
-    lines: list[Line] = []
-    for number, line in enumerate(text.splitlines(), start=1):
-        if match := _INCLUDE.match(line):
-            lines += _include(match[1], f"{name}:{number}", seen)
-        else:
-            lines.append(Line(line, f"{name}:{number}"))
-    return lines
+class _Files:
+    """Shader files, each included once."""
 
+    def __init__(self, parts: Mapping[str, str]) -> None:
+        self._parts = parts
+        self._seen: set[str] = set()
 
-def _include(name: str, origin: str, seen: set[str]) -> list[Line]:
-    path: Path = folder("shaders_glsl") / name
-    if not path.is_file():
-        raise FileNotFoundError(f"{origin}: no shader file '{name}' to include")
-    return _expand(name, path.read_text(), seen)
+    def expand(self, name: str, wanted_by: str) -> list[Line]:
+        """The lines of a file with those of the files it includes, where they are first named."""
+        if name in self._seen:
+            return []
+        self._seen.add(name)
+        lines: list[Line] = []
+        for number, line in enumerate(self._text(name, wanted_by).splitlines(), start=1):
+            origin = f"{name}:{number}"
+            match = _INCLUDE.match(line)
+            lines += self.expand(match[1], origin) if match else [Line(line, origin)]
+        return lines
+
+    def _text(self, name: str, wanted_by: str) -> str:
+        if name in self._parts:
+            return self._parts[name]
+        path = folder("shaders_glsl") / name
+        if not path.is_file():
+            raise FileNotFoundError(f"{wanted_by}: no shader file '{name}'")
+        return path.read_text()

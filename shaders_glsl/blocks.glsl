@@ -12,3 +12,8 @@ Plane plane_at(int index) { return planes[index]; }
 Quad quad_at(int index) { return quads[index]; }
 Material material_at(int index) { return materials[index]; }
 Light light_at(int index) { return lights[index]; }
+
+int sphere_count() { return frame.sphere_count; }
+int plane_count() { return frame.plane_count; }
+int quad_count() { return frame.quad_count; }
+int light_count() { return frame.light_count; }

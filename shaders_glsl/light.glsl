@@ -26,14 +26,14 @@ float cone_of_sphere(vec3 to_center, float radius) {
 float pdf_light(int index, Ray ray, float distance) {
     Light light = light_at(index);
     if (light.shape == ray.leaves) return 0.0;
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < frame.sphere_count)) {
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < sphere_count())) {
         Sphere sphere = sphere_at(light.shape);
         float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
         if (one_minus_cos == 0.0) return 0.0;
         float pdf = light.probability / (2.0 * PI * one_minus_cos);
         return pdf;
     }
-    Quad quad = quad_at(light.shape - frame.sphere_count - frame.plane_count);
+    Quad quad = quad_at(light.shape - sphere_count() - plane_count());
     float cos_light = abs(dot(ray.direction, quad.normal));
     if (cos_light == 0.0) return 0.0;
     float pdf = light.probability * (distance / quad.area) * (distance / cos_light);
@@ -42,8 +42,8 @@ float pdf_light(int index, Ray ray, float distance) {
 
 // The alias method (Vose 1991): one number chooses a lamp, however many there are.
 int choose_light(float u) {
-    float scaled = u * float(frame.light_count);
-    int index = min(int(scaled), frame.light_count - 1);
+    float scaled = u * float(light_count());
+    int index = min(int(scaled), light_count() - 1);
     Light light = light_at(index);
     return scaled - float(index) < light.keep ? index : light.alias;
 }
@@ -66,7 +66,7 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
 }
 
 LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
-    Quad quad = quad_at(shape - frame.sphere_count - frame.plane_count);
+    Quad quad = quad_at(shape - sphere_count() - plane_count());
     vec3 to_point = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v - ray.origin;
     float distance = length(to_point);
     if (distance == 0.0) return no_light_sample(ray);
@@ -81,7 +81,7 @@ LightSample sample_light(Ray ray, inout Sampler rng) {
     vec2 u = next_2d(rng);
     int index = choose_light(choice);
     int shape = light_at(index).shape;
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < frame.sphere_count)) {
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
         return sample_sphere(ray, index, shape, u);
     }
     return sample_quad(ray, index, shape, u);

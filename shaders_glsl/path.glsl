@@ -47,39 +47,56 @@ bool roulette_ends(inout vec3 throughput, inout Sampler rng) {
     return false;
 }
 
-vec3 trace_path(Ray ray, inout Sampler rng) {
-    vec3 radiance = vec3(0.0);
-    vec3 throughput = vec3(1.0);
-    float scale = 1.0;  // of radiance by refraction, which roulette ignores
-    float pdf = 0.0;
-    for (int depth = 0; depth <= frame.bounces; ++depth) {
-        Hit hit = closest_hit(ray);
-        if (hit.shape == NO_SHAPE) {
-            if (HAS_BACKGROUND) radiance += scale * throughput * background(ray.direction);
-            break;
-        }
-        Surface surface = surface_at(ray, hit);
-        Material material = material_at(surface.material);
-        float emitted = emission_weight(ray, hit, surface.light, pdf);
-        radiance += scale * throughput * material.emission * emitted;
-        if (depth == frame.bounces) break;
+struct Path {
+    Ray ray;          // its next segment
+    vec3 throughput;
+    float scale;      // of radiance by refraction, which roulette ignores
+    vec3 radiance;    // gathered so far
+    float pdf;        // of the last scattering; 0 if it was a delta, or none yet
+    int depth;        // scattering events so far
+};
 
-        float side = dot(ray.direction, surface.normal) < 0.0 ? 1.0 : -1.0;  // 1: outer
-        mat3 around = frame_around(side * surface.normal);
-        Vertex vertex = Vertex(around, to_local(around, -ray.direction), material);
-        ray = Ray(surface.position, ray.direction, surface.shape, side < 0.0);
-        if (SAMPLE_LIGHTS && !is_delta(material)) {
-            radiance += scale * throughput * direct_light(vertex, ray, rng);
-        }
+Path start_path(Ray ray) {
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0);
+}
 
-        Scattering next = sample_material(vertex, side > 0.0, rng);
-        throughput *= next.weight;
-        if (throughput == vec3(0.0)) break;
-        if (HAS_DIELECTRIC) scale *= next.scale;
-        if (ROULETTE && depth >= ROULETTE_START && roulette_ends(throughput, rng)) break;
-        pdf = next.pdf;
-        ray.direction = next.direction;
-        ray.inward = (side < 0.0) != next.crosses;
+// Scatters at a surface, after gathering direct light there; false when the path ends.
+bool scatter_path(inout Path path, Surface surface, Material material, inout Sampler rng) {
+    float side = dot(path.ray.direction, surface.normal) < 0.0 ? 1.0 : -1.0;  // 1: outer
+    mat3 around = frame_around(side * surface.normal);
+    Vertex vertex = Vertex(around, to_local(around, -path.ray.direction), material);
+    Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
+    if (SAMPLE_LIGHTS && !is_delta(material)) {
+        path.radiance += path.scale * path.throughput * direct_light(vertex, ray, rng);
     }
-    return radiance;
+    Scattering next = sample_material(vertex, side > 0.0, rng);
+    path.throughput *= next.weight;
+    if (path.throughput == vec3(0.0)) return false;
+    if (HAS_DIELECTRIC) path.scale *= next.scale;
+    if (ROULETTE && path.depth >= ROULETTE_START && roulette_ends(path.throughput, rng)) {
+        return false;
+    }
+    ray.direction = next.direction;
+    ray.inward = (side < 0.0) != next.crosses;
+    path.ray = ray;
+    path.pdf = next.pdf;
+    path.depth += 1;
+    return true;
+}
+
+// Follows one segment; false when the path ends with it.
+bool extend_path(inout Path path, inout Sampler rng) {
+    Hit hit = closest_hit(path.ray);
+    if (hit.shape == NO_SHAPE) {
+        if (HAS_BACKGROUND) {
+            path.radiance += path.scale * path.throughput * background(path.ray.direction);
+        }
+        return false;
+    }
+    Surface surface = surface_at(path.ray, hit);
+    Material material = material_at(surface.material);
+    float emitted = emission_weight(path.ray, hit, surface.light, path.pdf);
+    path.radiance += path.scale * path.throughput * material.emission * emitted;
+    if (path.depth == frame.bounces) return false;
+    return scatter_path(path, surface, material, rng);
 }

@@ -2,7 +2,7 @@
 // that it leaves. A flat shape is not hit again; a sphere is hit again only from inside, at the
 // far end of its chord. So a scene scaled by a power of two gives the same bits.
 //
-// The entry file supplies sphere_at, plane_at and quad_at.
+// The entry file supplies sphere_at, sphere_count, and so on for planes and quads.
 
 const float FAR = 3.402823466e38;
 
@@ -28,12 +28,12 @@ float sphere_distance(Ray ray, Sphere sphere, int shape) {
     vec3 beside = to_center - along * ray.direction;
     float r2 = sphere.radius * sphere.radius;
     float discriminant = r2 - dot(beside, beside);
+    if (shape == ray.leaves) {
+        float chord = 2.0 * along;  // twice the way to its middle: along the rim, roots are all noise
+        return ray.inward ? chord : 0.0;
+    }
     if (discriminant <= 0.0) return 0.0;
     float half_chord = sqrt(discriminant);
-    if (shape == ray.leaves) {
-        float chord_end = along + half_chord;
-        return ray.inward ? chord_end : 0.0;
-    }
     float q = along >= 0.0 ? along + half_chord : along - half_chord;
     float c = dot(to_center, to_center) - r2;
     float t = c / q;
@@ -62,7 +62,7 @@ float quad_distance(Ray ray, Quad quad) {
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     Hit hit = Hit(limit, NO_SHAPE);
     if (HAS_SPHERE) {
-        for (int i = 0; i < frame.sphere_count; ++i) {
+        for (int i = 0; i < sphere_count(); ++i) {
             float t = sphere_distance(ray, sphere_at(i), i);
             if (t > 0.0 && t < hit.distance && i != ignored) {
                 hit = Hit(t, i);
@@ -71,8 +71,8 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         }
     }
     if (HAS_PLANE) {
-        for (int i = 0; i < frame.plane_count; ++i) {
-            int shape = frame.sphere_count + i;
+        for (int i = 0; i < plane_count(); ++i) {
+            int shape = sphere_count() + i;
             Plane plane = plane_at(i);
             float t = plane_distance(ray, plane.point, plane.normal);
             if (t > 0.0 && t < hit.distance && shape != ray.leaves) {
@@ -82,8 +82,8 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         }
     }
     if (HAS_QUAD) {
-        for (int i = 0; i < frame.quad_count; ++i) {
-            int shape = frame.sphere_count + frame.plane_count + i;
+        for (int i = 0; i < quad_count(); ++i) {
+            int shape = sphere_count() + plane_count() + i;
             float t = quad_distance(ray, quad_at(i));
             if (t > 0.0 && t < hit.distance && shape != ray.leaves && shape != ignored) {
                 hit = Hit(t, shape);
@@ -106,19 +106,19 @@ bool occluded(Ray ray, float limit, int ignored) {
 // The point hit, put back onto the shape: the distance alone leaves it beside.
 Surface surface_at(Ray ray, Hit hit) {
     vec3 p = ray.origin + hit.distance * ray.direction;
-    int flat_index = hit.shape - frame.sphere_count;
+    int flat_index = hit.shape - sphere_count();
     if (HAS_SPHERE && (flat_index < 0 || !(HAS_PLANE || HAS_QUAD))) {
         Sphere sphere = sphere_at(hit.shape);
         vec3 normal = normalized(p - sphere.center);
         vec3 position = sphere.center + sphere.radius * normal;
         return Surface(position, normal, hit.shape, sphere.material, sphere.light);
     }
-    if (HAS_PLANE && (!HAS_QUAD || flat_index < frame.plane_count)) {
+    if (HAS_PLANE && (!HAS_QUAD || flat_index < plane_count())) {
         Plane plane = plane_at(flat_index);
         vec3 position = p - dot(p - plane.point, plane.normal) * plane.normal;
         return Surface(position, plane.normal, hit.shape, plane.material, NO_LIGHT);
     }
-    Quad quad = quad_at(flat_index - frame.plane_count);
+    Quad quad = quad_at(flat_index - plane_count());
     vec3 position = p - dot(p - quad.corner, quad.normal) * quad.normal;
     return Surface(position, quad.normal, hit.shape, quad.material, quad.light);
 }

@@ -14,6 +14,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "light.glsl"
 #include "path.glsl"
 #include "film.glsl"
+#include "samples.glsl"
 
 layout(rgba32f) uniform readonly image2D source_mean;  // a: dropped samples
 layout(rgba32f) uniform readonly image2D source_variance;
@@ -30,14 +31,8 @@ Pixel load_pixel(ivec2 texel) {
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, imageSize(target_mean)))) return;
-    ivec2 place = frame.origin + texel;
     Pixel pixel = load_pixel(texel);
-    int end = frame.first_sample + frame.sample_count;
-    for (int i = frame.first_sample; i < end; ++i) {
-        Sampler rng = make_sampler(pixel_seed(place, i, frame.seed));
-        Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
-        add_sample(pixel, trace_path(ray, rng), i);
-    }
+    add_samples(pixel, frame.origin + texel);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));
     imageStore(target_variance, texel, vec4(pixel.variance, 0.0));
 }

@@ -70,7 +70,8 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
         if scene:
             prelude = needs_of(scene, settings_for(scene.render)).constants()
         text = _kernel(expression, returns, setup, functions, arrays)
-        source = Source("call_glsl", {**prelude, **(constants or {})}, text=text)
+        parts = {"call_glsl": text}
+        source = Source("call_glsl", {**prelude, **(constants or {})}, parts=parts)
         kernel = Kernel(ctx, source)
         base, width = _base(returns)
         buffers = {f"In_{name}": ctx.buffer(values.tobytes()) for name, values in arrays.items()}

@@ -1,0 +1,99 @@
+"""The kernel reads its shapes three ways, and renders the same bits with each."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt import blocks
+from glrt.blocks import MOST_BAKED, blocks_text, padded
+from glrt.context import Context
+from glrt.library import load, scene_names
+from glrt.pack import STRUCTS, pack_scene
+from glrt.renderer import Renderer
+from glrt.scene import Scene
+from glrt.settings import Cost
+from tests.builders import MATTE, scene_of, sphere
+
+SMALL: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
+
+
+def bits(scene: Scene, context: Context, tier: blocks.Tier) -> bytes:
+    """Mean and error after 3 samples."""
+    renderer = Renderer(scene, context=context, tier=tier, **SMALL)
+    image = renderer.render(3).image()
+    renderer.release()
+    return image.radiance.tobytes() + image.stderr.tobytes()
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_constants_uniform_and_storage_blocks_give_the_same_bits(
+    name: str, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the software drivers; a GPU may round otherwise."""
+    if not context.is_software:
+        pytest.skip("bits are promised on software drivers alone")
+    scene = load(name)
+    uniform = bits(scene, context, "generic")
+    monkeypatch.setattr(blocks, "MOST_BAKED", len(scene.objects))
+    if len(scene.objects) <= 100:
+        assert bits(scene, context, "baked") == uniform
+    monkeypatch.setattr(blocks, "UNIFORM_BYTES", 0)
+    assert bits(scene, context, "generic") == uniform
+
+
+def test_text_has_storage_uniform_blocks_or_constants(monkeypatch: pytest.MonkeyPatch) -> None:
+    arrays = pack_scene(load("cornell"))
+    assert "buffer" not in blocks_text(arrays)
+    baked = blocks_text(arrays, "baked")
+    assert "const Plane planes[5]" in baked
+    assert "int plane_count() { return 5; }" in baked
+    assert "uniform Materials" in baked
+    monkeypatch.setattr(blocks, "UNIFORM_BYTES", 0)
+    storage = blocks_text(arrays)
+    assert storage == (Path(__file__).parents[1] / "shaders_glsl" / "blocks.glsl").read_text()
+
+
+def test_literals_keep_every_bit() -> None:
+    rng = np.random.default_rng(1)
+    words = rng.integers(0, 2**32, 2000, np.uint32).view(np.float32)
+    values = np.concatenate(
+        [words[np.isfinite(words)], np.array([0.0, -0.0, 1e-45, 3.4e38], np.float32)]
+    )
+    read_back = np.array([blocks._literal(value) for value in values]).astype(np.float32)
+    assert read_back.tobytes() == values.tobytes()
+    assert all({".", "e"} & set(blocks._literal(value)) for value in values)
+
+
+def test_uniform_buffer_is_as_large_as_its_block_and_none_is_empty() -> None:
+    rows = np.zeros(3, STRUCTS["Quad"])
+    assert len(padded(rows)) == blocks.LEAST_ROWS * rows.itemsize
+    many = np.zeros(1000, STRUCTS["Quad"])
+    assert padded(many) == many.tobytes()
+    assert len(padded(np.zeros(0, STRUCTS["Light"]))) > 0
+
+
+def test_recipe_names_the_tier_and_many_shapes_are_not_baked(context: Context) -> None:
+    balls = [sphere([i, 0, -9], 0.4, "m") for i in range(MOST_BAKED + 1)]
+    for count, tier in ((MOST_BAKED, "baked"), (MOST_BAKED + 1, "generic")):
+        scene = scene_of(balls[:count], {"m": MATTE}, background={"color": [1, 1, 1]})
+        renderer = Renderer(scene, context=context, tier="baked", **SMALL)
+        recipe = renderer.render(1).image().recipe
+        assert recipe
+        assert recipe.tier == tier
+        renderer.release()
+
+
+def test_only_the_baked_tier_compiles_when_a_shape_moves(context: Context) -> None:
+    scenes = [
+        scene_of([sphere([x, 0, -5], 1.0, "m")], {"m": MATTE}, background={"color": [1, 1, 1]})
+        for x in (0.0, 0.5)
+    ]
+    costs: dict[blocks.Tier, Cost] = {"generic": Cost.RESTART, "baked": Cost.RECOMPILE}
+    for tier, cost in costs.items():
+        renderer = Renderer(scenes[0], context=context, tier=tier, **SMALL)
+        before = renderer.render(1).image().radiance
+        assert renderer.update(scenes[1]) is cost
+        assert not np.array_equal(renderer.render(1).image().radiance, before)
+        renderer.release()
