@@ -45,7 +45,8 @@ int choose_light(float u) {
     float scaled = u * float(light_count());
     int index = min(int(scaled), light_count() - 1);
     Light light = light_at(index);
-    return scaled - float(index) < light.keep ? index : light.alias;
+    float rest = scaled - float(index);
+    return rest < light.keep ? index : light.alias;
 }
 
 LightSample no_light_sample(Ray ray) {
@@ -58,7 +59,8 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
     float one_minus_cos = cone_of_sphere(to_center, sphere.radius);
     if (one_minus_cos == 0.0 || shape == ray.leaves) return no_light_sample(ray);
     vec3 local = sample_cone(one_minus_cos, u);
-    ray.direction = normalized(frame_around(normalized(to_center)) * local);
+    vec3 direction = normalized(frame_around(normalized(to_center)) * local);
+    ray.direction = direction;
     float distance = sphere_distance(ray, sphere, shape);
     if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
     vec3 radiance = material_at(sphere.material).emission;
@@ -70,7 +72,8 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
     vec3 to_point = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v - ray.origin;
     float distance = length(to_point);
     if (distance == 0.0) return no_light_sample(ray);
-    ray.direction = to_point / distance;
+    vec3 direction = to_point / distance;
+    ray.direction = direction;
     vec3 radiance = material_at(quad.material).emission;
     return LightSample(ray, distance, pdf_light(index, ray, distance), radiance, shape);
 }

@@ -156,7 +156,8 @@ Scattering sample_dielectric(Vertex vertex, float eta, float u) {
     }
     float cos_t = sqrt(max(refracted_cos2(cos_i, eta), 0.0));
     vec3 direction = normalized(eta * incoming + (eta * cos_i - cos_t) * n);
-    return Scattering(direction, vec3(1.0), 0.0, eta * eta, true);
+    float scale = eta * eta;
+    return Scattering(direction, vec3(1.0), 0.0, scale, true);
 }
 
 // `outside`: whether wo is on the outer side of the surface.

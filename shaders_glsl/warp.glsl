@@ -28,8 +28,8 @@ vec3 sample_cone(float one_minus_cos, vec2 u) {
     float drop = u.x * one_minus_cos;
     float r = sqrt(drop * (2.0 - drop));
     float phi = 2.0 * PI * u.y;
-    float z = 1.0 - drop;
-    return vec3(r * cos(phi), r * sin(phi), z);
+    vec3 direction = vec3(r * cos(phi), r * sin(phi), 1.0 - drop);
+    return direction;
 }
 
 // An orthonormal frame whose third column is n (Duff et al., "Building an Orthonormal Basis,
@@ -44,5 +44,6 @@ mat3 frame_around(vec3 n) {
 }
 
 vec3 to_local(mat3 frame, vec3 v) {
-    return vec3(dot(frame[0], v), dot(frame[1], v), dot(frame[2], v));
+    vec3 local = vec3(dot(frame[0], v), dot(frame[1], v), dot(frame[2], v));
+    return local;
 }

@@ -1,0 +1,292 @@
+"""The film: means that keep their digits, samples that are dropped, textures that change places."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from glrt.errors import RenderError
+from glrt.film import Exposure, Film, standard_error
+from glrt.kernel import Kernel
+from glrt.needs import needs_of
+from glrt.pack import pack_frame, pack_scene
+from glrt.settings import settings_for
+from glrt.shader import Source
+from tests.builders import lamp, scene_of, sphere
+from tests.conftest import CallGlsl
+from tests.numerics import Array
+from tests.test_rng import drawn, pcg
+
+NAN, INFINITY = 0x7FC00000, 0x7F800000  # bits of floats
+SAMPLES = 4096
+WIDTH, HEIGHT = 12, 7
+ROOM = scene_of(  # a bright ball before a dim sky: pixels differ, and samples along its rim
+    [sphere([0.2, 0.1, -3], 0.8, "lamp")],
+    {"lamp": lamp(2.0)},
+    background={"color": [0.25, 0.5, 1.0]},
+    render={"width": WIDTH, "height": HEIGHT, "bounces": 1},
+)
+
+# Adds `count` samples; the one numbered `bad` gets the bits `poison` into one of its channels.
+GATHER = """
+    Pixel pixel = empty_pixel();
+    Sampler rng = make_sampler(seed);
+    int index = 0;
+    for (int k = 0; k < count; ++k) {
+        float u = next_1d(rng);
+        vec3 x = vec3(u, 1000.0 + u, u < 0.01 ? 10000.0 : 0.0);
+        if (k == bad) x[k % 3] = uintBitsToFloat(poison);
+        if (k == bad && skip == 1) continue;
+        add_sample(pixel, x, index);
+        ++index;
+    }"""
+
+
+def gathered(call_glsl: CallGlsl, seeds: Array, count: int = SAMPLES, **more: Any) -> list[Array]:
+    """Mean, variance and dropped samples of each lane."""
+    given = {"count": count, "bad": -1, "skip": 0, **more}
+    args: dict[str, Any] = {name: np.array([value]) for name, value in given.items()}
+    args |= {"poison": np.array([more.get("poison", 0)], np.uint32), "seed": seeds}
+    figures = (("pixel.mean", "vec3"), ("pixel.variance", "vec3"), ("pixel.dropped", "float"))
+    return [call_glsl(what, returns, setup=GATHER, **args) for what, returns in figures]
+
+
+def samples_of(seeds: Array, count: int) -> Array:
+    """The same samples in numpy, (n, count, 3) float64."""
+    u = (drawn(seeds, count) / np.float32(2**24)).astype(np.float32)
+    spikes = np.where(u < np.float32(0.01), 10000.0, 0.0)
+    return np.stack([u, np.float32(1000) + u, spikes], axis=-1).astype(np.float64)
+
+
+SEEDS = pcg(np.arange(64))
+
+
+# --- running mean and variance -------------------------------------------------------------
+
+
+def test_the_running_mean_keeps_its_digits_over_many_samples(call_glsl: CallGlsl) -> None:
+    mean, _, dropped = gathered(call_glsl, SEEDS)
+    assert_allclose(mean, samples_of(SEEDS, SAMPLES).mean(axis=1), rtol=2e-5)  # PT1
+    assert np.all(dropped == 0)
+
+
+def test_the_running_variance_is_that_of_float64(call_glsl: CallGlsl) -> None:
+    _, variance, _ = gathered(call_glsl, SEEDS)
+    exact = samples_of(SEEDS, SAMPLES).var(axis=1)
+    assert_allclose(variance[:, [0, 2]], exact[:, [0, 2]], rtol=1e-4)
+    assert_allclose(variance[:, 1], exact[:, 1], rtol=2e-2)  # of 1000 + u, rounded to 6e-5
+
+
+def test_equal_samples_have_their_value_as_mean_and_no_variance(call_glsl: CallGlsl) -> None:
+    values = np.array([0.1, 1 / 3, 1.0, 12345.678, 1e-30, 1e30])
+    setup = """Pixel pixel = empty_pixel();
+        for (int k = 0; k < 5000; ++k) add_sample(pixel, vec3(x), k);"""
+    found = call_glsl("vec2(pixel.mean.x, pixel.variance.x)", "vec2", setup=setup, x=values)
+    assert np.array_equal(found[:, 0], values.astype(np.float32))
+    assert np.all(found[:, 1] == 0)
+
+
+def test_the_first_sample_is_taken_as_it_is(call_glsl: CallGlsl) -> None:
+    setup = "Pixel pixel = Pixel(x, 0.0, x); add_sample(pixel, vec3(0.1, 2.0, 3e30), 0);"
+    wild = np.array([[np.nan, np.inf, 1e38]])
+    for figure, expected in (("mean", [0.1, 2.0, 3e30]), ("variance", [0, 0, 0])):
+        found = call_glsl(f"pixel.{figure}", "vec3", setup=setup, x=wild)
+        assert np.array_equal(found[0], np.array(expected, np.float32))
+
+
+# --- samples that are not finite -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("bad", [0, 1, 50, 199])
+@pytest.mark.parametrize("poison", [NAN, INFINITY, INFINITY | 1 << 31, 0xFFFFFFFF, 0x7F800001])
+def test_a_sample_that_is_not_finite_is_dropped_and_counted(
+    call_glsl: CallGlsl, bad: int, poison: int
+) -> None:
+    mean, variance, dropped = gathered(call_glsl, SEEDS, 200, bad=bad, poison=poison)
+    clean = gathered(call_glsl, SEEDS, 200, bad=bad, poison=poison, skip=1)
+    assert np.all(dropped == 1)
+    assert np.array_equal(mean, clean[0])  # PT6: as if it had never been drawn
+    assert np.array_equal(variance, clean[1])
+    others = np.delete(samples_of(SEEDS, 200), bad, axis=1)
+    assert_allclose(mean, others.mean(axis=1), rtol=1e-5)
+
+
+def test_a_pixel_without_a_finite_sample_is_black_and_says_so(call_glsl: CallGlsl) -> None:
+    setup = """Pixel pixel = empty_pixel();
+        for (int k = 0; k < 10; ++k) add_sample(pixel, vec3(uintBitsToFloat(bits)), k);"""
+    bits = np.array([NAN, INFINITY], np.uint32)
+    found = call_glsl("vec4(pixel.mean, pixel.dropped)", "vec4", setup=setup, bits=bits)
+    assert found.tolist() == [[0, 0, 0, 10]] * 2
+
+
+def test_large_and_small_numbers_are_finite(call_glsl: CallGlsl) -> None:
+    bits = np.array([0, 1 << 31, 1, 0x00800000, 0x7F7FFFFF, 0xFF7FFFFF], np.uint32)
+    assert call_glsl("is_finite(vec3(uintBitsToFloat(b)))", "bool", b=bits).all()
+    for channel in range(3):
+        setup = f"vec3 x = vec3(1.0); x[{channel}] = uintBitsToFloat(b);"
+        bad = np.array([NAN, INFINITY], np.uint32)
+        assert not call_glsl("is_finite(x)", "bool", setup=setup, b=bad).any()
+
+
+# --- textures ------------------------------------------------------------------------------
+
+Step = Callable[[Film, int], None]
+
+
+@pytest.fixture
+def step(ctx: moderngl.Context) -> Iterator[Step]:
+    """`step(film, samples)`: one dispatch of the kernel for ROOM, and the swap after it."""
+    settings = settings_for(ROOM.render)
+    kernel = Kernel(ctx, Source("trace.comp", needs_of(ROOM, settings).constants()))
+    arrays = pack_scene(ROOM)
+    counts = {name: len(rows) for name, rows in arrays.items()}
+    data = {name: rows.tobytes() or bytes(rows.itemsize) for name, rows in arrays.items()}
+    buffers = {name: ctx.buffer(rows) for name, rows in data.items()}
+
+    def dispatch(film: Film, samples: int) -> None:
+        frame = pack_frame(ROOM, settings, counts, film.samples, samples)
+        buffers["FrameBlock"] = ctx.buffer(frame)
+        kernel.bind(buffers, film.images())
+        kernel.run(WIDTH, HEIGHT)
+        film.advance(samples)
+        buffers["FrameBlock"].release()
+
+    yield dispatch
+    kernel.release()
+    for buffer in buffers.values():
+        buffer.release()
+
+
+@pytest.fixture
+def film(ctx: moderngl.Context) -> Iterator[Film]:
+    """A film of ROOM's size whose textures hold nothing but NaN."""
+    film = Film(ctx, WIDTH, HEIGHT)
+    poison(film)
+    yield film
+    film.release()
+
+
+def poison(film: Film) -> None:
+    for texture in film.images().values():
+        texture.write(np.full((HEIGHT, WIDTH, 4), np.nan, np.float32))
+
+
+def assert_same(a: Exposure, b: Exposure) -> None:
+    for x, y in zip(a, b, strict=True):
+        assert np.array_equal(x, y)
+
+
+def test_the_first_sample_ignores_what_the_textures_hold(film: Film, step: Step) -> None:
+    step(film, 1)
+    first = film.read()
+    assert np.all(np.isfinite(first.mean))  # PT2
+    assert np.all(first.variance == 0)
+    assert np.all(first.dropped == 0)
+    assert len(np.unique(first.mean[..., 0])) == 2  # ball and sky
+    step(film, 3)
+    assert np.all(np.isfinite(film.read().mean))
+
+
+def test_a_restart_ignores_what_was_gathered(film: Film, step: Step) -> None:
+    step(film, 2)
+    fresh = film.read()
+    step(film, 5)
+    film.restart(WIDTH, HEIGHT)
+    poison(film)
+    step(film, 2)
+    assert_same(film.read(), fresh)
+
+
+def test_later_samples_do_read_the_source(film: Film, step: Step) -> None:
+    step(film, 1)
+    poison(film)
+    step(film, 1)
+    assert np.all(np.isnan(film.read().mean))
+
+
+def test_one_dispatch_of_many_samples_equals_many_of_one(film: Film, step: Step) -> None:
+    step(film, 16)
+    together = film.read()
+    film.restart(WIDTH, HEIGHT)
+    for count in (1, 1, 5, 8, 1):
+        step(film, count)
+    assert film.samples == 16
+    assert_same(film.read(), together)
+
+
+def test_source_and_target_change_places_once_a_frame(film: Film, step: Step) -> None:
+    for _ in range(3):
+        before = film.images()
+        step(film, 1)
+        after = film.images()
+        for kind in ("mean", "variance"):
+            assert after[f"source_{kind}"] is before[f"target_{kind}"]
+            assert after[f"target_{kind}"] is before[f"source_{kind}"]
+        assert film.mean is after["source_mean"]
+
+
+def test_a_frame_writes_its_target_and_leaves_its_source(film: Film, step: Step) -> None:
+    step(film, 1)
+    source = film.images()["source_mean"]
+    before = source.read()
+    step(film, 1)
+    assert source.read() == before
+    assert film.mean.read() != before
+
+
+def test_row_0_is_the_top_of_the_picture(film: Film, step: Step) -> None:
+    step(film, 64)
+    lit = film.read().mean[..., 0] > 0.3
+    rows, columns = np.nonzero(lit)
+    assert film.read().mean.shape == (HEIGHT, WIDTH, 3)
+    assert rows.mean() < (HEIGHT - 1) / 2  # the ball lies above the middle, to the right
+    assert columns.mean() > (WIDTH - 1) / 2
+
+
+def test_an_empty_film_can_not_be_read(film: Film, step: Step) -> None:
+    with pytest.raises(RenderError, match="empty"):
+        film.read()
+    step(film, 1)
+    film.restart(WIDTH, HEIGHT)
+    with pytest.raises(RenderError, match="empty"):
+        film.read()
+
+
+def test_a_film_of_another_size_is_another_film(ctx: moderngl.Context, film: Film) -> None:
+    film.restart(3, 5)
+    assert film.size == (3, 5)
+    assert {texture.size for texture in film.images().values()} == {(3, 5)}
+    assert ctx.error == "GL_NO_ERROR"
+
+
+def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> None:
+    with pytest.raises(RenderError, match="no room on the driver for a film of 1000000 x 1"):
+        Film(ctx, 1_000_000, 1)
+
+
+# --- standard error ------------------------------------------------------------------------
+
+
+def exposure(samples: Array, dropped: int = 0) -> Exposure:
+    """A film of one pixel that has gathered these samples, (n, 3)."""
+    mean, variance = samples.mean(axis=0), samples.var(axis=0)
+    place = (1, 1, 3)
+    return Exposure(mean.reshape(place), variance.reshape(place), np.full((1, 1), float(dropped)))
+
+
+def test_the_standard_error_is_that_of_the_mean() -> None:
+    samples = np.random.default_rng(1).exponential(size=(50, 3)).astype(np.float32)
+    exact = samples.std(axis=0, ddof=1) / np.sqrt(50)
+    assert standard_error(exposure(samples), 50)[0, 0] == pytest.approx(exact, rel=1e-6)
+    assert standard_error(exposure(samples, 3), 53)[0, 0] == pytest.approx(exact, rel=1e-6)
+
+
+def test_fewer_than_two_observations_have_no_standard_error() -> None:
+    one = np.ones((1, 3), np.float32)
+    assert np.all(np.isnan(standard_error(exposure(one), 1)))
+    assert np.all(np.isnan(standard_error(exposure(one, 4), 5)))
+    assert np.all(np.isnan(standard_error(exposure(one, 5), 5)))
+    assert np.all(standard_error(exposure(np.ones((2, 3), np.float32)), 2) == 0)
