@@ -50,8 +50,9 @@ class Renderer:
         self.context = context if isinstance(context, Context) else open_context(context)
         self._wanted_tier = tier
         self._buffers: dict[str, moderngl.Buffer] = {}
+        most_samples = self._most_samples(self.scene, self.settings)
         with self.context.gl:
-            self._upload()
+            self._upload(most_samples)
             self._film = Film(self.context.gl, *self.size)
             self._compile()
 
@@ -70,19 +71,19 @@ class Renderer:
     def update(self, scene: Scene | None = None, **changes: Any) -> Cost | None:
         """Go on with another scene or other settings; returns what that cost, None for nothing.
 
-        The one place where accumulation starts again.
+        The one place where accumulation starts again. What is refused changes nothing.
         """
         before = self.scene, self.settings
-        self.scene = scene or self.scene
-        self.settings = settings_for(self.settings, **changes)
-        if (self.scene, self.settings) == before:
+        after = scene or self.scene, settings_for(self.settings, **changes)
+        if after == before:
             return None
-        cost = cost_of_change(before[1], self.settings)
-        if self.scene == before[0] and cost is Cost.FREE:
+        most_samples = self._most_samples(*after)
+        self.scene, self.settings = after
+        if self.scene == before[0] and cost_of_change(before[1], self.settings) is Cost.FREE:
             return Cost.FREE
         compiled = self._source
         with self.context.gl:
-            self._upload()
+            self._upload(most_samples)
             self._film.restart(*self.size)
             if self._source.text == compiled.text:
                 return Cost.RESTART
@@ -155,8 +156,12 @@ class Renderer:
         if self._owns_context:
             self.context.gl.release()
 
-    def _upload(self) -> None:
-        """Give the driver the scene, and find how much of it a dispatch may take."""
+    def _most_samples(self, scene: Scene, settings: Settings) -> int:
+        """How many samples a dispatch may take; SceneError if not one."""
+        return most_samples(iterations_per_sample(scene, settings), self.context.is_software)
+
+    def _upload(self, most_samples: int) -> None:
+        """Give the driver the scene, and write the kernel for it."""
         arrays = pack_scene(self.scene)
         self._counts = {name: len(rows) for name, rows in arrays.items()}
         for name, rows in arrays.items():
@@ -166,9 +171,8 @@ class Renderer:
         parts = {"blocks.glsl": blocks_text(arrays, self.tier)}
         constants = needs_of(self.scene, self.settings).constants()
         self._source = Source("trace.comp", constants, parts=parts)
-        rounds = iterations_per_sample(self.scene, self.settings)
-        self.most_samples = most_samples(rounds, self.context.is_software)
-        self._schedule = Schedule(self.most_samples)
+        self.most_samples = most_samples
+        self._schedule = Schedule(most_samples)
 
     def _store(self, name: str, data: bytes) -> None:
         if name in self._buffers:
