@@ -1,0 +1,1 @@
+"""Experiments and exhibits over the renderer."""
