@@ -1,0 +1,76 @@
+"""The reported standard error is the one that repeated renders show.
+
+Judged by the rms of the deviations of 8 x 8 block means from their mean over all renders, over
+the rms of their reported errors. With 64 renders of nine blocks it is known to 3 %.
+"""
+
+import numpy as np
+import pytest
+
+from glrt.context import Context
+from glrt.library import load
+from glrt.scene import Scene
+from tests.builders import MATTE, lamp, plane, scene_of, sphere
+from tests.mixture import everything
+from tests.renders import blocks, rendered, rendering
+
+
+def error_ratio(context: Context, scene: Scene, samples: int, size: int, renders: int) -> float:
+    means, errors = [], []
+    with rendering(scene, context, width=size, height=size) as renderer:
+        for seed in range(renders):
+            renderer.update(seed=seed + 1)
+            mean, stderr = blocks(renderer.render(samples).image())
+            means.append(mean)
+            errors.append(stderr)
+    variance = np.var(means, axis=0, ddof=1)
+    reported = np.square(errors).mean(axis=0)
+    return float(np.sqrt((variance / reported).mean()))
+
+
+def test_reported_error_is_the_error_of_cornell(context: Context) -> None:
+    """At 64 samples the block with the most noise, in the caustic, rests on 500 effective samples.
+
+    With far fewer, a block either meets a bright path or knows nothing of it. Chance alone goes
+    beyond 10 % once in some 1,000 seeds.
+    """
+    ratio = error_ratio(context, load("cornell"), samples=64, size=24, renders=64)
+    assert ratio == pytest.approx(1, abs=0.1)
+
+
+@pytest.mark.slow
+def test_reported_error_is_closely_the_error_of_cornell(context: Context) -> None:
+    """16 blocks, 256 renders: known to 1.2 %."""
+    ratio = error_ratio(context, load("cornell"), samples=64, size=32, renders=256)
+    assert ratio == pytest.approx(1, abs=0.05)
+
+
+@pytest.mark.parametrize("samples", [2, 3, 8])
+def test_error_is_right_from_the_second_sample_on(context: Context, samples: int) -> None:
+    """Without Bessel's correction two samples would promise 0.71 of their error."""
+    objects = [plane([0, -1, 0], [0, 1, 0], "floor"), sphere([0, 1, -3], 0.5, "lamp")]
+    materials = {"floor": MATTE, "lamp": lamp(4.0)}
+    eye = {"look_at": [0, -1, -2], "fov": 40}
+    ratio = error_ratio(context, scene_of(objects, materials, eye), samples, size=32, renders=64)
+    assert ratio == pytest.approx(1, abs=0.1)
+
+
+def test_one_sample_knows_nothing_of_its_error(context: Context) -> None:
+    with rendering(everything(), context) as renderer:
+        single = renderer.render(1).image()
+        double = renderer.render(2).image()
+    assert np.isnan(single.stderr).all()
+    assert single.error is None
+    assert np.isfinite(double.stderr).all()
+    assert double.error is not None
+
+
+def test_error_halves_with_four_times_the_samples(context: Context) -> None:
+    """Of the relative error of the whole picture, which the variance of 576 pixels makes up."""
+    few, many = (
+        rendered(everything(), context, samples, width=24, height=24).error
+        for samples in (128, 512)
+    )
+    assert few is not None
+    assert many is not None
+    assert few / many == pytest.approx(2, rel=0.1)

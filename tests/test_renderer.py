@@ -1,0 +1,161 @@
+"""Portions, crops, sizes and seeds: what a picture depends on, and what it does not."""
+
+from itertools import pairwise, product
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.context import Context
+from glrt.errors import RenderError, UsageError
+from tests.builders import lamp, plane, quad, room_of_planes, scene_of, sphere
+from tests.images import same_bits
+from tests.mixture import OBJECTS, everything
+from tests.renders import METHODS, rendered, rendering, same
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_samples_may_come_in_any_portions(context: Context, method: str) -> None:
+    pictures = []
+    for portions in ([16], [1] * 16, [3, 8, 1, 4], [1, 15]):
+        with rendering(everything(), context, method=method, width=21, height=13) as renderer:
+            for samples in portions:
+                renderer.step(samples)
+            pictures.append(renderer.image())
+    assert pictures[0].samples == 16
+    assert (pictures[0].stderr > 0).any()
+    for picture in pictures[1:]:
+        assert same(picture, pictures[0])
+
+
+def test_dispatch_of_the_most_samples_loses_no_round_of_a_loop(context: Context) -> None:
+    """A driver that ends loops early would miss some of the 1001 segments of the last sample."""
+    scene = scene_of(room_of_planes("glow"), {"glow": lamp(1.0, 1.0)})
+    with rendering(scene, context, method="naive", roulette=False, bounces=1000) as renderer:
+        renderer.step(min(renderer.most_samples, 64))
+        assert (renderer.image().radiance == 1001).all()
+
+
+def test_dispatch_of_the_most_samples_equals_single_ones(context: Context) -> None:
+    """In a closed room with light sampling: two rays a segment, over seven shapes."""
+    walls = room_of_planes("white")
+    panel = quad([-0.5, 0.9, -0.5], [1, 0, 0], [0, 0, 1], "lamp")
+    materials = {"white": {"type": "lambertian", "color": [0.9] * 3}, "lamp": lamp(2.0)}
+    pictures = []
+    for at_once in (True, False):
+        scene = scene_of([*walls, panel], materials)
+        with rendering(scene, context, method="mis", roulette=False, bounces=250) as renderer:
+            most = min(renderer.most_samples, 16)
+            for count in [most] if at_once else [1] * most:
+                renderer.step(count)
+            pictures.append(renderer.image())
+    assert same(*pictures)
+
+
+@pytest.mark.parametrize("samples", [0, -1, 1 << 30])
+def test_step_refuses_more_samples_than_a_dispatch_takes(context: Context, samples: int) -> None:
+    with rendering(everything(), context) as renderer:
+        with pytest.raises(UsageError, match=f"1 to {renderer.most_samples} samples"):
+            renderer.step(samples)
+        assert renderer.samples == 0
+
+
+def test_film_without_a_sample_has_no_image(context: Context) -> None:
+    with rendering(everything(), context) as renderer, pytest.raises(RenderError, match="empty"):
+        renderer.image()
+
+
+@pytest.mark.parametrize(
+    ("frame", "crop"),
+    [
+        ((40, 24), (0, 0, 8, 8)),
+        ((37, 23), (5, 3, 17, 11)),
+        ((37, 23), (36, 22, 1, 1)),
+        ((37, 23), (0, 0, 37, 23)),
+        ((1, 1), (0, 0, 1, 1)),
+        ((257, 3), (251, 1, 6, 2)),
+        ((257, 3), (1, 0, 255, 1)),
+        ((3, 257), (1, 100, 1, 150)),
+    ],
+)
+def test_crop_is_that_part_of_the_frame(
+    context: Context, frame: tuple[int, int], crop: tuple[int, int, int, int]
+) -> None:
+    settings = {"width": frame[0], "height": frame[1]}
+    full = rendered(everything(), context, 4, **settings)
+    part = rendered(everything(), context, 4, crop=crop, **settings)
+    left, top, width, height = crop
+    here = slice(top, top + height), slice(left, left + width)
+    assert part.radiance.shape == (height, width, 3)
+    assert same_bits(part.radiance, full.radiance[here].copy())
+    assert same_bits(part.stderr, full.stderr[here].copy())
+
+
+def test_small_frame_is_made_of_its_pixels(context: Context) -> None:
+    full = rendered(everything(), context, 3, width=7, height=5)
+    with rendering(everything(), context, width=7, height=5) as renderer:
+        for y, x in np.ndindex(5, 7):
+            renderer.update(crop=(x, y, 1, 1))
+            pixel = renderer.render(3).image()
+            assert same_bits(pixel.radiance[0, 0], full.radiance[y, x])
+
+
+def test_frames_of_any_size_show_the_same_view(context: Context) -> None:
+    """Pixels are square: a wall of lamp fills every frame, whatever its size."""
+    wall = scene_of([plane([0, 0, -1], [0, 0, 1], "lamp")], {"lamp": lamp(0.75)})
+    for width, height in [(1, 1), (7, 5), (257, 3), (8, 9), (64, 1)]:
+        image = rendered(wall, context, 2, width=width, height=height)
+        assert image.radiance.shape == (height, width, 3)
+        assert (image.radiance == 0.75).all()
+
+
+def test_frames_differ_and_share_no_noise(context: Context) -> None:
+    """Beyond 3 / sqrt(pixels) is one of 370 independent pairs, beyond 4 one of 16,000.
+
+    Shifted by a pixel too: seeds that add up place and frame show there alone. In all, 36 pairs:
+    chance fails one seed in 50.
+    """
+    floor = [plane([0, -1, 0], [0, 1, 0], "white")]
+    down = {"position": [0, 0, 0], "look_at": [0, -1, 0.01], "fov": 0.01}
+    scene = everything([*floor, OBJECTS[3]], down)
+    frames, mean = [], np.zeros((64, 64))
+    with rendering(scene, context, width=64, height=64, method="mis") as renderer:
+        for index in range(1, 8):
+            renderer.step(1)
+            now = renderer.image().radiance[..., 0].astype(np.float64)
+            frames.append(index * now - (index - 1) * mean)
+            mean = now
+    for before, after in pairwise(frames):
+        assert np.abs(before - after).max() > 0.1
+        assert abs(correlation(before, after)) < 3 / 64
+        for step, axis in product([1, -1], [0, 1]):
+            assert abs(correlation(before, np.roll(after, step, axis))) < 4 / 64
+    for frame, axis in product(frames[:3], [0, 1]):
+        assert abs(correlation(frame, np.roll(frame, 1, axis))) < 4 / 64
+
+
+def correlation(a: np.ndarray[Any, Any], b: np.ndarray[Any, Any]) -> float:
+    return float(np.corrcoef(a.ravel(), b.ravel())[0, 1])
+
+
+def test_same_seed_gives_the_same_bits_and_another_does_not(context: Context) -> None:
+    first, again, other = (rendered(everything(), context, 3, seed=seed) for seed in (4, 4, 5))
+    assert same(first, again)
+    assert not same_bits(first.radiance, other.radiance)
+
+
+def test_error_falls_with_the_root_of_the_samples(context: Context) -> None:
+    """Against the closed form of a lamp in the centre of a matte ball."""
+    materials = {"wall": {"type": "lambertian", "color": [0.6] * 3}, "lamp": lamp(3.0, 0.5)}
+    objects = [sphere([0, 0, 0], 2, "wall"), sphere([0, 0, 0], 0.7, "lamp")]
+    eye = {"position": [0.2, 0.1, 1.2], "look_at": [0.5, 1, 3]}
+    errors = []
+    scene = scene_of(objects, materials, eye)
+    settings = {"method": "naive", "bounces": 1, "width": 32, "height": 32}
+    with rendering(scene, context, **settings) as r:
+        for power in range(11):
+            image = r.render(2**power).image()
+            errors.append(np.sqrt(np.square(image.radiance[..., 0] / 0.2205 - 1).mean()))
+    slope = np.polyfit(range(11), np.log2(errors), 1)[0]
+    assert slope == pytest.approx(-0.5, abs=0.05)
+    assert errors[0] > 1
