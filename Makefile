@@ -6,7 +6,7 @@ ARGS ?=
 BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
 IN_ENVIRONMENT = .venv/bin/python -m
 
-.PHONY: help render test check gallery clean
+.PHONY: help render test check gallery bench clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
@@ -28,6 +28,10 @@ check: ## look over the source: ruff and mypy
 gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.gallery
+
+bench: ## measure how fast the kernel and its variants are
+	@$(BOOTSTRAP) render
+	$(IN_ENVIRONMENT) glrt.lab.bench
 
 clean: ## remove .venv and all caches; pictures stay
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache

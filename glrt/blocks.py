@@ -1,8 +1,8 @@
 """How the kernel reads the scene: `blocks.glsl` with each array declared the fastest way it can be.
 
-Three ways, the same values: constants in the kernel's text, for which each edit compiles; uniform
-blocks; and storage blocks, as in the file, for what is larger than a uniform block may be.
-llvmpipe reads uniform blocks about twice as fast as storage blocks, and constants five times.
+Three tiers, the same values: "baked" writes the shapes into the kernel's text, so that each edit
+of them compiles; "generic" reads uniform blocks, and storage blocks for what is larger than those
+may be; "storage" reads storage blocks, as in the file. Figures stand in docs/speed.md.
 """
 
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ import numpy as np
 from glrt.shader import read
 
 Array = np.ndarray[Any, Any]
-Tier = Literal["generic", "baked"]
+Tier = Literal["storage", "generic", "baked"]
 
 BAKED = ("Spheres", "Planes", "Quads")  # not materials: a colour is to change without compiling
 MOST_BAKED = 32  # shapes
@@ -22,9 +22,9 @@ LEAST_ROWS = 32
 
 
 def tier_for(arrays: Mapping[str, Array], wanted: Tier) -> Tier:
-    """The tier that a scene gets: generic if it has more than MOST_BAKED shapes."""
+    """The tier that a scene gets: not baked if it has more than MOST_BAKED shapes."""
     shapes = sum(len(arrays[name]) for name in BAKED)
-    return wanted if shapes <= MOST_BAKED else "generic"
+    return "generic" if wanted == "baked" and shapes > MOST_BAKED else wanted
 
 
 def blocks_text(arrays: Mapping[str, Array], tier: Tier = "generic") -> str:
@@ -39,20 +39,20 @@ def blocks_text(arrays: Mapping[str, Array], tier: Tier = "generic") -> str:
         if tier == "baked" and block in BAKED:
             text = text.replace(storage, _constants(struct, f"{name}s", rows))
             text = text.replace(f"frame.{name}_count", str(len(rows)))
-        elif _is_uniform(rows):
+        elif _is_uniform(rows, tier):
             uniform = f"layout(std140) uniform {block} {{ {struct} {name}s[{_capacity(rows)}]; }};"
             text = text.replace(storage, uniform)
     return text
 
 
-def padded(rows: Array) -> bytes:
+def padded(rows: Array, tier: Tier) -> bytes:
     """The content of a block's buffer: as large as the uniform block, and never empty."""
-    least = _capacity(rows) if _is_uniform(rows) else 1
+    least = _capacity(rows) if _is_uniform(rows, tier) else 1
     return rows.tobytes().ljust(least * rows.itemsize, b"\0")
 
 
-def _is_uniform(rows: Array) -> bool:
-    return _capacity(rows) * rows.itemsize <= UNIFORM_BYTES
+def _is_uniform(rows: Array, tier: Tier) -> bool:
+    return tier != "storage" and _capacity(rows) * rows.itemsize <= UNIFORM_BYTES
 
 
 def _capacity(rows: Array) -> int:

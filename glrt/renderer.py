@@ -164,10 +164,10 @@ class Renderer:
         """Give the driver the scene, and write the kernel for it."""
         arrays = pack_scene(self.scene)
         self._counts = {name: len(rows) for name, rows in arrays.items()}
-        for name, rows in arrays.items():
-            self._store(name, padded(rows))
-        self._store("FrameBlock", bytes(STRUCTS["Frame"].itemsize))
         self.tier = tier_for(arrays, self._wanted_tier)
+        for name, rows in arrays.items():
+            self._store(name, padded(rows, self.tier))
+        self._store("FrameBlock", bytes(STRUCTS["Frame"].itemsize))
         parts = {"blocks.glsl": blocks_text(arrays, self.tier)}
         constants = needs_of(self.scene, self.settings).constants()
         self._source = Source("trace.comp", constants, parts=parts)

@@ -1,6 +1,5 @@
 """The kernel reads its shapes three ways, and renders the same bits with each."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from glrt.pack import STRUCTS, pack_scene
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import Cost
+from glrt.shader import read
 from tests.builders import MATTE, scene_of, sphere
 
 SMALL: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
@@ -39,20 +39,17 @@ def test_constants_uniform_and_storage_blocks_give_the_same_bits(
     monkeypatch.setattr(blocks, "MOST_BAKED", len(scene.objects))
     if len(scene.objects) <= 100:
         assert bits(scene, context, "baked") == uniform
-    monkeypatch.setattr(blocks, "UNIFORM_BYTES", 0)
-    assert bits(scene, context, "generic") == uniform
+    assert bits(scene, context, "storage") == uniform
 
 
-def test_text_has_storage_uniform_blocks_or_constants(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_text_has_storage_uniform_blocks_or_constants() -> None:
     arrays = pack_scene(load("cornell"))
     assert "buffer" not in blocks_text(arrays)
     baked = blocks_text(arrays, "baked")
     assert "const Plane planes[5]" in baked
     assert "int plane_count() { return 5; }" in baked
     assert "uniform Materials" in baked
-    monkeypatch.setattr(blocks, "UNIFORM_BYTES", 0)
-    storage = blocks_text(arrays)
-    assert storage == (Path(__file__).parents[1] / "shaders_glsl" / "blocks.glsl").read_text()
+    assert blocks_text(arrays, "storage") == read("blocks.glsl")
 
 
 def test_literals_keep_every_bit() -> None:
@@ -68,10 +65,11 @@ def test_literals_keep_every_bit() -> None:
 
 def test_uniform_buffer_is_as_large_as_its_block_and_none_is_empty() -> None:
     rows = np.zeros(3, STRUCTS["Quad"])
-    assert len(padded(rows)) == blocks.LEAST_ROWS * rows.itemsize
+    assert len(padded(rows, "generic")) == blocks.LEAST_ROWS * rows.itemsize
+    assert padded(rows, "storage") == rows.tobytes()
     many = np.zeros(1000, STRUCTS["Quad"])
-    assert padded(many) == many.tobytes()
-    assert len(padded(np.zeros(0, STRUCTS["Light"]))) > 0
+    assert padded(many, "generic") == many.tobytes(), "too large for a uniform block"
+    assert len(padded(np.zeros(0, STRUCTS["Light"]), "storage")) > 0
 
 
 def test_recipe_names_the_tier_and_many_shapes_are_not_baked(context: Context) -> None:
