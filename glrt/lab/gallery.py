@@ -120,7 +120,7 @@ def _prepare(folder: Path) -> None:
 
 def _render(folder: Path, name: str, context: Context, settings: dict[str, Any]) -> Picture:
     scene = load(name)
-    renderer = Renderer(scene, context=context, **settings)
+    renderer = Renderer(scene, context=context, tier="baked", **settings)
     try:
         start = time.perf_counter()
         image = renderer.render().image()
