@@ -194,7 +194,7 @@ def _figures(
         "pipeline": "compute",
         "context": renderer.context.route,
         "renderer": renderer.context.renderer,
-        "seconds": {name: round(value, 4) for name, value in seconds.items()},
+        "seconds": {name: round(value, 6) for name, value in seconds.items()},
         "samples_per_second": round(rate, 1),
         "error": error,
         "nonfinite": renderer.nonfinite(),

@@ -141,6 +141,7 @@ class OSMesa:
 
     def __enter__(self) -> "OSMesa":
         """Make the context current."""
+        _leave_egl()
         bind = self._library.OSMesaMakeCurrent
         bind.restype = ctypes.c_ubyte
         bind.argtypes = [ctypes.c_void_p, ctypes.c_void_p, *[ctypes.c_int] * 3]
@@ -158,6 +159,22 @@ class OSMesa:
             destroy.restype, destroy.argtypes = None, [ctypes.c_void_p]
             destroy(self._context)
             self._context = None
+
+
+def _leave_egl() -> None:
+    """Make no EGL context current.
+
+    EGL does not see OSMesa take over: it would hold its context to be current still, and not make
+    it so when it is entered again.
+    """
+    try:
+        egl = ctypes.CDLL("libEGL.so.1")
+    except OSError:
+        return
+    egl.eglGetCurrentDisplay.restype = ctypes.c_void_p
+    egl.eglMakeCurrent.argtypes = [ctypes.c_void_p] * 4
+    if display := egl.eglGetCurrentDisplay():
+        egl.eglMakeCurrent(display, None, None, None)
 
 
 def _load_osmesa() -> ctypes.CDLL:
