@@ -162,3 +162,29 @@ def ggx_albedo(alpha: float, cosine: float, steps: int = 500) -> float:
 def smith_lambda(alpha: float, cosine: Floats) -> Floats:
     value: Floats = (np.sqrt(1 + alpha**2 * (1 / cosine**2 - 1)) - 1) / 2
     return value
+
+
+# Columns: where x, y and z go. No row or column is a multiple of an axis.
+TURN = np.linalg.qr([[0.3, -0.7, 0.5], [0.8, 0.2, -0.4], [-0.1, 0.6, 0.9]])[0]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("shape", ["plane", "quad"])
+@pytest.mark.parametrize("seen_from", ["above", "below"])
+def test_tilted_floor_neither_shadows_nor_hits_itself(
+    context: Context, seen_from: str, shape: str, method: str
+) -> None:
+    """Away from the axes a point lies beside its surface by rounding, on either side of it."""
+    side = 1 if seen_from == "above" else -1
+
+    def turned(*vector: float) -> list[float]:
+        return [float(c) for c in TURN @ np.array(vector)]
+
+    floor = plane([0, 0, 0], turned(0, 1, 0), "floor")
+    if shape == "quad":
+        floor = quad(turned(-4, 0, -5), turned(9, 0, 0), turned(1, 0, 9), "floor")
+    ball = sphere(turned(0.6, side * 0.8, 0), 0.5, "lamp")
+    eye = {"position": turned(-2, side, -1), "look_at": [0, 0, 0], "fov": 0.5}
+    scene = scene_of([floor, ball], MATERIALS, eye)
+    image = rendered(scene, context, 512, method=method, bounces=1, width=32, height=32)
+    assert_mean(whole(image), sphere_form_factor(0.25, 0.8), within=0.02)

@@ -19,13 +19,15 @@ from tests.renders import METHODS, assert_agree, rendered
 def methods_agree(
     scene: Scene, context: Context, samples: Samples, within: float, **settings: Any
 ) -> None:
+    """Methods that take 0 samples are left out."""
     pictures = [
         rendered(scene, context, count, method=method, seed=seed, **settings)
         for seed, (method, count) in enumerate(zip(METHODS, samples, strict=True))
+        if count
     ]
-    naive, nee, mis = pictures
-    assert_agree(naive, mis, within)
-    assert_agree(nee, mis, within)
+    *others, mis = pictures
+    for other in others:
+        assert_agree(other, mis, within)
 
 
 @pytest.mark.parametrize("name", HARD)
@@ -36,8 +38,8 @@ def test_methods_agree_where_it_is_hard(context: Context, name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", HARD)
 def test_methods_agree_closely_where_it_is_hard(context: Context, name: str) -> None:
-    samples = HARD[name][1].times(32)
-    methods_agree(hard_scene(name), context, samples, 0.015, width=32, height=32)
+    samples = HARD[name][1].times(16)
+    methods_agree(hard_scene(name), context, samples, 0.02, width=32, height=32)
 
 
 def is_lit_by_lamps(name: str) -> bool:
@@ -65,7 +67,10 @@ def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LIT)
 def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> None:
-    samples = Samples(naive=8192, nee=8192, mis=4096)
+    """Without nee on cornell: of the light in the slit above its lamp, 0.3 % of all, sampling alone
+    learns by one path in millions, each bright enough to make up for the others.
+    """
+    samples = Samples(naive=8192, nee=0 if name == "cornell" else 8192, mis=4096)
     methods_agree(load(name), context, samples, 0.015, **small(name, 32))
 
 
