@@ -60,6 +60,7 @@ def make_parser() -> Parser:
         dest="command", metavar="COMMAND", required=True, parser_class=Parser
     )
     _add_render(commands.add_parser("render", help="render a scene to a file", **_HELP["render"]))
+    _add_compare(commands.add_parser("compare", help="do two renders differ", **_HELP["compare"]))
     _add_inspect(commands.add_parser("inspect", help="what a scene needs", **_HELP["inspect"]))
     commands.add_parser("doctor", help="which OpenGL routes work here", **_HELP["doctor"])
     commands.add_parser("schema", help="the scene format as JSON Schema", **_HELP["schema"])
@@ -73,6 +74,12 @@ _HELP: dict[str, dict[str, Any]] = {
         "--time or --error without --samples lifts the sample limit to 1048576. Ctrl-C saves "
         "what was rendered. Exit codes: 0 done, 1 --error not reached, 2 bad usage or scene, "
         "3 no usable OpenGL, 4 the render failed, 130 and 143 interrupted.",
+    },
+    "compare": {
+        "description": "Say whether two renders show the same picture up to their noise: same, "
+        "different, or undecided for lack of samples.",
+        "epilog": "At most a share ALPHA of equal pictures is called different. Exit codes: 0 same "
+        "or undecided, 1 different (with --strict, undecided too), 2 bad usage or files.",
     },
     "inspect": {"description": "Say what the kernel for a scene contains and leaves out, and why."},
     "doctor": {"description": "Try every OpenGL route and say which one is used."},
@@ -106,6 +113,27 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", metavar="FILE", help=argparse.SUPPRESS)
     parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _add_compare(parser: argparse.ArgumentParser) -> None:
+    for name in ("image", "reference"):
+        parser.add_argument(name, metavar=name.upper(), help="an .exr or .npy file")
+    for name in ("samples", "reference-samples"):
+        whose = "REFERENCE" if name.startswith("reference") else "IMAGE"
+        text = f"samples a pixel of {whose}, if its file does not say it"
+        parser.add_argument(f"--{name}", type=int, metavar="N", help=text)
+    parser.add_argument(
+        "--alpha", type=float, default=0.01, help="share of false alarms (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--bias",
+        type=float,
+        default=0.01,
+        help='the relative difference that "same" must exclude (default: %(default)s)',
+    )
+    parser.add_argument("--strict", action="store_true", help="exit 1 if undecided, too")
+    parser.add_argument("--picture", metavar="FILE", help="a .png that shows where they differ")
+    parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
 
 
 def _add_inspect(parser: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""The commands `render`, `inspect`, `doctor` and `schema`."""
+"""The commands `render`, `compare`, `inspect`, `doctor` and `schema`."""
 
 import argparse
 import json
@@ -23,6 +23,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns its exit code. `arguments` are those of the process by default."""
     commands: dict[str, Callable[[argparse.Namespace], int]] = {
         "render": render,
+        "compare": compare,
         "inspect": inspect,
         "doctor": doctor,
         "schema": schema,
@@ -53,6 +54,13 @@ def render(arguments: argparse.Namespace) -> int:
         check_writable(output)
     with Interruption().watched() as interruption:
         return _render(arguments, scene, settings, limits, interruption)
+
+
+def compare(arguments: argparse.Namespace) -> int:
+    """`glrt compare`: exit code 1 for pictures that differ by more than their noise."""
+    from glrt.compare_command import compare_files
+
+    return compare_files(arguments)
 
 
 def inspect(arguments: argparse.Namespace) -> int:

@@ -27,8 +27,10 @@ ORDER = [
         "files",
         "recipe",
     ),
-    *("image", "library", "context", "kernel", "film", "display", "schedule", "renderer"),
-    *("__init__", "job", "progress", "doctor", "lab", "ui", "arguments", "cli", "__main__"),
+    *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),
+    *("context", "kernel", "film", "display", "schedule", "renderer"),
+    *("__init__", "job", "progress", "doctor", "lab", "ui", "arguments", "compare_command", "cli"),
+    "__main__",
 ]
 KNOW_OPENGL = {"context", "kernel", "film", "display", "renderer"}
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "rich"}

@@ -2,9 +2,11 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from glrt.cli import main
+from glrt.image import Image as Picture
 from tests.bad_scenes import BAD_SCENES, GOOD_SCENE, BadScene
 from tests.processes import glrt
 
@@ -85,6 +87,43 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
         "render {tmp}/foreign.png -o {tmp}/a.png",
         ["foreign.png", "recipe"],
     ),
+    "compare one picture": ("compare {tmp}/a.exr", ["REFERENCE"]),
+    "compare nowhere": ("compare {tmp}/a.exr {tmp}/none.exr --samples 4", ["none.exr"]),
+    "compare a PNG": ("compare {tmp}/foreign.png {tmp}/a.exr", ["foreign.png", "EXR"]),
+    "compare a damaged array": ("compare {tmp}/damaged.npy {tmp}/a.exr", ["damaged.npy"]),
+    "compare a flat array": ("compare {tmp}/flat.npy {tmp}/a.exr", ["flat.npy", "height"]),
+    "compare without samples": ("compare {tmp}/a.exr {tmp}/a.exr", ["a.exr", "--samples N"]),
+    "compare without samples of one": (
+        "compare {tmp}/a.exr {tmp}/b.exr --samples 4",
+        ["b.exr", "--reference-samples N"],
+    ),
+    "compare no samples": ("compare {tmp}/a.exr {tmp}/a.exr --samples 0", ["--samples N"]),
+    "compare other sizes": (
+        "compare {tmp}/a.exr {tmp}/b.exr --samples 4 --reference-samples 4",
+        ["4 x 3", "3 x 4"],
+    ),
+    "compare without any noise": (
+        "compare {tmp}/plain.npy {tmp}/plain.npy --samples 4 --reference-samples 4",
+        ["noise", ".exr"],
+    ),
+    "compare with alpha 0": (
+        "compare {tmp}/a.exr {tmp}/a.exr --samples 4 --reference-samples 4 --alpha 0",
+        ["alpha", "between"],
+    ),
+    "compare with bias nan": (
+        "compare {tmp}/a.exr {tmp}/a.exr --samples 4 --reference-samples 4 --bias nan",
+        ["bias", "between"],
+    ),
+    "compare to a JPEG": (
+        "compare {tmp}/a.exr {tmp}/a.exr --samples 4 --reference-samples 4 --picture {tmp}/d.jpg",
+        ["d.jpg", "--picture", ".png"],
+    ),
+    "compare to nowhere": (
+        "compare {tmp}/a.exr {tmp}/a.exr --samples 4 --reference-samples 4 "
+        "--picture {tmp}/no/d.png",
+        ["d.png", "no folder"],
+    ),
+    "compare misspelt": ("compare {tmp}/a.exr {tmp}/b.exr --strickt", ["--strickt", "--strict"]),
     "inspect nothing": ("inspect", ["SCENE"]),
     "inspect with error": ("inspect {scene} --error 0.1", ["--error"]),
     "inspect a bad scene": ("inspect {tmp}/broken.toml", ["broken.toml", "camera"]),
@@ -94,13 +133,20 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
 
 @pytest.fixture
 def workplace(tmp_path: Path) -> Path:
-    """A folder with a good scene, a broken one, a folder like a picture, a foreign picture."""
+    """A folder with a good scene, a broken one, a folder like a picture, foreign pictures."""
     from PIL import Image
 
     (tmp_path / "good.toml").write_text(GOOD_SCENE)
     (tmp_path / "broken.toml").write_text("title = 'no camera'\n")
     (tmp_path / "folder.png").mkdir()
     Image.new("RGB", (2, 2)).save(tmp_path / "foreign.png")
+    pixels = np.ones((3, 4, 3), np.float32)
+    Picture(pixels, 0.1 * pixels, 0).save(tmp_path / "a.exr")
+    turned = np.ones((4, 3, 3), np.float32)
+    Picture(turned, 0.1 * turned, 0).save(tmp_path / "b.exr")
+    np.save(tmp_path / "plain.npy", pixels)
+    np.save(tmp_path / "flat.npy", pixels[0])
+    (tmp_path / "damaged.npy").write_bytes((tmp_path / "plain.npy").read_bytes()[:-1])
     return tmp_path
 
 

@@ -1,0 +1,235 @@
+"""How often `glrt compare` calls equal pictures different, and what it finds.
+
+`python -m glrt.lab.false_alarms` prints the tables of docs/compare.md. A picture of 256 or 4,096
+samples is made of independent ones of 64. Pairs share no render, but for the pictures of 4,096
+samples: there is one of them for each 64 renders, and pairs take turns with them.
+"""
+
+import argparse
+import math
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.compare import compare
+from glrt.comparison import Comparison
+from glrt.context import Context, open_context
+from glrt.image import Image
+from glrt.lab.noisy_scenes import CASES, OTHERS, PLANTED, Case
+from glrt.renderer import Renderer
+
+Floats = NDArray[np.float32]
+Change = Callable[[Image], Image]
+
+SIZE = 48  # pixels on a side
+ALPHA = 0.01
+FINDS = ((64, 64), (64, 4096), (1024, 1024))  # samples of image and reference
+
+
+@dataclass(frozen=True)
+class Pool:
+    """Independent renders: means and variances of a sample, (renders, H, W, 3)."""
+
+    means: Floats
+    variances: Floats
+    samples: int  # of each render
+
+    def part(self, first: int, end: int | None = None) -> "Pool":
+        """Some of the renders."""
+        return replace(self, means=self.means[first:end], variances=self.variances[first:end])
+
+    def pictures(self, samples: int) -> int:
+        """How many pictures of so many samples there are."""
+        return len(self.means) // (samples // self.samples)
+
+    def picture(self, index: int, samples: int) -> Image:
+        """A picture of so many samples; the pictures share no render."""
+        group = samples // self.samples
+        means = self.means[index * group : (index + 1) * group].astype(np.float64)
+        inner = self.variances[index * group : (index + 1) * group].mean(axis=0, dtype=np.float64)
+        stderr = np.sqrt((inner + means.var(axis=0)) / (samples - 1)).astype(np.float32)
+        return Image(means.mean(axis=0).astype(np.float32), stderr, samples)
+
+
+def gather(context: Context, case: Case, samples: int, renders: int, seed: int) -> Pool:
+    """Renders with the seeds from `seed` on."""
+    settings: dict[str, Any] = {
+        "width": SIZE,
+        "height": SIZE,
+        "bounces": case.bounces,
+        "method": case.method,
+    }
+    renderer = Renderer(case.scene, context=context, **settings)
+    means, variances = (np.empty((renders, SIZE, SIZE, 3), np.float32) for _ in range(2))
+    for i in range(renders):
+        renderer.update(seed=seed + i)
+        image = renderer.render(samples).image()
+        means[i], variances[i] = image.radiance, np.square(image.stderr) * (samples - 1)
+    renderer.release()
+    return Pool(means, variances, samples)
+
+
+def compared(
+    images: Pool,
+    references: Pool,
+    samples: tuple[int, int],
+    alike: bool | None = True,
+    change: Change = lambda image: image,
+) -> list[Comparison]:
+    """Pairs in turn, of the pictures that the pools hold."""
+    have = [pool.pictures(n) for pool, n in zip((images, references), samples, strict=True)]
+    found = []
+    for i in range(have[0]):
+        image = change(images.picture(i, samples[0]))
+        found.append(
+            compare(image, references.picture(i % have[1], samples[1]), ALPHA, alike=alike)
+        )
+    return found
+
+
+def brighter(factor: float) -> Change:
+    """Multiply the radiance and its error."""
+    scale = np.float32(factor)
+    return lambda image: replace(
+        image, radiance=image.radiance * scale, stderr=image.stderr * scale
+    )
+
+
+def wrong_pixel(factor: float) -> Change:
+    """Multiply the radiance of one pixel in the middle of the floor."""
+
+    def change(image: Image) -> Image:
+        radiance = image.radiance.copy()
+        radiance[44, 24] *= factor
+        return replace(image, radiance=radiance)
+
+    return change
+
+
+def without_errors(image: Image) -> Image:
+    """As it is read from an NPY file."""
+    return replace(image, stderr=np.full_like(image.stderr, np.nan))
+
+
+CHANGES: dict[str, Change] = {
+    "nothing": lambda image: image,
+    "0.1 % brighter": brighter(1.001),
+    "1 % brighter": brighter(1.01),
+    "one pixel of the floor x 1.5": wrong_pixel(1.5),
+    "one pixel of the floor x 3": wrong_pixel(3),
+    "one pixel of the floor NaN": wrong_pixel(float("nan")),
+}
+
+
+class Experiment:
+    """All renders, taken once, and the tables made of them."""
+
+    def __init__(self, context: Context, count: int) -> None:
+        """Of `count` pairs of equal pictures, and a tenth of it of each kind of different ones."""
+        self.count = count
+        self.tenth = max(count // 10, 1)
+        seeds = iter(range(0, 1 << 32, 1 << 20))
+
+        def pools(cases: dict[str, Case], samples: int, renders: int) -> dict[str, Pool]:
+            return {
+                name: gather(context, case, samples, renders, next(seeds))
+                for name, case in cases.items()
+            }
+
+        self.pools = pools(CASES, 64, 4 * count + 80)
+        self.of_16 = pools(CASES, 16, count)
+        self.others = pools(OTHERS, 64, count)
+        self.planted = {what: pools(cases, 64, 16 * self.tenth) for what, cases in PLANTED.items()}
+
+    def false_alarms(self) -> list[list[str]]:
+        """Of equal pictures: scene, methods, then what `_tally` tells of each mix of samples."""
+        rows = []
+        for name, pool in self.pools.items():
+            images, rest = pool.part(0, self.count), pool.part(self.count)
+            of_16 = self.of_16[name]
+            mixes = (((16, 256), of_16, pool), ((64, 64), images, rest), ((64, 4096), images, rest))
+            for samples, a, b in mixes:
+                rows.append([name, "same", *_tally(samples, compared(a, b, samples))])
+            for samples, a, b in mixes:
+                found = compared(a, b, samples, None, without_errors)
+                rows.append([name, "same, image without errors", *_tally(samples, found)])
+            methods = f"{OTHERS[name].method} against {CASES[name].method}"
+            for samples in ((64, 64), (64, 4096)):
+                found = compared(self.others[name], rest, samples, None)
+                rows.append([name, methods, *_tally(samples, found)])
+        return rows
+
+    def detections(self) -> list[list[str]]:
+        """Of different pictures: what differs, scene, and the share found for each of FINDS."""
+        rows = []
+        for name in ("diffuse", "caustic"):
+            pool = self.pools[name]
+            images, rest = pool.part(0, 16 * self.tenth), pool.part(16 * self.tenth)
+            kinds = [(what, images, change) for what, change in CHANGES.items()]
+            kinds += [
+                (w, cases[name], _as_it_is) for w, cases in self.planted.items() if name in cases
+            ]
+            for what, a, change in kinds:
+                rows.append([name, what])
+                for samples in FINDS:
+                    found = compared(
+                        a.part(0, self.tenth * samples[0] // 64), rest, samples, True, change
+                    )
+                    rows[-1].append(f"{100 * _share(found):.0f} %")
+        return rows
+
+
+def _as_it_is(image: Image) -> Image:
+    return image
+
+
+def _share(found: list[Comparison]) -> float:
+    return sum(not comparison for comparison in found) / len(found)
+
+
+def _tally(samples: tuple[int, int], found: list[Comparison]) -> list[str]:
+    """Samples, false alarms with their 95 % interval, and the median of what would have shown."""
+    alarms = sum(not comparison for comparison in found)
+    low, high = wilson(alarms, len(found))
+    shown = float(np.median([comparison.shown for comparison in found]))
+    return [
+        f"{samples[0]} / {samples[1]}",
+        f"{alarms} of {len(found)}",
+        f"{100 * low:.1f} to {100 * high:.1f} %",
+        f"{100 * shown:.2g} %",
+    ]
+
+
+def wilson(hits: int, trials: int, z: float = 1.96) -> tuple[float, float]:
+    """The interval of a share (Wilson 1927)."""
+    share, narrow = hits / trials, z * z / trials
+    middle = (share + narrow / 2) / (1 + narrow)
+    half = z / (1 + narrow) * math.sqrt(share * (1 - share) / trials + narrow / (4 * trials))
+    return max(middle - half, 0), min(middle + half, 1)
+
+
+def _markdown(head: list[str], rows: list[list[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m glrt.lab.false_alarms`."""
+    parser = argparse.ArgumentParser(prog="python -m glrt.lab.false_alarms", description=__doc__)
+    parser.add_argument("--pairs", type=int, default=1000, metavar="N", help="pairs of a row")
+    context = open_context("auto")
+    experiment = Experiment(context, parser.parse_args(arguments).pairs)
+    head = ["scene", "methods", "samples", "called different", "95 % interval", "would have shown"]
+    print(_markdown(head, experiment.false_alarms()), end="\n\n")
+    head = ["scene", "what differs", *(f"{a} / {b}" for a, b in FINDS)]
+    print(_markdown(head, experiment.detections()))
+    context.gl.release()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
