@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.compare_noise import ROUNDING, Array, Pair, Sums, blocks, edges, even_weights, whole
-from glrt.comparison import CHANNELS, Comparison, Interval, Place, Verdict
+from glrt.comparison import CHANNELS, Comparison, Interval, Place, Verdict, percent
 from glrt.errors import UsageError
 from glrt.image import Image
 from glrt.stats import sidak_threshold
@@ -159,8 +159,8 @@ def _whole(what: str, sums: Sums | None, limit: float) -> str | None:
     if sums is None or np.abs(sums.score).max() <= limit:
         return None
     channel = int(np.abs(sums.score).argmax())
-    difference = 100 * _intervals(sums, limit)[channel].difference
-    return f"{what}, {CHANNELS[channel]} by {difference:+.2g} %"
+    difference = percent(_intervals(sums, limit)[channel].difference, sign="+")
+    return f"{what}, {CHANNELS[channel]} by {difference}"
 
 
 def _scatter(score: Array, limit: float) -> str | None:

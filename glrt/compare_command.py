@@ -12,7 +12,7 @@ import numpy as np
 from glrt import files
 from glrt.compare import compare
 from glrt.compare_noise import BLOCK
-from glrt.comparison import CHANNELS, Comparison, Interval
+from glrt.comparison import CHANNELS, Comparison, Interval, percent
 from glrt.errors import UsageError
 from glrt.image import Image
 
@@ -72,13 +72,13 @@ def report(comparison: Comparison) -> str:
             f"{BLOCK} x {BLOCK} blocks: spread {c.spread:.2f} of 1 expected; largest "
             f"{c.largest:+.2f} of {c.limit:.2f} allowed, {c.worst}",
             f"its worst pixel: {c.pixel}",
-            f"smallest difference that would have shown: {100 * c.shown:.2g} % of the picture",
+            f"smallest difference that would have shown: {percent(c.shown)} of the picture",
         ]
     )
 
 
 def _percent(interval: Interval) -> tuple[str, str]:
-    difference, low, high = (f"{100 * value:+.3g} %" for value in interval)
+    difference, low, high = (percent(value, digits=3, sign="+") for value in interval)
     return difference, f"{low} to {high}"
 
 

@@ -10,6 +10,11 @@ Verdict = Literal["same", "different", "undecided"]
 CHANNELS = ("red", "green", "blue")
 
 
+def percent(share: float, digits: int = 2, sign: str = "") -> str:
+    """A share in percent, never with an exponent below a million percent."""
+    return f"{float(f'{100 * share:.{digits}g}'):{sign}g} %"
+
+
 class Interval(NamedTuple):
     """A relative difference, image / reference - 1, and between what the truth lies."""
 
@@ -67,6 +72,6 @@ class Comparison:
         if self.verdict == "different":
             return f"different: {'; '.join(self.reasons)}"
         if self.verdict == "same":
-            return f"same: a difference of {100 * self.bias:g} % would have shown"
+            return f"same: a difference of {percent(self.bias)} would have shown"
         missing = f"{self.needs} samples in both" if self.needs else "more samples"
-        return f"undecided: needs {missing} to show a difference of {100 * self.bias:g} %"
+        return f"undecided: needs {missing} to show a difference of {percent(self.bias)}"

@@ -11,6 +11,7 @@ from PIL import Image as Pillow
 from glrt.cli import main
 from glrt.compare import compare
 from glrt.compare_picture import SPAN, colors, save_picture
+from glrt.comparison import percent
 from glrt.context import Context
 from glrt.image import Image
 from glrt.library import load
@@ -70,9 +71,17 @@ def test_report_tells_the_figures(folder: Path, capsys: pytest.CaptureFixture[st
     assert f"needs {comparison.needs} samples" in text
     assert str(comparison.worst) in text
     assert str(comparison.pixel) in text
-    assert f"{100 * comparison.shown:.2g} % of the picture" in text
+    assert f"{percent(comparison.shown)} of the picture" in text
     for interval in (*comparison.differences, *comparison.factors):
-        assert f"{100 * interval.low:+.3g} % to {100 * interval.high:+.3g} %" in text
+        low, high = (percent(value, 3, "+") for value in (interval.low, interval.high))
+        assert f"{low} to {high}" in text
+
+
+def test_percent_is_written_without_exponent() -> None:
+    assert percent(1.4567) == "150 %"
+    assert percent(0.00123, digits=2) == "0.12 %"
+    assert percent(-12.3456, digits=3, sign="+") == "-1230 %"
+    assert percent(float("inf")) == "inf %"
 
 
 def test_report_says_when_methods_may_differ(

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.compare import compare
-from glrt.comparison import Comparison
+from glrt.comparison import Comparison, percent
 from glrt.context import Context, open_context
 from glrt.image import Image
 from glrt.lab.noisy_scenes import CASES, OTHERS, PLANTED, Case
@@ -200,7 +200,7 @@ def _tally(samples: tuple[int, int], found: list[Comparison]) -> list[str]:
         f"{samples[0]} / {samples[1]}",
         f"{alarms} of {len(found)}",
         f"{100 * low:.1f} to {100 * high:.1f} %",
-        f"{100 * shown:.2g} %",
+        percent(shown),
     ]
 
 
