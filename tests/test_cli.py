@@ -239,8 +239,8 @@ def test_version_is_the_packages() -> None:
 
 
 def test_closed_pipe_is_no_error() -> None:
-    """The pause lets `head` go first; a buffer in Python is what a user has."""
-    child = "import sys, time, glrt.cli as c; time.sleep(0.3); sys.exit(c.main(['schema']))"
+    """The pause lets the reader go first; a user's Python keeps so short a text until it exits."""
+    child = "import sys, time, glrt.cli as c; time.sleep(0.3); sys.exit(c.main(['inspect', 'sky']))"
     command = f'"{sys.executable}" -c "{child}" | true; exit ${{PIPESTATUS[0]}}'
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment)
