@@ -66,7 +66,8 @@ def compare(arguments: argparse.Namespace) -> int:
 def inspect(arguments: argparse.Namespace) -> int:
     """`glrt inspect`: what the kernel contains and leaves out."""
     from glrt.needs import explain
-    from glrt.schedule import LOOP_LIMIT, iterations_per_sample
+    from glrt.schedule import iterations_per_sample
+    from glrt.selftest import LLVMPIPE_ROUNDS
 
     scene, settings = _scene_and_settings(arguments)
     print(f"{arguments.scene}: {scene.title or 'no title'}")
@@ -74,8 +75,10 @@ def inspect(arguments: argparse.Namespace) -> int:
     for feature in explain(scene, settings):
         print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
     rounds = iterations_per_sample(scene, settings)
-    fit = f"{LOOP_LIMIT // rounds} fit" if rounds <= LOOP_LIMIT else "too many"
-    print(f"\nA sample takes up to {rounds} rounds of loops: {fit} a dispatch on llvmpipe.")
+    print(
+        f"\nA sample takes up to {rounds:,} rounds of loops; llvmpipe ends those of a dispatch "
+        f"after {LLVMPIPE_ROUNDS:,}."
+    )
     return 0
 
 

@@ -1,11 +1,12 @@
-"""Which OpenGL routes work on this machine, and what to do if none does."""
+"""Which OpenGL routes work on this machine, what the driver does, and what to do if none works."""
 
 import platform
 import time
 from importlib.metadata import version
 
 from glrt.context import ADVICE, ROUTES, open_context, open_route
-from glrt.errors import ContextError
+from glrt.errors import ContextError, GlrtError
+from glrt.selftest import MOST_ROUNDS, SelfTest, self_test
 from glrt.version import VERSION
 
 _HINTS = {
@@ -21,6 +22,8 @@ def report() -> tuple[str, bool]:
     lines = [_versions(), ""]
     lines += [line for route in ROUTES for line in _route_lines(route, chosen)]
     lines += ["", _verdict(chosen)]
+    if chosen:
+        lines += ["", *_self_test_lines()]
     return "\n".join(lines), bool(chosen)
 
 
@@ -58,3 +61,35 @@ def _verdict(chosen: str) -> str:
     if chosen:
         return f"`glrt render` uses {chosen}; --context chooses another."
     return f"No route gives OpenGL 4.3. {ADVICE}"
+
+
+def _self_test_lines() -> list[str]:
+    context = open_context("auto")
+    try:
+        lines = findings(self_test(context))
+    except GlrtError as error:
+        lines = [f"  the self-test failed: {error}"]
+    finally:
+        context.gl.release()
+    return [f"What {context.renderer} does:", *lines]
+
+
+def findings(found: SelfTest) -> list[str]:
+    """One line for each thing that the driver was tried for."""
+    endless = found.loop_limit >= MOST_ROUNDS
+    loops = (
+        f"run for {MOST_ROUNDS:,} rounds and more"
+        if endless
+        else f"end silently after {found.loop_limit:,} rounds; dispatches stay below"
+    )
+    ulps = ", ".join(f"{name} {error:.2g}" for name, error in found.ulps.items())
+    kept = "kept" if found.precise_kept else "NOT KEPT: the bits of pictures may vary"
+    free = "fused or reordered" if found.fuses_without else "computed as written, too"
+    equal = "those of Python's integers" if found.hashes_equal else "WRONG: pictures are too"
+    return [
+        f"  loops           {loops}",
+        f"  random numbers  {equal}",
+        f"  precise         {kept}; without it, sums and products are {free}",
+        f"  largest error   {ulps} units in the last place",
+        f"                  sin and cos {found.trig_error:.2g} x 2^-24",
+    ]

@@ -19,6 +19,7 @@ from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.recipe import Recipe
 from glrt.scene import Scene
 from glrt.schedule import Schedule, iterations_per_sample, most_samples
+from glrt.selftest import usable_rounds
 from glrt.settings import Cost, Settings, cost_of_change, settings_for
 from glrt.shader import Source
 from glrt.version import VERSION
@@ -158,7 +159,8 @@ class Renderer:
 
     def _most_samples(self, scene: Scene, settings: Settings) -> int:
         """How many samples a dispatch may take; SceneError if not one."""
-        return most_samples(iterations_per_sample(scene, settings), self.context.is_software)
+        iterations = iterations_per_sample(scene, settings)
+        return most_samples(iterations, usable_rounds(self.context, iterations))
 
     def _upload(self, most_samples: int) -> None:
         """Give the driver the scene, and write the kernel for it."""

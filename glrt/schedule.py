@@ -4,27 +4,34 @@ from glrt.errors import SceneError
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 
-LOOP_LIMIT = 60_000  # llvmpipe ends all loops of an invocation silently after 65,535 rounds
 BUDGET = 0.25  # seconds a dispatch: progress and interruption stay prompt
 
 
 def iterations_per_sample(scene: Scene, settings: RenderSettings) -> int:
-    """Rounds of all loops for one sample: each segment runs over the shapes, once or twice."""
+    """Rounds of all loops for one sample: each segment runs over the shapes, once or twice.
+
+    A loop over the shapes of one kind takes a round more than there are shapes: the one in which
+    it finds that there are no more.
+    """
     rays = 1 if settings.method == "naive" else 2
-    return 1 + (settings.bounces + 1) * (1 + rays * len(scene.objects))
+    kinds = len({shape.shape for shape in scene.objects})
+    return 1 + (settings.bounces + 1) * (1 + rays * (len(scene.objects) + kinds))
 
 
-def most_samples(iterations: int, is_limited: bool) -> int:
-    """How many samples fit into one dispatch; SceneError when not even one does."""
-    if not is_limited:
+def most_samples(iterations: int, rounds: int | None) -> int:
+    """How many samples fit into a dispatch of so many rounds; SceneError when not even one does.
+
+    `rounds`: None for a driver that does not limit loops.
+    """
+    if rounds is None:
         return 1 << 10
-    if iterations > LOOP_LIMIT:
+    if iterations > rounds:
         raise SceneError(
-            f"the scene is beyond this software driver's loop limit: one sample takes up to "
+            f"the scene is beyond this driver's loop limit: one sample takes up to "
             f"{iterations} rounds of its loops (shapes x bounces), and it stops silently after "
-            f"{LOOP_LIMIT}, with a wrong image. Use fewer objects, fewer bounces or a GPU."
+            f"{rounds}, with a wrong image. Use fewer objects, fewer bounces or a GPU."
         )
-    return LOOP_LIMIT // iterations
+    return rounds // iterations
 
 
 class Schedule:

@@ -28,11 +28,11 @@ ORDER = [
         "recipe",
     ),
     *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),
-    *("context", "kernel", "film", "display", "schedule", "renderer"),
+    *("context", "kernel", "probe", "selftest", "film", "display", "schedule", "renderer"),
     *("__init__", "job", "progress", "doctor", "lab", "ui", "arguments", "compare_command", "cli"),
     "__main__",
 ]
-KNOW_OPENGL = {"context", "kernel", "film", "display", "renderer"}
+KNOW_OPENGL = {"context", "kernel", "probe", "selftest", "film", "display", "renderer"}
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "rich"}
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60

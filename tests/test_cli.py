@@ -226,6 +226,7 @@ def test_doctor_names_routes_and_renderer() -> None:
     assert "osmesa" in done.stdout
     assert "window  does not work: there is no display" in done.stdout
     assert done.stdout.count("<- used") == 1
+    assert "random numbers  those of Python's integers" in done.stdout
 
 
 def test_schema_is_json_schema_of_scenes() -> None:

@@ -1,0 +1,129 @@
+"""What the driver is tried for, that failures would show, and what the scheduler makes of it."""
+
+from dataclasses import dataclass, replace
+
+import moderngl
+import numpy as np
+import pytest
+
+from glrt import selftest
+from glrt.context import Context
+from glrt.doctor import findings
+from glrt.errors import SceneError
+from glrt.schedule import most_samples
+from glrt.selftest import MOST_ROUNDS, SelfTest, measured_loop_limit, self_test, usable_rounds
+from tests.conftest import CallGlsl
+
+
+@dataclass(frozen=True)
+class Driver:
+    """As much of a context as a loop limit needs that is known already."""
+
+    renderer: str
+    version: str = "4.6"
+
+
+def driver(monkeypatch: pytest.MonkeyPatch, renderer: str, limit: int) -> Context:
+    monkeypatch.setitem(selftest._limits, (renderer, "4.6"), limit)
+    return Driver(renderer)  # type: ignore[return-value]
+
+
+def test_this_driver_computes_what_the_renderer_takes_for_granted(context: Context) -> None:
+    found = self_test(context)
+    assert found.hashes_equal
+    assert found.precise_kept
+    assert found.ulps.keys() == {"sqrt(x)", "x / y", "exp2(z)", "pow(u, w)"}
+    assert found.ulps["sqrt(x)"] <= 3  # GLSL 4.3, section 4.7.1: 2 of inversesqrt, and a division
+    assert found.ulps["x / y"] <= 2.5
+    assert found.trig_error <= 2**13  # 2^-11, what WGSL asks for; GLSL asks for nothing
+
+
+def test_llvmpipe_counts_loops_as_the_scheduler_believes(
+    context: Context, call_glsl: CallGlsl
+) -> None:
+    """All loops of a SIMD group together, and the last look at each loop's condition."""
+    if "llvmpipe" not in context.renderer:
+        pytest.skip("of llvmpipe alone")
+    assert measured_loop_limit(context) == selftest.LLVMPIPE_ROUNDS
+    nested = """
+        uvec2 count = uvec2(0u);
+        for (uint k = 0u; k < rounds; ++k) {
+            count.x += 1u;
+            for (uint j = 0u; j < inner; ++j) if (++count.y == never) break;
+        }"""
+    counts = call_glsl("count", "uvec2", setup=nested, **rounds(inner=10))[0]
+    assert counts.tolist() == [5462, 54613]
+    assert abs(counts[0] * (1 + 10 + 1) - selftest.LLVMPIPE_ROUNDS) < 12
+    in_turn = "uint count = 0u; for (uint k = 0u; k < mine; ++k) if (++count == never) break;"
+    mine = 10_000 * np.arange(1, 9, dtype=np.uint32)
+    counts = call_glsl("count", "uint", setup=in_turn, mine=mine, **rounds())
+    assert counts.tolist() == np.minimum(mine, selftest.LLVMPIPE_ROUNDS).tolist()
+
+
+def rounds(**more: int) -> dict[str, np.ndarray[tuple[int], np.dtype[np.uint32]]]:
+    given = {"rounds": MOST_ROUNDS, "never": 1 << 30, **more}
+    return {name: np.array([value], np.uint32) for name, value in given.items()}
+
+
+def test_wrong_random_numbers_are_seen(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert selftest.pcg_hash(0) == 129708002
+    assert selftest._hashes_equal(ctx)
+    right = selftest.pcg_hash
+    monkeypatch.setattr(selftest, "pcg_hash", lambda x: right(x) ^ (x == 0))
+    assert not selftest._hashes_equal(ctx)
+
+
+@pytest.mark.parametrize(
+    ("written", "fused"),
+    [("(a - (sum - part)) + (b - part)", "0.0"), ("a * b - product", "1e-9 * product")],
+)
+def test_rounding_against_the_text_is_seen(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, written: str, fused: str
+) -> None:
+    assert not selftest._rounding_changes(ctx, "precise ")
+    assert written in selftest._ROUNDING
+    monkeypatch.setattr(selftest, "_ROUNDING", selftest._ROUNDING.replace(written, fused))
+    assert selftest._rounding_changes(ctx, "precise ")
+
+
+def test_llvmpipe_is_not_measured_before_a_scene_needs_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    known = usable_rounds(Driver("llvmpipe (LLVM 15)"), 60_000)  # type: ignore[arg-type]
+    assert known is not None
+    assert 60_000 <= known <= 65_535
+    newer = driver(monkeypatch, "llvmpipe (LLVM 99)", MOST_ROUNDS)
+    assert usable_rounds(newer, 60_000) == known
+    assert usable_rounds(newer, 70_000) is None
+
+
+def test_other_drivers_are_taken_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert usable_rounds(driver(monkeypatch, "A card", MOST_ROUNDS), 1) is None
+    rounds = usable_rounds(driver(monkeypatch, "A slow one", 12_000), 1)
+    assert rounds == 11_000
+    assert most_samples(1000, rounds) == 11
+    with pytest.raises(SceneError, match="11001 rounds of its loops"):
+        most_samples(11_001, rounds)
+    assert most_samples(10**9, None) == 1024
+
+
+def test_a_loop_limit_is_measured_once_a_process(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measured_loop_limit(context)
+    monkeypatch.setattr(selftest, "_count_rounds", lambda _: pytest.fail("measured again"))
+    measured_loop_limit(context)
+
+
+def test_the_doctor_names_what_is_wrong() -> None:
+    good = SelfTest(MOST_ROUNDS, True, True, True, {"sqrt(x)": 0.5}, 1.2)
+    text = "\n".join(findings(good))
+    assert "run for 131,072 rounds and more" in text
+    assert "fused or reordered" in text
+    bad = replace(good, loop_limit=1000, hashes_equal=False, precise_kept=False)
+    text = "\n".join(findings(bad))
+    assert "end silently after 1,000 rounds" in text
+    assert "WRONG" in text
+    assert "NOT KEPT" in text
