@@ -79,7 +79,12 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
         np.where(np.isnan(va), np.maximum(vb / ratio, square - vb), va),
         np.where(np.isnan(vb), np.maximum(va * ratio, square - va), vb),
     )
-    return Pair(a, b, *filled, image.samples, reference.samples, alike)
+    block = _block(image) if _block(image) == _block(reference) else 1
+    return Pair(a, b, *filled, image.samples, reference.samples, alike, block)
+
+
+def _block(image: Image) -> int:
+    return image.recipe.settings.block if image.recipe else 1
 
 
 def _same_method(image: Image, reference: Image) -> bool:
@@ -149,8 +154,8 @@ def _quiet(pair: Pair, alpha: float) -> str | None:
 
 
 def _enough_samples(pair: Pair, pixels: int, alpha: float) -> bool:
-    """Of all ways to deal out the samples of a pixel, two give each picture one value alone."""
-    a, b = pair.image_samples, pair.reference_samples
+    """Of all ways to deal out what a pixel saw, two give each picture one value alone."""
+    a, b = pair.image_samples / pair.block, pair.reference_samples / pair.block
     log_ways = math.lgamma(a + b + 1) - math.lgamma(a + 1) - math.lgamma(b + 1)
     return math.log(2 * pixels / alpha) < log_ways
 

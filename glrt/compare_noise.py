@@ -36,6 +36,7 @@ class Pair:
     """Two pictures of one size, all arrays (H, W, 3).
 
     Radiance, the variance of each mean, and the samples a pixel; `alike` if both are of a method.
+    `block`: how many samples make an independent observation in both.
     """
 
     image: Array
@@ -45,6 +46,12 @@ class Pair:
     image_samples: int
     reference_samples: int
     alike: bool
+    block: int = 1
+
+    @property
+    def observations(self) -> float:
+        """A pixel's in both pictures, which chance deals out: samples belong to their blocks."""
+        return (self.image_samples + self.reference_samples) / self.block
 
     @property
     def difference(self) -> Array:
@@ -69,8 +76,8 @@ class Pair:
 
     @property
     def shuffled_variance(self) -> Array:
-        """Of the difference, if all samples of a pixel were dealt out anew."""
-        between = np.square(self.difference) / (self.image_samples + self.reference_samples)
+        """Of the difference, if all observations of a pixel were dealt out anew."""
+        between = np.square(self.difference) / self.observations
         return self.ratio * self.image_variance + self.reference_variance / self.ratio + between
 
 

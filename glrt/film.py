@@ -14,36 +14,41 @@ class Exposure(NamedTuple):
     """A film read back: arrays (H, W, 3) float32, row 0 on top."""
 
     mean: Array
-    variance: Array  # of one sample
+    variance: Array  # of one observation
     dropped: Array  # (H, W): samples that were not finite
+    observations: Array  # (H, W): whole ones
 
 
 class Film:
-    """Two RGBA32F textures for the mean and two for the variance: one pair is read, one written."""
+    """RGBA32F textures for mean and variance, each twice: one is read, one written.
 
-    def __init__(self, gl: moderngl.Context, width: int, height: int) -> None:
-        """Allocate; RenderError if the driver has no room for this size."""
+    A third pair holds the observation that has begun, if one takes more than a sample.
+    """
+
+    def __init__(self, gl: moderngl.Context, width: int, height: int, block: int = 1) -> None:
+        """Allocate for observations of `block` samples.
+
+        RenderError if the driver has no room for this size.
+        """
         self._gl = gl
-        self._allocate(width, height)
+        self._allocate(width, height, block)
 
-    def restart(self, width: int, height: int) -> None:
-        """Forget everything; with another size, allocate anew.
+    def restart(self, width: int, height: int, block: int = 1) -> None:
+        """Forget everything; with another size or block, allocate anew.
 
         The textures keep what they hold: the first dispatch ignores it.
         """
         self.samples = 0
-        if self.size != (width, height):
+        if (*self.size, self.block) != (width, height, block):
             self.release()
-            self._allocate(width, height)
+            self._allocate(width, height, block)
 
     def images(self) -> dict[str, moderngl.Texture]:
         """The textures under the names of the kernel's images."""
-        (source_mean, source_variance), (target_mean, target_variance) = self._pairs
         return {
-            "source_mean": source_mean,
-            "source_variance": source_variance,
-            "target_mean": target_mean,
-            "target_variance": target_variance,
+            f"{side}_{name}": texture
+            for side, textures in zip(("source", "target"), self._pairs, strict=True)
+            for name, texture in textures.items()
         }
 
     def advance(self, samples: int) -> None:
@@ -55,25 +60,27 @@ class Film:
     @property
     def mean(self) -> moderngl.Texture:
         """The texture that holds the picture so far."""
-        return self._pairs[0][0]
+        return self._pairs[0]["mean"]
 
     def read(self) -> Exposure:
         """Copy the film into memory."""
         if not self.samples:
             raise RenderError("the film is empty: render a sample first")
-        mean, variance = (self._read(texture) for texture in self._pairs[0])
-        return Exposure(mean[..., :3].copy(), variance[..., :3].copy(), mean[..., 3].copy())
+        mean, variance = (self._read(self._pairs[0][name]) for name in ("mean", "variance"))
+        parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
+        return Exposure(*(part.copy() for part in parts))
 
     def release(self) -> None:
         """Free the textures."""
         for pair in self._pairs:
-            for texture in pair:
+            for texture in pair.values():
                 texture.release()
 
-    def _allocate(self, width: int, height: int) -> None:
-        self.size = (width, height)
+    def _allocate(self, width: int, height: int, block: int) -> None:
+        self.size, self.block = (width, height), block
         self.samples = 0
-        self._pairs = [[self._texture() for _ in ("mean", "variance")] for _ in range(2)]
+        names = ("mean", "variance", "block") if block > 1 else ("mean", "variance")
+        self._pairs = [{name: self._texture() for name in names} for _ in range(2)]
 
     def _texture(self) -> moderngl.Texture:
         width, height = self.size
@@ -91,13 +98,14 @@ class Film:
         return np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
 
 
-def standard_error(film: Exposure, samples: int) -> Array:
+def standard_error(film: Exposure) -> Array:
     """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations.
 
-    Under the independent sampler an observation is a sample: s / sqrt(n) with s^2 = v n / (n - 1),
-    v being the variance about the mean.
+    s / sqrt(k) for k observations, with s^2 = v k / (k - 1), v being their variance about the mean.
+    What is not a whole observation counts in the mean alone: a few samples of Sobol's points are
+    worth less than their share of a block.
     """
-    count = (samples - film.dropped)[..., None]
+    count = film.observations[..., None]
     with np.errstate(divide="ignore", invalid="ignore"):
         error = np.sqrt(film.variance / (count - 1))
     return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)

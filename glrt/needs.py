@@ -27,11 +27,12 @@ class Needs:
     sample_lights: bool
     weight_both: bool
     roulette: bool
+    block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
 
     def constants(self) -> dict[str, bool | int]:
         """The prelude: what the compiler may take for granted."""
-        flags = {field.name.upper(): bool(getattr(self, field.name)) for field in fields(self)}
-        return {**flags, "ROULETTE_START": ROULETTE_START}
+        values = {field.name.upper(): getattr(self, field.name) for field in fields(self)}
+        return {**values, "ROULETTE_START": ROULETTE_START}
 
 
 class Feature(NamedTuple):
@@ -62,6 +63,7 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         sample_lights=sample_lights,
         weight_both=sample_lights and settings.method == "mis",
         roulette=settings.roulette,
+        block=settings.block,
     )
 
 
@@ -104,6 +106,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
         Feature("roulette", needs.roulette, _roulette(settings)),
+        Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]
 
 

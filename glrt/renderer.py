@@ -54,7 +54,7 @@ class Renderer:
         most_samples = self._most_samples(self.scene, self.settings)
         with self.context.gl:
             self._upload(most_samples)
-            self._film = Film(self.context.gl, *self.size)
+            self._film = Film(self.context.gl, *self.size, self.settings.block)
             self._compile()
 
     @property
@@ -85,7 +85,7 @@ class Renderer:
         compiled = self._source
         with self.context.gl:
             self._upload(most_samples)
-            self._film.restart(*self.size)
+            self._film.restart(*self.size, self.settings.block)
             if self._source.text == compiled.text:
                 return Cost.RESTART
             self._kernel.release()
@@ -132,7 +132,7 @@ class Renderer:
             renderer=self.context.renderer,
             tier=self.tier,
         )
-        return Image(film.mean, standard_error(film, self.samples), self.samples, recipe)
+        return Image(film.mean, standard_error(film), self.samples, recipe)
 
     def display(self) -> np.ndarray[Any, Any]:
         """The picture so far through the display pass: (H, W, 3) uint8 sRGB, row 0 on top."""

@@ -11,9 +11,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from glrt.errors import UsageError
 
 Method = Literal["naive", "nee", "mis"]
+Sampler = Literal["independent", "sobol"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
+BLOCKS = {"independent": 1, "sobol": 16}  # samples of an observation, by sampler
 
 
 class Cost(StrEnum):
@@ -63,8 +65,10 @@ class Settings(RenderSettings):
     crop: tuple[Pixels, Pixels, Pixels, Pixels] | None = _setting(
         None, "the part of the frame to render: left, top, width, height", Cost.RESTART, "pixels"
     )
-    sampler: Literal["independent"] = _setting(
-        "independent", "where random numbers come from", Cost.RECOMPILE
+    sampler: Sampler = _setting(
+        "independent",
+        "independent: any random numbers; sobol: blocks of 16 samples that fill the space evenly",
+        Cost.RECOMPILE,
     )
     roulette: bool = _setting(
         True, "end dim paths by Russian roulette: another variance, the same mean", Cost.RECOMPILE
@@ -74,6 +78,11 @@ class Settings(RenderSettings):
         0.0, "brightness of PNG files and of the display", Cost.FREE, "EV", ge=-50, le=50
     )
     tonemap: ToneMap = _setting("neutral", "tone curve of PNG files and of the display", Cost.FREE)
+
+    @property
+    def block(self) -> int:
+        """Samples of an observation; the error of a picture is taken over whole ones."""
+        return BLOCKS[self.sampler]
 
     @model_validator(mode="after")
     def _crop_lies_in_the_frame(self) -> Self:

@@ -1,13 +1,19 @@
 // What a pixel has gathered: running means, so that any number of samples keeps its digits.
+//
+// Its error is taken over observations, which are independent of each other: a sample each, or
+// BLOCK samples whose points belong together.
 
 struct Pixel {
-    vec3 mean;       // of the finite samples, radiance
-    float dropped;   // samples that were not finite
-    vec3 variance;   // of the finite samples: mean squared deviation from their mean
+    vec3 mean;           // of the finite samples, radiance
+    float dropped;       // samples that were not finite
+    vec3 variance;       // of the observations: mean squared deviation from their mean
+    float observations;
+    vec3 block;          // mean of the finite samples of the observation that has begun
+    float begun;         // how many those are
 };
 
 Pixel empty_pixel() {
-    return Pixel(vec3(0.0), 0.0, vec3(0.0));
+    return Pixel(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0);
 }
 
 // By its bits: drivers may assume that no NaN exists and fold isnan away.
@@ -16,24 +22,35 @@ bool is_finite(vec3 x) {
     return all(notEqual(exponent, uvec3(0x7F800000u)));
 }
 
-// Adds the sample number `index` (from 0) in Welford's form, m += (x - m) / n: a mix of m and x
-// would drift (its weights do not add up to 1 in floating point).
-void add_sample(inout Pixel pixel, vec3 x, int index) {
-    if (!is_finite(x)) {
-        pixel.dropped += 1.0;
-        return;
-    }
-    float count = float(index + 1) - pixel.dropped;
-    if (count == 1.0) {
-        pixel.mean = x;
-        pixel.variance = vec3(0.0);
-        return;
-    }
+// m += (x - m) / n: a mix of m and x would drift (its weights do not add up to 1 in floating point).
+vec3 next_mean(vec3 mean, vec3 x, float count) {
     float weight = 1.0 / count;
-    vec3 before = x - pixel.mean;
-    vec3 mean = pixel.mean + before * weight;
-    vec3 after = x - mean;
-    vec3 change = (before * after - pixel.variance) * weight;
-    pixel.mean = mean;
-    pixel.variance += change;
+    vec3 next = mean + (x - mean) * weight;
+    return next;
+}
+
+// Welford's form, after the mean has moved by its share of the observation x: x less the mean
+// before is x less the mean now, times n / (n - 1).
+void end_observation(inout Pixel pixel) {
+    pixel.observations += 1.0;
+    if (pixel.observations > 1.0) {
+        float count = pixel.observations;
+        vec3 after = pixel.block - pixel.mean;
+        vec3 before = after * (count / (count - 1.0));
+        pixel.variance = next_mean(pixel.variance, before * after, count);
+    }
+    pixel.block = vec3(0.0);
+    pixel.begun = 0.0;
+}
+
+// Adds the sample number `index`, from 0.
+void add_sample(inout Pixel pixel, vec3 x, int index) {
+    if (is_finite(x)) {
+        pixel.mean = next_mean(pixel.mean, x, float(index + 1) - pixel.dropped);
+        pixel.begun += 1.0;
+        pixel.block = next_mean(pixel.block, x, pixel.begun);
+    } else {
+        pixel.dropped += 1.0;
+    }
+    if ((index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
 }

@@ -1,9 +1,5 @@
 // The samples that one dispatch adds to one pixel.
 
-Sampler sampler_of(ivec2 place, int index) {
-    return make_sampler(pixel_seed(place, index, frame.seed));
-}
-
 Path camera_path(ivec2 place, inout Sampler rng) {
     return start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
 }
@@ -13,13 +9,13 @@ Path camera_path(ivec2 place, inout Sampler rng) {
 void add_samples(inout Pixel pixel, ivec2 place) {
     int index = frame.first_sample;
     int end = index + frame.sample_count;
-    Sampler rng = sampler_of(place, index);
+    Sampler rng = sampler_at(place, index, frame.seed);
     Path path = camera_path(place, rng);
     while (index < end) {
         if (extend_path(path, rng)) continue;
         add_sample(pixel, path.radiance, index);
         index += 1;
-        rng = sampler_of(place, index);
+        rng = sampler_at(place, index, frame.seed);
         path = camera_path(place, rng);
     }
 }

@@ -6,6 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene.glsl"
 #include "blocks.glsl"
 #include "rng.glsl"
+#include "sobol.glsl"
 #include "sampler.glsl"
 #include "warp.glsl"
 #include "camera.glsl"
@@ -16,16 +17,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "film.glsl"
 #include "samples.glsl"
 
-layout(rgba32f) uniform readonly image2D source_mean;  // a: dropped samples
-layout(rgba32f) uniform readonly image2D source_variance;
+layout(rgba32f) uniform readonly image2D source_mean;      // a: dropped samples
+layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
+layout(rgba32f) uniform readonly image2D source_block;     // a: its samples
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
+layout(rgba32f) uniform writeonly image2D target_block;
 
 Pixel load_pixel(ivec2 texel) {
     if (frame.first_sample == 0) return empty_pixel();  // whatever the source holds
     vec4 mean = imageLoad(source_mean, texel);
     vec4 variance = imageLoad(source_variance, texel);
-    return Pixel(mean.rgb, mean.a, variance.rgb);
+    vec4 block = vec4(0.0);
+    if (BLOCK > 1) block = imageLoad(source_block, texel);
+    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
 void main() {
@@ -34,5 +39,6 @@ void main() {
     Pixel pixel = load_pixel(texel);
     add_samples(pixel, frame.origin + texel);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));
-    imageStore(target_variance, texel, vec4(pixel.variance, 0.0));
+    imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
+    if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
 }

@@ -10,6 +10,7 @@ from glrt.scene_file import parse_scene
 EVERYTHING: dict[str, bool | int] = {
     **{field.name.upper(): True for field in fields(Needs)},
     "ROULETTE_START": ROULETTE_START,
+    "BLOCK": 1,
 }
 
 MATTE = {"type": "lambertian", "color": [0.5, 0.5, 0.5]}

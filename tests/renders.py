@@ -20,6 +20,7 @@ from tests.images import same_bits
 
 ALPHA = 1e-4
 METHODS = ("naive", "nee", "mis")
+SAMPLERS = ("independent", "sobol")
 ENOUGH = 500  # effective samples behind a mean before its own variance may judge it
 
 Floats = NDArray[np.float64]

@@ -80,7 +80,7 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
     "infinite exposure": ("render {scene} -o {tmp}/a.png --exposure inf", ["exposure"]),
     "unknown tone curve": ("render {scene} -o {tmp}/a.png --tonemap filmic", ["--tonemap", "agx"]),
     "unknown context": ("render {scene} -o {tmp}/a.png --context vulkan", ["--context", "osmesa"]),
-    "sampler of later": ("render {scene} -o {tmp}/a.png --sampler sobol", ["--sampler"]),
+    "unknown sampler": ("render {scene} -o {tmp}/a.png --sampler halton", ["--sampler", "sobol"]),
     "resume of later": ("render {scene} -o {tmp}/a.png --resume b.exr", ["--resume"]),
     "fragment of later": ("render {scene} -o {tmp}/a.png --pipeline fragment", ["fragment"]),
     "picture without recipe": (

@@ -15,31 +15,33 @@ from glrt.scene import Scene
 from glrt.settings import Cost
 from glrt.shader import read
 from tests.builders import MATTE, scene_of, sphere
+from tests.renders import SAMPLERS
 
 SMALL: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
 
 
-def bits(scene: Scene, context: Context, tier: blocks.Tier) -> bytes:
-    """Mean and error after 3 samples."""
-    renderer = Renderer(scene, context=context, tier=tier, **SMALL)
-    image = renderer.render(3).image()
+def bits(scene: Scene, context: Context, tier: blocks.Tier, sampler: str) -> bytes:
+    """Mean and error after two observations and a sample."""
+    renderer = Renderer(scene, context=context, tier=tier, sampler=sampler, **SMALL)
+    image = renderer.render(2 * renderer.settings.block + 1).image()
     renderer.release()
     return image.radiance.tobytes() + image.stderr.tobytes()
 
 
+@pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize("name", scene_names())
 def test_constants_uniform_and_storage_blocks_give_the_same_bits(
-    name: str, context: Context, monkeypatch: pytest.MonkeyPatch
+    name: str, sampler: str, context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On the software drivers; a GPU may round otherwise."""
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     scene = load(name)
-    uniform = bits(scene, context, "generic")
+    uniform = bits(scene, context, "generic", sampler)
     monkeypatch.setattr(blocks, "MOST_BAKED", len(scene.objects))
     if len(scene.objects) <= 100:
-        assert bits(scene, context, "baked") == uniform
-    assert bits(scene, context, "storage") == uniform
+        assert bits(scene, context, "baked", sampler) == uniform
+    assert bits(scene, context, "storage", sampler) == uniform
 
 
 def test_text_has_storage_uniform_blocks_or_constants() -> None:

@@ -178,6 +178,16 @@ def test_two_samples_that_agree_are_no_proof_that_there_is_no_noise() -> None:
         assert compare(flat(0.7, 0.0, samples), reference, alike=True).verdict == verdict
 
 
+def test_two_blocks_of_samples_are_no_proof_either() -> None:
+    """Their samples belong together: 64 of them are four observations."""
+    for samples, verdict in ((64, "same"), (1024, "different")):
+        even = recipe(sampler="sobol")
+        image = replace(flat(0.7, 0.0, samples), recipe=even)
+        reference = replace(flat(0.7, 0.0, samples), recipe=even)
+        reference.radiance[3, 5] = 0.1
+        assert compare(image, reference).verdict == verdict
+
+
 @pytest.mark.parametrize("field", ["radiance", "stderr"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("broken", [0, 1])

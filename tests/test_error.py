@@ -4,6 +4,8 @@ Judged by the rms of the deviations of 8 x 8 block means from their mean over al
 the rms of their reported errors. With 64 renders of nine blocks it is known to 3 %.
 """
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -12,12 +14,14 @@ from glrt.library import load
 from glrt.scene import Scene
 from tests.builders import MATTE, lamp, plane, scene_of, sphere
 from tests.mixture import everything
-from tests.renders import blocks, rendered, rendering
+from tests.renders import SAMPLERS, blocks, rendered, rendering
 
 
-def error_ratio(context: Context, scene: Scene, samples: int, size: int, renders: int) -> float:
+def error_ratio(
+    context: Context, scene: Scene, samples: int, size: int, renders: int, **settings: Any
+) -> float:
     means, errors = [], []
-    with rendering(scene, context, width=size, height=size) as renderer:
+    with rendering(scene, context, width=size, height=size, **settings) as renderer:
         for seed in range(renders):
             renderer.update(seed=seed + 1)
             mean, stderr = blocks(renderer.render(samples).image())
@@ -28,30 +32,44 @@ def error_ratio(context: Context, scene: Scene, samples: int, size: int, renders
     return float(np.sqrt((variance / reported).mean()))
 
 
-def test_reported_error_is_the_error_of_cornell(context: Context) -> None:
+def floor_under_a_lamp() -> Scene:
+    objects = [plane([0, -1, 0], [0, 1, 0], "floor"), sphere([0, 1, -3], 0.5, "lamp")]
+    materials = {"floor": MATTE, "lamp": lamp(4.0)}
+    return scene_of(objects, materials, {"look_at": [0, -1, -2], "fov": 40})
+
+
+@pytest.mark.parametrize("sampler", SAMPLERS)
+def test_reported_error_is_the_error_of_cornell(context: Context, sampler: str) -> None:
     """At 64 samples the block with the most noise, in the caustic, rests on 500 effective samples.
 
     With far fewer, a block either meets a bright path or knows nothing of it. Chance alone goes
     beyond 10 % once in some 1,000 seeds.
     """
-    ratio = error_ratio(context, load("cornell"), samples=64, size=24, renders=64)
+    scene = load("cornell")
+    ratio = error_ratio(context, scene, samples=64, size=24, renders=64, sampler=sampler)
     assert ratio == pytest.approx(1, abs=0.1)
 
 
 @pytest.mark.slow
-def test_reported_error_is_closely_the_error_of_cornell(context: Context) -> None:
+@pytest.mark.parametrize("sampler", SAMPLERS)
+def test_reported_error_is_closely_the_error_of_cornell(context: Context, sampler: str) -> None:
     """16 blocks, 256 renders: known to 1.2 %."""
-    ratio = error_ratio(context, load("cornell"), samples=64, size=32, renders=256)
+    scene = load("cornell")
+    ratio = error_ratio(context, scene, samples=64, size=32, renders=256, sampler=sampler)
     assert ratio == pytest.approx(1, abs=0.05)
+
+
+@pytest.mark.parametrize("samples", [32, 47, 64])
+def test_error_of_blocks_is_right_from_the_second_block_on(context: Context, samples: int) -> None:
+    """Taken over single samples it would promise twice its error here (test_sobol)."""
+    ratio = error_ratio(context, floor_under_a_lamp(), samples, 32, renders=64, sampler="sobol")
+    assert ratio == pytest.approx(1, abs=0.1)
 
 
 @pytest.mark.parametrize("samples", [2, 3, 8])
 def test_error_is_right_from_the_second_sample_on(context: Context, samples: int) -> None:
     """Without Bessel's correction two samples would promise 0.71 of their error."""
-    objects = [plane([0, -1, 0], [0, 1, 0], "floor"), sphere([0, 1, -3], 0.5, "lamp")]
-    materials = {"floor": MATTE, "lamp": lamp(4.0)}
-    eye = {"look_at": [0, -1, -2], "fov": 40}
-    ratio = error_ratio(context, scene_of(objects, materials, eye), samples, size=32, renders=64)
+    ratio = error_ratio(context, floor_under_a_lamp(), samples, size=32, renders=64)
     assert ratio == pytest.approx(1, abs=0.1)
 
 

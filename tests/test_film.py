@@ -36,7 +36,7 @@ GATHER = """
     Sampler rng = make_sampler(seed);
     int index = 0;
     for (int k = 0; k < count; ++k) {
-        float u = next_1d(rng);
+        float u = next_independent(rng);
         vec3 x = vec3(u, 1000.0 + u, u < 0.01 ? 10000.0 : 0.0);
         if (k == bad) x[k % 3] = uintBitsToFloat(poison);
         if (k == bad && skip == 1) continue;
@@ -47,11 +47,15 @@ GATHER = """
 
 def gathered(call_glsl: CallGlsl, seeds: Array, count: int = SAMPLES, **more: Any) -> list[Array]:
     """Mean, variance and dropped samples of each lane."""
+    constants = more.pop("constants", {})
     given = {"count": count, "bad": -1, "skip": 0, **more}
     args: dict[str, Any] = {name: np.array([value]) for name, value in given.items()}
     args |= {"poison": np.array([more.get("poison", 0)], np.uint32), "seed": seeds}
     figures = (("pixel.mean", "vec3"), ("pixel.variance", "vec3"), ("pixel.dropped", "float"))
-    return [call_glsl(what, returns, setup=GATHER, **args) for what, returns in figures]
+    return [
+        call_glsl(what, returns, setup=GATHER, constants=constants, **args)
+        for what, returns in figures
+    ]
 
 
 def samples_of(seeds: Array, count: int) -> Array:
@@ -90,11 +94,35 @@ def test_equal_samples_have_their_value_as_mean_and_no_variance(call_glsl: CallG
 
 
 def test_the_first_sample_is_taken_as_it_is(call_glsl: CallGlsl) -> None:
-    setup = "Pixel pixel = Pixel(x, 0.0, x); add_sample(pixel, vec3(0.1, 2.0, 3e30), 0);"
-    wild = np.array([[np.nan, np.inf, 1e38]])
-    for figure, expected in (("mean", [0.1, 2.0, 3e30]), ("variance", [0, 0, 0])):
-        found = call_glsl(f"pixel.{figure}", "vec3", setup=setup, x=wild)
-        assert np.array_equal(found[0], np.array(expected, np.float32))
+    setup = "Pixel pixel = empty_pixel(); add_sample(pixel, x, 0);"
+    first = np.array([[0.1, 2.0, 3e38], [1e-38, 0.0, 1 / 3]])
+    found = call_glsl("pixel.mean", "vec3", setup=setup, x=first)
+    assert np.array_equal(found, first.astype(np.float32))
+    assert np.all(call_glsl("pixel.variance", "vec3", setup=setup, x=first) == 0)
+
+
+@pytest.mark.parametrize("count", [15, 16, 40, 4096])
+def test_the_variance_is_that_of_whole_blocks(call_glsl: CallGlsl, count: int) -> None:
+    """A block that has begun counts in the mean alone."""
+    blocks = {"BLOCK": 16}
+    mean, variance, _ = gathered(call_glsl, SEEDS, count, constants=blocks)
+    samples = samples_of(SEEDS, count)
+    assert_allclose(mean, samples.mean(axis=1), rtol=2e-5)
+    whole = samples[:, : count // 16 * 16].reshape(len(SEEDS), -1, 16, 3).mean(axis=2)
+    exact = whole.var(axis=1) if whole.size else np.zeros((len(SEEDS), 3))
+    assert_allclose(variance[:, [0, 2]], exact[:, [0, 2]], rtol=1e-4, atol=1e-9)
+
+
+@pytest.mark.parametrize("bad", [0, 15, 16, 20])
+def test_a_dropped_sample_leaves_its_block_to_the_others(call_glsl: CallGlsl, bad: int) -> None:
+    more = {"poison": NAN, "constants": {"BLOCK": 16}}
+    mean, variance, dropped = gathered(call_glsl, SEEDS, 64, bad=bad, **more)
+    samples = samples_of(SEEDS, 64)
+    samples[:, bad] = np.nan
+    assert np.all(dropped == 1)
+    assert_allclose(mean, np.nanmean(samples, axis=1), rtol=1e-5)
+    exact = np.nanmean(samples.reshape(len(SEEDS), 4, 16, 3), axis=2).var(axis=1)
+    assert_allclose(variance[:, 0], exact[:, 0], rtol=0.1)  # its block weighs as much as others
 
 
 # --- samples that are not finite -----------------------------------------------------------
@@ -271,22 +299,22 @@ def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> No
 
 
 def exposure(samples: Array, dropped: int = 0) -> Exposure:
-    """A film of one pixel that has gathered these samples, (n, 3)."""
+    """A film of one pixel that has gathered these observations, (n, 3)."""
     mean, variance = samples.mean(axis=0), samples.var(axis=0)
     place = (1, 1, 3)
-    return Exposure(mean.reshape(place), variance.reshape(place), np.full((1, 1), float(dropped)))
+    figures = [np.full((1, 1), float(figure)) for figure in (dropped, len(samples))]
+    return Exposure(mean.reshape(place), variance.reshape(place), *figures)
 
 
 def test_the_standard_error_is_that_of_the_mean() -> None:
     samples = np.random.default_rng(1).exponential(size=(50, 3)).astype(np.float32)
     exact = samples.std(axis=0, ddof=1) / np.sqrt(50)
-    assert standard_error(exposure(samples), 50)[0, 0] == pytest.approx(exact, rel=1e-6)
-    assert standard_error(exposure(samples, 3), 53)[0, 0] == pytest.approx(exact, rel=1e-6)
+    assert standard_error(exposure(samples))[0, 0] == pytest.approx(exact, rel=1e-6)
+    assert standard_error(exposure(samples, dropped=3))[0, 0] == pytest.approx(exact, rel=1e-6)
 
 
 def test_fewer_than_two_observations_have_no_standard_error() -> None:
     one = np.ones((1, 3), np.float32)
-    assert np.all(np.isnan(standard_error(exposure(one), 1)))
-    assert np.all(np.isnan(standard_error(exposure(one, 4), 5)))
-    assert np.all(np.isnan(standard_error(exposure(one, 5), 5)))
-    assert np.all(standard_error(exposure(np.ones((2, 3), np.float32)), 2) == 0)
+    assert np.all(np.isnan(standard_error(exposure(one))))
+    assert np.all(np.isnan(standard_error(exposure(one, dropped=4))))
+    assert np.all(standard_error(exposure(np.ones((2, 3), np.float32))) == 0)

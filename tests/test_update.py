@@ -55,6 +55,7 @@ CHANGES: dict[str, Any] = {
     "samples": 7,
     "bounces": 3,
     "method": "nee",
+    "sampler": "sobol",
     "crop": (2, 3, 5, 7),
     "roulette": False,
     "seed": 5,
@@ -85,7 +86,7 @@ def test_change_of_a_setting_costs_what_it_declares(context: Context, setting: s
 
 
 def test_every_setting_with_a_choice_is_tried() -> None:
-    assert {*CHANGES, "sampler"} == set(Settings.model_fields)
+    assert CHANGES.keys() == Settings.model_fields.keys()
 
 
 def test_same_state_sent_again_keeps_the_samples(context: Context) -> None:
