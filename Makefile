@@ -1,12 +1,14 @@
 # Each command makes what it needs first: system libraries, then the environment .venv.
 # PYTHON is the interpreter of the environment; ARGS goes to pytest: make test ARGS="-k furnace"
+# SCENE is what `make view` shows: a scene file, a name of one in scenes/, or a picture.
 PYTHON ?= python3
 ARGS ?=
+SCENE ?= cornell
 
 BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
 IN_ENVIRONMENT = .venv/bin/python -m
 
-.PHONY: help render test check gallery bench clean
+.PHONY: help render view test check gallery bench clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
@@ -14,6 +16,10 @@ help: ## show this list
 render: ## render scenes/cornell.toml to cornell.png
 	@$(BOOTSTRAP) render
 	.venv/bin/glrt render cornell -o cornell.png
+
+view: ## show scenes/cornell.toml in a window, or another one: make view SCENE=lamps
+	@$(BOOTSTRAP) view
+	.venv/bin/glrt view "$(SCENE)"
 
 test: ## run the tests, without the slow ones
 	@$(BOOTSTRAP) test

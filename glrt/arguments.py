@@ -60,6 +60,7 @@ def make_parser() -> Parser:
         dest="command", metavar="COMMAND", required=True, parser_class=Parser
     )
     _add_render(commands.add_parser("render", help="render a scene to a file", **_HELP["render"]))
+    _add_view(commands.add_parser("view", help="show a scene in a window", **_HELP["view"]))
     _add_compare(commands.add_parser("compare", help="do two renders differ", **_HELP["compare"]))
     _add_inspect(commands.add_parser("inspect", help="what a scene needs", **_HELP["inspect"]))
     commands.add_parser("doctor", help="which OpenGL routes work here", **_HELP["doctor"])
@@ -74,6 +75,12 @@ _HELP: dict[str, dict[str, Any]] = {
         "--time or --error without --samples lifts the sample limit to 1048576. Ctrl-C saves "
         "what was rendered. Exit codes: 0 done, 1 --error not reached, 2 bad usage or scene, "
         "3 no usable OpenGL, 4 the render failed, 130 and 143 interrupted.",
+    },
+    "view": {
+        "description": "Show a scene in a window, and tune everything live. Closing the window "
+        "saves nothing but the window's own preferences; a picture is saved by its button.",
+        "epilog": "Exit codes: 0 closed, 2 bad usage or scene, 3 no window or no usable OpenGL, "
+        "130 and 143 interrupted.",
     },
     "compare": {
         "description": "Say whether two renders show the same picture up to their noise: same, "
@@ -113,6 +120,13 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", metavar="FILE", help=argparse.SUPPRESS)
     parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _add_view(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "scene", metavar="SCENE", nargs="?", default="cornell", help=f"{_SCENE}; default: cornell"
+    )
+    _add_settings(parser)
 
 
 def _add_compare(parser: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""The commands `render`, `compare`, `inspect`, `doctor` and `schema`."""
+"""The commands `render`, `view`, `compare`, `inspect`, `doctor` and `schema`."""
 
 import argparse
 import json
@@ -23,6 +23,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns its exit code. `arguments` are those of the process by default."""
     commands: dict[str, Callable[[argparse.Namespace], int]] = {
         "render": render,
+        "view": view,
         "compare": compare,
         "inspect": inspect,
         "doctor": doctor,
@@ -54,6 +55,13 @@ def render(arguments: argparse.Namespace) -> int:
         check_writable(output)
     with Interruption().watched() as interruption:
         return _render(arguments, scene, settings, limits, interruption)
+
+
+def view(arguments: argparse.Namespace) -> int:
+    """`glrt view`: exit code 3 where no window can be opened."""
+    from glrt.ui import command
+
+    return command.view(arguments, settings_given(arguments))
 
 
 def compare(arguments: argparse.Namespace) -> int:

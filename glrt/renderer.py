@@ -69,6 +69,15 @@ class Renderer:
             return self.settings.crop[2], self.settings.crop[3]
         return self.settings.width, self.settings.height
 
+    @property
+    def picture(self) -> moderngl.Texture:
+        """The mean so far, for the display pass; without a sample it holds what came before."""
+        return self._film.mean
+
+    def restart(self) -> None:
+        """Begin to accumulate anew."""
+        self._film.restart(*self.size)
+
     def update(self, scene: Scene | None = None, **changes: Any) -> Cost | None:
         """Go on with another scene or other settings; returns what that cost, None for nothing.
 

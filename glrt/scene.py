@@ -94,7 +94,9 @@ class Scene(Frozen):
     )
     materials: dict[Name, Material] = Field({}, description="materials by name")
     lights: dict[Name, Intensity] = Field(
-        {}, description="intensity of light groups, a factor from 0 to 1e15, each 1 by default"
+        {},
+        description="intensity of light groups, a factor from 0 to 1e15, each 1 by default",
+        json_schema_extra={"slider": [0, 10]},
     )
     objects: tuple[Shape, ...] = Field(
         (), max_length=MAX_OBJECTS, description="the shapes, at most 65,536"

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
-from glrt.settings import Frozen
+from glrt.settings import Cost, Frozen
 
 # The squares of lengths and radiances must be normal float32 numbers, which end at 1e-38 and 3e38.
 SMALLEST = 1e-15
@@ -64,7 +64,11 @@ class Camera(Frozen):
         (0.0, 1.0, 0.0), description="the direction that is up in the frame, of any length"
     )
     fov: float = Field(
-        45.0, gt=0, lt=180, description="vertical angle of view in degrees, between 0 and 180"
+        45.0,
+        gt=0,
+        lt=180,
+        description="vertical angle of view in degrees, between 0 and 180",
+        json_schema_extra={"unit": "degrees", "slider": [1, 150]},
     )
     focus_distance: Length | None = Field(
         None,
@@ -77,6 +81,7 @@ class Camera(Frozen):
         lt=180,
         description="full angle of the lens seen from the point in focus, in degrees, "
         "from 0 (a pinhole) to below 180",
+        json_schema_extra={"unit": "degrees", "slider": [0, 20], "cost": Cost.RECOMPILE.value},
     )
 
     @property
@@ -103,13 +108,19 @@ class Background(Frozen):
     """The light that arrives from infinity: one colour, or a vertical gradient."""
 
     color: Radiance | None = Field(
-        None, description="radiance from every direction, 0 to 1e15 each; default black"
+        None,
+        description="radiance from every direction, 0 to 1e15 each; default black",
+        json_schema_extra={"cost": Cost.RECOMPILE.value},
     )
     bottom: Radiance | None = Field(
-        None, description="radiance from straight below, 0 to 1e15 each; needs top"
+        None,
+        description="radiance from straight below, 0 to 1e15 each; needs top",
+        json_schema_extra={"cost": Cost.RECOMPILE.value},
     )
     top: Radiance | None = Field(
-        None, description="radiance from straight above, 0 to 1e15 each; needs bottom"
+        None,
+        description="radiance from straight above, 0 to 1e15 each; needs bottom",
+        json_schema_extra={"cost": Cost.RECOMPILE.value},
     )
 
     @property
@@ -144,7 +155,9 @@ class Metal(_Tagged):
     type: Literal["metal"] = Field("metal", description="the kind of material")
     color: Color = Field(description="reflectance, the same at all angles, 0 to 1 each")
     roughness: Fraction = Field(
-        0.0, description="from 0, a mirror, to 1; its square is the alpha of GGX"
+        0.0,
+        description="from 0, a mirror, to 1; its square is the alpha of GGX",
+        json_schema_extra={"cost": Cost.RECOMPILE.value},
     )
 
 
@@ -152,7 +165,11 @@ class Dielectric(_Tagged):
     """Clear glass or liquid with exact unpolarised Fresnel reflection."""
 
     type: Literal["dielectric"] = Field("dielectric", description="the kind of material")
-    ior: Length = Field(1.5, description="index of refraction, inside over outside, above 0")
+    ior: Length = Field(
+        1.5,
+        description="index of refraction, inside over outside, above 0",
+        json_schema_extra={"slider": [1, 3]},
+    )
 
 
 class Light(_Tagged):

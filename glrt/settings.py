@@ -27,8 +27,16 @@ class Cost(StrEnum):
     RECOMPILE = "recompile"  # another kernel
 
 
-def _setting(default: Any, help_text: str, cost: Cost, unit: str = "", **limits: Any) -> Any:
-    extra: dict[str, Any] = {"cost": cost.value, "unit": unit}
+def _setting(
+    default: Any,
+    help_text: str,
+    cost: Cost,
+    unit: str = "",
+    slider: tuple[float, float] | None = None,
+    **limits: Any,
+) -> Any:
+    """`slider`: the range that is worth dragging through; the limits are what is valid."""
+    extra: dict[str, Any] = {"cost": cost.value, "unit": unit, "slider": slider}
     return Field(default, description=help_text, json_schema_extra=extra, **limits)
 
 
@@ -41,13 +49,23 @@ class Frozen(BaseModel):
 class RenderSettings(Frozen):
     """How a scene wants to be rendered: its `[render]` table."""
 
-    width: int = _setting(512, "width of the frame", Cost.RESTART, "pixels", ge=1, le=16384)
-    height: int = _setting(512, "height of the frame", Cost.RESTART, "pixels", ge=1, le=16384)
+    width: int = _setting(
+        512, "width of the frame", Cost.RESTART, "pixels", (16, 4096), ge=1, le=16384
+    )
+    height: int = _setting(
+        512, "height of the frame", Cost.RESTART, "pixels", (16, 4096), ge=1, le=16384
+    )
     samples: int = _setting(
-        256, "samples of each pixel", Cost.FREE, "samples", ge=1, le=MAX_SAMPLES
+        256, "samples of each pixel", Cost.FREE, "samples", (1, 65536), ge=1, le=MAX_SAMPLES
     )
     bounces: int = _setting(
-        10, "largest number of scattering events on a path", Cost.RESTART, "", ge=0, le=1000
+        10,
+        "largest number of scattering events on a path",
+        Cost.RESTART,
+        "",
+        (0, 32),
+        ge=0,
+        le=1000,
     )
     method: Method = _setting(
         "mis",
@@ -75,7 +93,7 @@ class Settings(RenderSettings):
     )
     seed: int = _setting(0, "chooses the random numbers", Cost.RESTART, "", ge=0, le=0xFFFFFFFF)
     exposure: float = _setting(
-        0.0, "brightness of PNG files and of the display", Cost.FREE, "EV", ge=-50, le=50
+        0.0, "brightness of PNG files and of the display", Cost.FREE, "EV", (-8, 8), ge=-50, le=50
     )
     tonemap: ToneMap = _setting("neutral", "tone curve of PNG files and of the display", Cost.FREE)
 

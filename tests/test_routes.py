@@ -4,8 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from ctypes.util import find_library
 from pathlib import Path
 
@@ -16,6 +14,7 @@ from numpy.typing import NDArray
 from tests.images import same_bits
 from tests.packages import needs_package
 from tests.renders import METHODS
+from tests.screens import screen
 
 DRAW = """
 import sys
@@ -61,18 +60,6 @@ def draw(route: str, folder: Path, display: str = "") -> Pictures:
     assert told.returncode == 0, told.stderr
     with np.load(file) as drawn:
         return dict(drawn)
-
-
-@contextmanager
-def screen() -> Iterator[str]:
-    """An X server of its own; it chooses the number. Not xvfb-run: that needs xauth too."""
-    told, end = os.pipe()
-    command = ["Xvfb", "-displayfd", str(end), "-screen", "0", "64x64x24", "-nolisten", "tcp"]
-    with subprocess.Popen(command, pass_fds=[end], stderr=subprocess.DEVNULL) as server:
-        os.close(end)
-        with os.fdopen(told) as numbers:
-            yield f":{numbers.readline().strip()}"
-        server.terminate()
 
 
 @pytest.fixture(scope="module")

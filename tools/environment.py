@@ -20,8 +20,14 @@ import steps
 State = dict[str, Any]
 UNFINISHED: State = {"unfinished": True}
 STATE_FILE = "glrt-setup.json"
-EXTRAS = {"check": "[dev]", "render": "", "test": "[dev]"}
-COVERS = {"check": (), "render": ("check",), "test": ("check", "render")}  # by system libraries
+EXTRAS = {"check": "[dev]", "render": "", "test": "[dev]", "view": "[view]"}
+BRINGS = {"": [""], "[view]": ["", "[view]"], "[dev]": ["", "[view]", "[dev]"]}
+COVERS = {  # by system libraries
+    "check": (),
+    "render": ("check",),
+    "test": ("check", "render", "view"),
+    "view": ("check", "render"),
+}
 TELL_PYTHON = "import sys, pip; print('%d.%d.%d' % sys.version_info[:3], sys.base_prefix)"
 
 
@@ -44,7 +50,7 @@ def make(root: str, purpose: str, missing: list[str]) -> None:
         if not reusable:
             _create(root)
         _install(root, purpose, state if reusable else UNFINISHED)
-        state = {**_origin(root), "extras": ["", EXTRAS[purpose]], "missing": _known(state)}
+        state = {**_origin(root), "extras": BRINGS[EXTRAS[purpose]], "missing": _known(state)}
     state["missing"] |= {covered: [] for covered in COVERS[purpose]} | {purpose: missing}
     _write(root, state)
 

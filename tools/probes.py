@@ -55,6 +55,11 @@ def xvfb() -> str:
     return library("libX11.so.6") if shutil.which("Xvfb") else "no program Xvfb"
 
 
+def window() -> str:
+    """Are the libraries there with which a window opens under X11?"""
+    return library("libGL.so.1") or library("libX11.so.6") or library("libXext.so.6")
+
+
 def cxx() -> str:
     """Is the C++ runtime there, which the compiled Python packages need?"""
     return library("libstdc++.so.6")

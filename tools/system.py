@@ -44,10 +44,19 @@ XVFB = Need(
     "Xvfb (Fedora: xorg-x11-server-Xvfb; Arch: xorg-server-xvfb; Alpine: xvfb)",
 )
 
+WINDOW = Need(
+    "a window",
+    probes.window,
+    ("libgl1", "libx11-6", "libxext6", "libxcursor1", "libxi6", "libxinerama1", "libxrandr2"),
+    "OpenGL for X11 (Fedora: mesa-libGL libX11 libXext; Arch: mesa libx11 libxext; "
+    "Alpine: mesa-gl libx11 libxext)",
+)
+
 WANTED = {
     "check": (CXX, VENV),
     "render": (CXX, VENV, EGL, OSMESA),
-    "test": (CXX, VENV, EGL, OSMESA, XVFB),
+    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW),
+    "view": (CXX, VENV, EGL, OSMESA, WINDOW),
 }
 Missing = Mapping[Need, str]  # what does not work, and why
 
@@ -70,7 +79,7 @@ def find_missing(purpose: str) -> Missing:
     """What the purpose wants and does not find; a render asks for one OpenGL route, not for two."""
     tried = {need: need.probe() for need in WANTED[purpose]}
     missing = {need: reason for need, reason in tried.items() if reason}
-    if purpose == "render" and not {EGL, OSMESA} <= missing.keys():
+    if purpose in ("render", "view") and not {EGL, OSMESA} <= missing.keys():
         return {need: why for need, why in missing.items() if need not in (EGL, OSMESA)}
     return missing
 

@@ -1,0 +1,56 @@
+"""Undo and redo of values that are never changed in place."""
+
+from typing import Generic, TypeVar
+
+State = TypeVar("State")
+
+MOST = 500  # steps that can be undone
+
+
+class History(Generic[State]):
+    """The states before and after the present one; a gesture, such as a drag, is one step."""
+
+    def __init__(self) -> None:
+        """Nothing to undo."""
+        self._past: list[State] = []
+        self._future: list[State] = []
+        self._gesture = ""
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a state before this one."""
+        return bool(self._past)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is a state that was undone."""
+        return bool(self._future)
+
+    def record(self, before: State, gesture: str = "") -> None:
+        """Remember the state that an edit leaves.
+
+        Edits of one gesture in a row are one step, until `settle` ends it; "" is no gesture.
+        """
+        if not (gesture and gesture == self._gesture):
+            self._past = [*self._past[-MOST + 1 :], before]
+        self._gesture = gesture
+        self._future.clear()
+
+    def settle(self) -> None:
+        """End the gesture: the mouse was let go."""
+        self._gesture = ""
+
+    def undo(self, present: State) -> State:
+        """The state before; the same if there is none."""
+        return self._step(self._past, self._future, present)
+
+    def redo(self, present: State) -> State:
+        """The state that was undone last; the same if there is none."""
+        return self._step(self._future, self._past, present)
+
+    def _step(self, source: list[State], target: list[State], present: State) -> State:
+        self.settle()
+        if not source:
+            return present
+        target.append(present)
+        return source.pop()

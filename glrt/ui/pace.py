@@ -1,0 +1,23 @@
+"""How long a frame may render, so that the window stays at its rate."""
+
+LEAST = 0.004  # seconds: a frame always gets on with the picture
+MEMORY = 0.2  # weight of the newest frame in what the window itself takes
+
+
+class Pace:
+    """Shares the time of a frame between the window and the picture."""
+
+    def __init__(self, frames_per_second: float) -> None:
+        """Nothing has been measured yet: the window is taken to need no time."""
+        self.frames_per_second = frames_per_second
+        self._window = 0.0
+
+    @property
+    def seconds(self) -> float:
+        """How long the next frame may render."""
+        return max(LEAST, 1 / self.frames_per_second - self._window)
+
+    def record(self, frame: float, rendering: float) -> None:
+        """Learn from a frame: how long it took, and how much of that rendered."""
+        window = max(0.0, frame - rendering)
+        self._window += MEMORY * (min(window, 1.0) - self._window)

@@ -1,0 +1,204 @@
+"""The panel: every setting and every value of the scene that a user tunes, by subject."""
+
+from functools import partial
+from typing import Any
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.library import scene_names
+from glrt.scene import SKY_GROUP, Background, Camera, Light, Scene, with_lights
+from glrt.settings import Settings
+from glrt.ui.app import App
+from glrt.ui.controls import Control, control_of_items, controls_of, replaced
+from glrt.ui.preferences import Preferences
+from glrt.ui.widgets import edited, edited_fields, legend
+
+SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
+PATHS = ("bounces", "method", "roulette", "seed")
+DISPLAY = ("exposure", "tonemap")
+FRAME = ("width", "height")
+CAMERA = {c.name: c for c in controls_of(Camera)}
+INTENSITY = control_of_items(Scene, "lights")
+EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
+BACKGROUND = {c.name: c for c in controls_of(Background)}
+PREFERENCES = controls_of(Preferences)
+FREE_SAMPLES = ("samples_per_frame",)
+
+_OPEN = imgui.TreeNodeFlags_.default_open.value
+_RED = (0.95, 0.35, 0.35, 1.0)
+
+
+def draw_panel(app: App) -> None:
+    """The content of the window that holds the controls."""
+    _problem(app)
+    _commands(app)
+    for title, section, flags in _SECTIONS:
+        if imgui.collapsing_header(title, flags):
+            section(app)
+
+
+def _problem(app: App) -> None:
+    if not app.session.problem:
+        return
+    imgui.push_style_color(imgui.Col_.text, _RED)
+    imgui.text_wrapped(app.session.problem)
+    imgui.pop_style_color()
+    if imgui.button("dismiss"):
+        app.session.problem = ""
+
+
+def _commands(app: App) -> None:
+    session = app.session
+    if imgui.button("go on" if session.paused else "pause"):
+        session.paused = not session.paused
+    imgui.same_line()
+    if imgui.button("restart"):
+        session.restart()
+    imgui.same_line()
+    if _button("undo", session.history.can_undo):
+        session.undo()
+    imgui.same_line()
+    if _button("redo", session.history.can_redo):
+        session.redo()
+
+
+def _button(label: str, enabled: bool) -> bool:
+    imgui.begin_disabled(not enabled)
+    pressed = imgui.button(label)
+    imgui.end_disabled()
+    return pressed
+
+
+def _lights(app: App) -> None:
+    """A slider for each group, and the colours of its lamps."""
+    scene = app.session.scene
+    for group, intensity in scene.light_groups.items():
+        if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
+            continue
+        imgui.separator_text(group)
+        new = edited(INTENSITY.named("intensity"), intensity, group)
+        if new is not None:
+            app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
+        for name, material in scene.materials.items():
+            if isinstance(material, Light) and (material.group or name) == group:
+                _emission(app, name, material)
+
+
+def _emission(app: App, name: str, material: Light) -> None:
+    color = edited(EMISSION, material.emission, name)
+    if color is not None:
+        app.edit_scene(f"emission {name}", partial(_with_material, name=name, emission=color))
+
+
+def _with_material(scene: Scene, name: str, **changes: Any) -> Scene:
+    material = replaced(scene.materials[name], **changes)
+    return replaced(scene, materials={**scene.materials, name: material})
+
+
+def _with_camera(scene: Scene, **changes: Any) -> Scene:
+    return replaced(scene, camera=replaced(scene.camera, **changes))
+
+
+def _with_background(scene: Scene, **colors: Any) -> Scene:
+    return replaced(scene, background=replaced(Background(), **colors))
+
+
+def _paths(app: App) -> None:
+    _settings(app, PATHS)
+
+
+def _samples(app: App) -> None:
+    _settings(app, ("samples",))
+    _preferences(app, [c for c in PREFERENCES if c.name in FREE_SAMPLES])
+
+
+def _camera(app: App) -> None:
+    camera = app.camera
+    values = {**dict(camera), "focus_distance": camera.resolved_focus_distance}
+    names = ("fov", "focus_distance", "defocus_angle", "position", "look_at")
+    changes = edited_fields(tuple(CAMERA[name] for name in names), values)
+    if changes:
+        app.edit_scene(f"camera {list(changes)}", partial(_with_camera, **changes))
+    if camera.focus_distance is not None and imgui.button("focus on look at"):
+        app.edit_scene("", partial(_with_camera, focus_distance=None))
+    if imgui.button("home"):
+        app.home()
+    _preferences(app, [c for c in PREFERENCES if c.name in ("mode",)])
+
+
+def _display(app: App) -> None:
+    _settings(app, DISPLAY)
+
+
+def _background(app: App) -> None:
+    """One colour, or a gradient from bottom to top."""
+    background = app.session.scene.background
+    bottom, top = background.gradient
+    is_gradient = background.top is not None
+    names = ("bottom", "top") if is_gradient else ("color",)
+    values: dict[str, Any] = {"color": bottom, "bottom": bottom, "top": top}
+    changes = edited_fields(tuple(BACKGROUND[name] for name in names), values, "background")
+    if changes:
+        kept = {name: values[name] for name in names}
+        app.edit_scene("background", partial(_with_background, **{**kept, **changes}))
+    pressed, wanted = imgui.checkbox("gradient", is_gradient)
+    if pressed:
+        other: dict[str, Any] = {"color": top} if not wanted else {"bottom": bottom, "top": top}
+        app.edit_scene("", partial(_with_background, **other))
+
+
+def _frame(app: App) -> None:
+    _settings(app, FRAME)
+
+
+def _files(app: App) -> None:
+    """Scenes to open, and where the picture goes."""
+    names = scene_names()
+    index = names.index(app.source) if app.source in names else -1
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    chosen, index = imgui.combo("scene", index, names)
+    if chosen:
+        app.open(names[index])
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    _, app.open_path = imgui.input_text("##open", app.open_path)
+    imgui.same_line()
+    if _button("open", bool(app.open_path)):
+        app.open(app.open_path)
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    _, app.save_path = imgui.input_text("##save", app.save_path)
+    imgui.same_line()
+    if _button("save", app.session.samples > 0):
+        app.save()
+    imgui.text_disabled(app.message)
+
+
+def _window(app: App) -> None:
+    shown = [c for c in PREFERENCES if c.name not in ("mode", *FREE_SAMPLES)]
+    _preferences(app, shown)
+    imgui.separator_text("what an edit costs")
+    legend()
+
+
+def _settings(app: App, names: tuple[str, ...]) -> None:
+    changes = edited_fields(tuple(SETTINGS[n] for n in names), dict(app.session.settings))
+    if changes:
+        app.session.edit(gesture=f"{list(changes)}", **changes)
+
+
+def _preferences(app: App, controls: list[Control]) -> None:
+    changes = edited_fields(tuple(controls), dict(app.preferences), "preference")
+    if changes:
+        app.prefer(replaced(app.preferences, **changes))
+
+
+_SECTIONS = (
+    ("Light", _lights, _OPEN),
+    ("Paths", _paths, _OPEN),
+    ("Samples", _samples, _OPEN),
+    ("Display", _display, _OPEN),
+    ("Camera", _camera, _OPEN),
+    ("Background", _background, 0),
+    ("Frame", _frame, 0),
+    ("Files", _files, 0),
+    ("Window", _window, 0),
+)

@@ -1,0 +1,118 @@
+"""Widgets for controls: a value in, the edited value out, and what an edit costs beside it."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.settings import Cost
+from glrt.ui.controls import MEANING, Control
+
+# Hue tells the classes apart in both themes; the word stands beside it.
+COLORS = {
+    Cost.FREE: (0.30, 0.66, 0.36, 1.0),
+    Cost.RELIGHT: (0.30, 0.58, 0.90, 1.0),
+    Cost.RESTART: (0.85, 0.58, 0.13, 1.0),
+    Cost.RECOMPILE: (0.88, 0.36, 0.36, 1.0),
+}
+_HDR = imgui.ColorEditFlags_.float.value | imgui.ColorEditFlags_.hdr.value
+_LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
+
+
+def edited(control: Control, value: Any, name: str = "") -> Any:
+    """Draw the widget of a control; the new value, or None if it was not touched.
+
+    `name` distinguishes controls of one label: those of two lamps, say.
+    """
+    label = f"{control.label}##{name}" if name else control.label
+    imgui.set_next_item_width(hello_imgui.em_size(9.5))
+    changed, new = _draw(control, label, value)
+    tooltip(control)
+    _tag(control.cost)
+    return _clamped(control, new) if changed else None
+
+
+def tooltip(control: Control) -> None:
+    """Tell what the item drawn last does, and what it costs."""
+    help_text = control.help[:1].upper() + control.help[1:]
+    unit = f" [{control.unit}]" if control.unit else ""
+    imgui.set_item_tooltip(f"{help_text}{unit}\n{control.cost.value}: {MEANING[control.cost]}")
+
+
+def legend() -> None:
+    """What the classes of cost mean."""
+    for cost, meaning in MEANING.items():
+        imgui.text_colored(COLORS[cost], cost.value)
+        imgui.same_line(hello_imgui.em_size(5.5))
+        imgui.text(meaning)
+
+
+def _tag(cost: Cost) -> None:
+    imgui.same_line(imgui.get_window_width() - hello_imgui.em_size(5.6))
+    imgui.text_colored(COLORS[cost], cost.value)
+
+
+def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.kind == "switch":
+        return imgui.checkbox(label, value)
+    if control.kind == "choice":
+        changed, index = imgui.combo(label, control.choices.index(value), list(control.choices))
+        return changed, control.choices[index]
+    if control.kind == "color":
+        return _color(control, label, value)
+    if control.kind == "vector":
+        changed, parts = imgui.drag_float3(label, list(value), 0.01, format="%.3f")
+        return changed, tuple(parts)
+    return _number(control, label, value)
+
+
+def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    flags = _HDR if control.high is None or control.high > 1 else imgui.ColorEditFlags_.float.value
+    changed, parts = imgui.color_edit3(label, list(value), flags)
+    return changed, tuple(parts)
+
+
+def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """A slider over the range worth dragging; Ctrl and a click take any valid number."""
+    flags = _LOGARITHMIC if control.is_logarithmic else 0
+    if control.slider is None:
+        return _free_number(control, label, value)
+    low, high = control.slider
+    if control.kind == "integer":
+        return imgui.slider_int(label, value, int(low), int(high), flags=flags)
+    return imgui.slider_float(label, value, float(low), float(high), "%.3g", flags)
+
+
+def _free_number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.kind == "integer":
+        return _typed_integer(label, value)
+    return imgui.drag_float(label, value, max(abs(value) * 0.005, 1e-6), format="%.4g")
+
+
+def _typed_integer(label: str, value: int) -> tuple[bool, int]:
+    """A text box: the integers of Dear ImGui end at 2^31."""
+    flags = imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
+    changed, text = imgui.input_text(label, str(value), int(flags))
+    return changed and text.isdecimal(), int(text) if text.isdecimal() else value
+
+
+def _clamped(control: Control, value: Any) -> Any:
+    """The nearest valid value: one that was typed may be anything."""
+    if isinstance(value, tuple):
+        return tuple(_clamped(control, part) for part in value)
+    if isinstance(value, bool | str):
+        return value
+    low = -math.inf if control.low is None else control.low
+    high = math.inf if control.high is None else control.high
+    near = max(low, min(value, high))
+    return int(near) if isinstance(value, int) else float(str(np.float32(near)))
+
+
+def edited_fields(
+    controls: tuple[Control, ...], values: Mapping[str, Any], name: str = ""
+) -> dict[str, Any]:
+    """Draw the widgets of several fields; those that were edited, with their new values."""
+    drawn = {c.name: edited(c, values[c.name], name) for c in controls}
+    return {field: value for field, value in drawn.items() if value is not None}

@@ -1,0 +1,152 @@
+"""A hand on the window: it clicks, drags and types as a user does, by the test engine.
+
+The engine runs a check on a thread of its own, in turns with the window's frames. OpenGL belongs to
+the window's thread: `Hand.there` runs something on that.
+"""
+
+import json
+import sys
+import traceback
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+from imgui_bundle.immapp import testing
+from numpy.typing import NDArray
+
+from glrt.library import load
+from glrt.settings import settings_for
+from glrt.ui.picture import Picture
+from glrt.ui.preferences import Preferences
+from glrt.ui.session import Session
+from glrt.ui.window import Window
+
+Result = TypeVar("Result")
+Check = Callable[["Hand"], None]
+
+CHECKS: dict[str, Check] = {}
+SCENE = "cornell"
+SMALL: dict[str, Any] = {"width": 40, "height": 40, "samples": 1 << 16}
+
+
+def check(function: Check) -> Check:
+    """Register a check; each begins with the window as it was opened."""
+    CHECKS[function.__name__] = function
+    return function
+
+
+class Hand:
+    """What a check can do with the window, and see of it."""
+
+    def __init__(self, window: Window) -> None:
+        self.window = window
+        self.ctx: imgui.test_engine.TestContext
+        self._preferences = Preferences(samples_per_frame=2)
+        self._errands: list[Callable[[], None]] = []
+        before = window.params.callbacks.pre_new_frame
+
+        def run_errands() -> None:
+            while self._errands:
+                self._errands.pop(0)()
+            before()
+
+        window.params.callbacks.pre_new_frame = run_errands
+
+    @property
+    def session(self) -> Session:
+        return self.window.app.session
+
+    def there(self, errand: Callable[[], Result]) -> Result:
+        """The result of a function that runs on the window's thread, between two frames."""
+        results: list[Result] = []
+        self._errands.append(lambda: results.append(errand()))
+        self.until(lambda: bool(results))
+        return results[0]
+
+    def until(self, condition: Callable[[], bool], frames: int = 400) -> None:
+        """Let frames pass until the condition holds."""
+        for _ in range(frames):
+            if condition():
+                return
+            self.ctx.yield_()
+        raise AssertionError(f"not within {frames} frames; problem: {self.session.problem!r}")
+
+    def settle(self) -> None:
+        """Let the window take in all edits, and get samples."""
+        self.ctx.yield_(2)
+        session = self.session
+        self.until(lambda: not session.busy and session.samples > 0 and not session.is_preview)
+        self.ctx.yield_()
+
+    def begin(self) -> None:
+        """The window as it was opened."""
+
+        def reset() -> None:
+            app = self.window.app
+            self.session.paused, self.session.problem = False, ""
+            app.preferences = self._preferences
+            self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
+            app.pivot = app.camera.look_at
+
+        self.there(reset)
+        self.settle()
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """The picture as the window shows it, (H, W, 4), row 0 on top."""
+        return self.there(lambda: _read(self.window.app.picture))
+
+    def type_value(self, reference: str, value: Any) -> None:
+        """Ctrl, click, a number, and Enter."""
+        self.ctx.item_input_value(reference, value)
+
+    def capture(self, file: Path) -> None:
+        """A picture of the whole window."""
+        testing.capture(self.ctx, str(file))
+
+
+def _read(picture: Picture) -> NDArray[np.uint8]:
+    assert picture._texture
+    width, height = picture.size
+    codes = np.frombuffer(picture._texture.read(), np.uint8)
+    return codes.reshape(height, width, 4)[::-1].copy()
+
+
+def run_checks(checks: dict[str, Check]) -> dict[str, str]:
+    """Run all in one window; what each found wrong, "" for nothing."""
+    scene = load(SCENE)
+    window = Window(SCENE, scene, settings_for(scene.render, **SMALL))
+    window.params.app_window_params.window_geometry.size = (900, 1000)
+    window.params.app_window_params.restore_previous_geometry = False
+    hand = Hand(window)
+    found: dict[str, str] = {}
+
+    def work(ctx: imgui.test_engine.TestContext) -> None:
+        hand.ctx = ctx
+        engine = imgui.test_engine.get_io(hello_imgui.get_imgui_test_engine())
+        engine.config_watchdog_warning = engine.config_watchdog_kill_test = 250.0  # seconds
+        for name, function in checks.items():
+            try:
+                hand.begin()
+                function(hand)
+                found[name] = "" if not ctx.is_error() else "an item was not found; see the log"
+            except Exception:
+                found[name] = traceback.format_exc()
+            if ctx.is_error():
+                break
+
+    try:
+        testing.run(test_function=work, runner_params=window.params, add_ons_params=window.add_ons)
+    except RuntimeError as error:
+        found["window"] = str(error)
+    return found
+
+
+def main() -> None:
+    """Run the checks named, or all; `found.json` in the folder tells what they found."""
+    import_module("tests.window_checks")
+    folder, names = Path(sys.argv[1]), sys.argv[2:]
+    chosen = {name: CHECKS[name] for name in names or CHECKS}
+    (folder / "found.json").write_text(json.dumps(run_checks(chosen)))

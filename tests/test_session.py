@@ -1,0 +1,229 @@
+"""What the window edits, without a window: edits, costs, previews, and the time of a frame."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from glrt.context import Context
+from glrt.errors import SceneError
+from glrt.renderer import Renderer
+from glrt.scene import Camera, Scene
+from glrt.settings import Cost, settings_for
+from glrt.ui.controls import replaced
+from glrt.ui.pace import LEAST, Pace
+from glrt.ui.session import ANNOUNCED, STILL, Session
+from tests.builders import MATTE, lamp, sphere
+from tests.mixture import everything
+
+
+class Clock:
+    """Time that passes as told: each reading of the clock costs a step."""
+
+    def __init__(self) -> None:
+        self.now, self.step = 100.0, 0.001
+
+    def __call__(self) -> float:
+        self.now += self.step
+        return self.now
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def session(context: Context, clock: Clock) -> Iterator[Session]:
+    scene = everything()
+    settings = settings_for(scene.render, width=16, height=16, bounces=3, samples=1000)
+    opened = Session(scene, settings, context, clock)
+    with context.gl:
+        yield opened
+        opened.release()
+
+
+def start(session: Session) -> None:
+    for _ in range(ANNOUNCED + 1):
+        session.advance(0.01)
+
+
+def aside(scene: Scene) -> Scene:
+    camera = scene.camera
+    x, y, z = camera.position
+    return replaced(scene, camera=replaced(camera, position=(x + 0.01, y, z)))
+
+
+def test_the_first_frames_announce_the_kernel(session: Session) -> None:
+    session.advance(0.01)
+    assert "Compiling" in session.busy
+    assert session.samples == 0
+    start(session)
+    assert session.busy == ""
+    assert session.samples > 0
+
+
+def test_edits_of_a_frame_cost_one_restart(session: Session) -> None:
+    start(session)
+    before = session.restarts
+    session.edit(seed=1)
+    session.edit(bounces=2)
+    session.edit(aside(session.scene))
+    session.advance(0.01)
+    assert session.restarts == before + 1
+    assert session.last_cost is Cost.RESTART
+
+
+def test_a_free_edit_loses_no_sample(session: Session) -> None:
+    start(session)
+    samples = session.samples
+    session.edit(exposure=1.0)
+    session.edit(samples=2000)
+    session.advance(0.01)
+    assert session.samples > samples
+    assert session.last_cost is Cost.FREE
+
+
+def test_an_edit_that_is_taken_back_within_a_frame_costs_nothing(session: Session) -> None:
+    start(session)
+    samples = session.samples
+    session.edit(method="naive")
+    session.advance(0.01)
+    assert session.busy
+    session.undo()
+    session.advance(0.01)
+    assert session.busy == ""
+    assert session.samples > samples
+
+
+def test_a_refused_setting_is_told_and_changes_nothing(session: Session) -> None:
+    start(session)
+    before = session.state
+    session.edit(bounces=-1)
+    assert "bounces" in session.problem
+    assert session.state == before
+    assert not session.history.can_undo
+
+
+def test_what_the_renderer_refuses_is_told_and_the_old_scene_goes_on(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise SceneError("too many shapes")
+
+    start(session)
+    before, samples = session.state, session.samples
+    with monkeypatch.context() as patch:
+        patch.setattr(Renderer, "update", refuse)
+        session.edit(aside(session.scene))
+        session.advance(0.01)
+    assert session.problem == "too many shapes"
+    assert session.state == before
+    session.advance(0.01)
+    assert session.samples > samples
+
+
+def test_a_frame_ends_with_its_time(session: Session, clock: Clock) -> None:
+    start(session)
+    for seconds in (0.1, 0.02):
+        began = clock.now
+        session.advance(seconds)
+        assert clock.now - began < 1.5 * seconds + 10 * clock.step
+
+
+def test_slow_dispatches_are_not_made_longer(session: Session, clock: Clock) -> None:
+    start(session)
+    session.restart()
+    clock.step = 0.05  # a dispatch of one sample now takes as long as the frame
+    session.advance(0.05)
+    assert session.samples == 1
+
+
+def test_a_count_of_samples_for_each_frame_is_kept(session: Session) -> None:
+    start(session)
+    samples = session.samples
+    session.advance(10.0, count=3)
+    assert session.samples == samples + 3
+
+
+def test_rendering_ends_at_the_target(session: Session) -> None:
+    start(session)
+    session.restart()
+    session.edit(samples=5)
+    for _ in range(5):
+        session.advance(1.0)
+    assert session.samples == 5
+    assert session.is_done
+
+
+def test_a_paused_session_shows_one_sample_of_what_is_new(session: Session) -> None:
+    start(session)
+    session.paused = True
+    session.edit(seed=9)
+    for _ in range(3):
+        session.advance(1.0)
+    assert session.samples == 1
+    assert session.is_done
+    session.paused = False
+    assert not session.is_done
+
+
+def test_a_moving_camera_is_shown_coarsely_when_samples_are_slow(
+    session: Session, clock: Clock
+) -> None:
+    start(session)
+    clock.step = 0.02
+    for _ in range(20):
+        session.advance(0.01)  # learns that a sample takes twice the time of a frame
+    session.edit(aside(session.scene), "camera")
+    session.advance(0.01)
+    assert session.renderer
+    assert session.is_preview
+    assert session.renderer.size == (8, 8)
+    assert session.settings.width == 16, "what the user asked for stays"
+    clock.now += STILL
+    session.advance(0.01)
+    assert not session.is_preview
+    assert session.renderer.size == (16, 16)
+
+
+def test_a_fast_renderer_moves_at_full_size(session: Session) -> None:
+    start(session)
+    session.edit(aside(session.scene), "camera")
+    session.advance(0.1)
+    assert not session.is_preview
+
+
+def test_undo_brings_back_scene_and_settings(session: Session) -> None:
+    start(session)
+    opened = session.state
+    session.edit(aside(session.scene), "camera")
+    session.edit(aside(session.scene), "camera")
+    session.edit(bounces=1)
+    session.undo()
+    assert session.settings.bounces == 3
+    session.undo()
+    assert session.state == opened
+    session.redo()
+    assert session.scene.camera.position[0] == pytest.approx(opened.scene.camera.position[0] + 0.02)
+
+
+def test_another_scene_can_be_opened(session: Session) -> None:
+    start(session)
+    ball = {"camera": Camera(position=(0, 0, 3), look_at=(0, 0, 0)).model_dump()}
+    other = everything([sphere([0, 0, 0], 1, "l")], materials={"l": lamp(), "m": MATTE}, **ball)
+    session.edit(other)
+    start(session)
+    assert session.problem == ""
+    assert session.renderer
+    assert session.renderer.scene == other
+
+
+def test_a_pace_leaves_the_window_its_time() -> None:
+    pace = Pace(10)
+    assert pace.seconds == pytest.approx(0.1)
+    for _ in range(60):
+        pace.record(frame=0.1, rendering=0.07)
+    assert pace.seconds == pytest.approx(0.07, abs=1e-6)
+    for _ in range(60):
+        pace.record(frame=0.5, rendering=0.1)
+    assert pace.seconds == LEAST

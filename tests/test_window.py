@@ -1,0 +1,107 @@
+"""The window under an X server without a screen: used by hand, killed, or not to be had.
+
+All of `tests/window_checks.py` runs in one window and one process; each check is a test here.
+"""
+
+import ast
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from ctypes.util import find_library
+from pathlib import Path
+
+import pytest
+
+from tests.packages import needs_package
+from tests.processes import glrt
+from tests.screens import screen
+
+ROOT = Path(__file__).parents[1]
+CHECKS = [
+    node.name
+    for node in ast.parse((ROOT / "tests" / "window_checks.py").read_text()).body
+    if isinstance(node, ast.FunctionDef) and node.decorator_list
+]
+
+
+@pytest.fixture(scope="module")
+def display() -> Iterator[str]:
+    needs_package(bool(shutil.which("Xvfb")), "xvfb")
+    needs_package(bool(find_library("X11")), "libx11-6")
+    with screen("1280x1100") as name:
+        yield name
+
+
+@pytest.fixture(scope="module")
+def found(display: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What each check found wrong, "" for nothing."""
+    folder = tmp_path_factory.mktemp("window")
+    environment = {
+        "DISPLAY": display,
+        "XDG_CONFIG_HOME": str(folder / "config"),
+        "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
+    }
+    told = subprocess.run(
+        [sys.executable, "-W", "error", "-c", "from tests.hand import main; main()", str(folder)],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        env={**os.environ, **environment},
+        timeout=280,
+    )
+    file = folder / "found.json"
+    assert file.exists(), told.stdout[-2000:] + told.stderr[-4000:]
+    result: dict[str, str] = json.loads(file.read_text())
+    return result
+
+
+@pytest.mark.parametrize("check", [*CHECKS, "window"])
+def test_in_the_window(found: dict[str, str], check: str) -> None:
+    assert found.get(check, "did not run" if check in CHECKS else "") == ""
+
+
+@pytest.mark.parametrize("seconds", [0.6, 1.2, 2.5])
+def test_a_window_that_is_killed_leaves_no_traceback(
+    display: str, tmp_path: Path, seconds: float
+) -> None:
+    config = tmp_path / "config"
+    command = [sys.executable, "-m", "glrt", "view", "cornell", "--width", "32", "--height", "32"]
+    environment = {**os.environ, "DISPLAY": display, "XDG_CONFIG_HOME": str(config)}
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=environment, stderr=pipe, text=True) as window:
+        time.sleep(seconds)
+        window.send_signal(signal.SIGTERM)
+        _, told = window.communicate(timeout=60)
+    assert window.returncode in (143, -signal.SIGTERM)
+    assert "Traceback" not in told
+    assert list(tmp_path.rglob(".glrt-*")) == []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is always a display")
+def test_without_a_display_the_advice_is_to_render() -> None:
+    done = glrt("view", "cornell", DISPLAY="", WAYLAND_DISPLAY="")
+    assert done.returncode == 3
+    assert "glrt render" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_without_the_extra_the_advice_is_to_install_it(tmp_path: Path) -> None:
+    code = (
+        "import sys; sys.modules['imgui_bundle'] = None; "
+        "from glrt.cli import main; sys.exit(main(['view', 'cornell']))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "pip install 'glrt[view]'" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_bad_scene_is_refused_before_a_window_opens() -> None:
+    done = glrt("view", "cornel", DISPLAY="")
+    assert done.returncode == 2
+    assert "cornell" in done.stderr

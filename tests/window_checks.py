@@ -1,0 +1,261 @@
+"""What a user does in the window, and what must come of it; tests/test_window.py runs this."""
+
+import json
+import math
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from imgui_bundle import imgui
+
+from glrt.scene import Camera, Scene
+from glrt.settings import Cost
+from glrt.ui import orbit, panel
+from glrt.ui.controls import Control, replaced
+from tests.hand import SMALL, Hand, check
+
+# Each control by its label in the panel: the control, and what to do to it.
+MOVES: dict[str, tuple[Control, Any]] = {
+    "intensity##lamp": (panel.INTENSITY, 3.0),
+    "emission##lamp/##X": (panel.EMISSION, 2.0),
+    "bounces": (panel.SETTINGS["bounces"], 1),
+    "method/nee": (panel.SETTINGS["method"], None),
+    "roulette": (panel.SETTINGS["roulette"], None),
+    "samples": (panel.SETTINGS["samples"], 5000),
+    "exposure": (panel.SETTINGS["exposure"], 2.0),
+    "tonemap/agx": (panel.SETTINGS["tonemap"], None),
+    "fov": (panel.CAMERA["fov"], 20.0),
+    "focus distance": (panel.CAMERA["focus_distance"], 2.0),
+    "defocus angle": (panel.CAMERA["defocus_angle"], 3.0),
+    "position/$$2": (panel.CAMERA["position"], 3.0),
+    "look at/$$0": (panel.CAMERA["look_at"], 0.3),
+    "color##background/##Z": (panel.BACKGROUND["color"], 0.5),
+    "width": (panel.SETTINGS["width"], 30),
+    "height": (panel.SETTINGS["height"], 30),
+}
+UNSEEN = (
+    "samples",
+    "focus distance",
+)  # the first shows no other picture, the second not without a lens
+
+
+def move(hand: Hand, reference: str, value: Any) -> None:
+    """Do what a user does to a control."""
+    hand.ctx.set_ref("Controls")
+    if reference in ("method/nee", "tonemap/agx"):
+        hand.ctx.combo_click(reference)
+    elif value is None:
+        hand.ctx.item_click(reference)
+    else:
+        hand.ctx.item_input_value(reference, value)
+
+
+@check
+def every_control_costs_what_it_says(hand: Hand) -> None:
+    order = list(Cost)
+    hand.ctx.set_ref("Controls")
+    for header in ("Background", "Frame"):
+        hand.ctx.item_open(header)
+    for reference, (control, value) in MOVES.items():
+        hand.begin()
+        session = hand.session
+        before, samples = hand.pixels(), session.samples
+        restarts, session.last_cost = session.restarts, None
+        move(hand, reference, value)
+        hand.settle()
+        cost = session.last_cost or Cost.FREE
+        assert order.index(cost) <= order.index(control.cost), (reference, cost)
+        restarted = session.restarts - restarts
+        assert restarted == (control.cost in (Cost.RESTART, Cost.RECOMPILE)), reference
+        assert restarted or session.samples >= samples, reference
+        assert not session.problem, (reference, session.problem)
+        after = hand.pixels()
+        if reference not in UNSEEN:
+            changed = after.shape != before.shape or (after != before).mean() > 0.05
+            assert changed, reference
+    for header in ("Background", "Frame"):
+        hand.ctx.item_close(header)
+
+
+def drag(hand: Hand, across: float, down: float, button: int = 0) -> None:
+    """From the middle of the picture, by pixels; in several steps, as a mouse moves."""
+    ctx = hand.ctx
+    ctx.mouse_move("//Picture/picture")
+    ctx.mouse_down(button)
+    x, y = imgui.get_io().mouse_pos
+    for share in (0.25, 0.5, 0.75, 1.0):
+        ctx.mouse_move_to_pos((x + share * across, y + share * down))
+    ctx.mouse_up(button)
+    hand.settle()
+
+
+def far_apart(a: Camera, b: Camera) -> float:
+    return max(math.dist(a.position, b.position), math.dist(a.look_at, b.look_at))
+
+
+@check
+def a_drag_turns_by_its_share_of_the_window(hand: Hand) -> None:
+    before, (width, height) = hand.session.scene.camera, imgui.get_io().display_size
+    drag(hand, 90, 40)
+    yaw, pitch = -180 * 90 / width, -180 * 40 / height
+    expected = orbit.orbited(before, before.look_at, yaw, pitch)
+    assert far_apart(hand.session.scene.camera, expected) < 0.02
+    assert math.dist(hand.session.scene.camera.look_at, before.look_at) < 1e-6
+
+
+@check
+def the_right_button_looks_around_and_the_middle_one_shifts(hand: Hand) -> None:
+    before = hand.session.scene.camera
+    drag(hand, 60, 0, button=1)
+    looked = hand.session.scene.camera
+    assert looked.position == before.position
+    assert looked.look_at != before.look_at
+    drag(hand, 60, 0, button=2)
+    shifted = hand.session.scene.camera
+    assert np.allclose(np.subtract(shifted.view, looked.view), 0, atol=1e-6)
+    assert shifted.position != looked.position
+
+
+@check
+def a_drag_is_one_step_to_undo(hand: Hand) -> None:
+    before = hand.session.scene.camera
+    drag(hand, 50, 30)
+    after = hand.session.scene.camera
+    hand.ctx.item_click("//Controls/undo")
+    hand.settle()
+    assert hand.session.scene.camera == before
+    hand.ctx.item_click("//Controls/redo")
+    hand.settle()
+    assert hand.session.scene.camera == after
+
+
+@check
+def wheel_and_keys_move_the_camera(hand: Hand) -> None:
+    start = hand.session.scene.camera
+    hand.ctx.mouse_move("//Picture/picture")
+    hand.ctx.mouse_wheel_y(2)
+    hand.settle()
+    nearer = hand.session.scene.camera
+    assert far_apart(nearer, orbit.dollied(start, start.look_at, 2)) < 1e-6
+    for key, axis, sign in (
+        *((imgui.Key.w, 2, 1), (imgui.Key.down_arrow, 2, -1), (imgui.Key.a, 0, -1)),
+        *((imgui.Key.right_arrow, 0, 1), (imgui.Key.e, 1, 1), (imgui.Key.q, 1, -1)),
+    ):
+        before = hand.session.scene.camera
+        hand.ctx.key_down(key.value)
+        hand.ctx.yield_(3)
+        hand.ctx.key_up(key.value)
+        hand.settle()
+        step = np.subtract(hand.session.scene.camera.position, before.position)
+        along = np.array(orbit.axes(before)) @ step
+        assert sign * along[axis] > 0.99 * np.linalg.norm(step) > 0, key
+    hand.ctx.key_press(imgui.Key.home.value)
+    hand.settle()
+    assert hand.session.scene.camera == start
+
+
+@check
+def keys_that_are_typed_into_a_box_move_nothing(hand: Hand) -> None:
+    before = hand.session.scene.camera
+    hand.ctx.item_open("//Controls/Files")
+    hand.ctx.item_click("//Controls/##open")
+    hand.ctx.key_chars_append("weasd")
+    assert hand.session.scene.camera == before
+    assert hand.window.app.open_path == "weasd"
+    hand.ctx.key_press(imgui.Key.enter.value)
+    hand.ctx.item_click("//Controls/open")
+    hand.settle()
+    assert "weasd" in hand.session.problem
+    hand.ctx.item_click("//Controls/dismiss")
+    assert hand.session.problem == ""
+
+
+@check
+def the_picture_never_goes_black(hand: Hand) -> None:
+    usual = hand.pixels()[..., :3].mean()
+    edits: list[dict[str, Any]] = [{"method": "nee"}, {"width": 64}, {"bounces": 5}, {"seed": 3}]
+    for edit in edits:
+        hand.there(partial(hand.session.edit, **edit))
+        for _ in range(6):
+            assert hand.pixels()[..., :3].mean() > 0.25 * usual, edit
+
+
+@check
+def a_compilation_is_announced_while_the_old_picture_stays(hand: Hand) -> None:
+    hand.session.paused = True
+    hand.ctx.yield_()
+    before = hand.pixels()
+    hand.there(lambda: hand.session.edit(method="naive"))
+    hand.until(lambda: bool(hand.session.busy), frames=3)
+    assert (hand.pixels() == before).all()
+    hand.until(lambda: not hand.session.busy)
+    assert hand.session.last_cost is Cost.RECOMPILE
+
+
+@check
+def pause_keeps_the_samples_and_restart_drops_them(hand: Hand) -> None:
+    hand.ctx.item_click("//Controls/pause")
+    samples = hand.session.samples
+    hand.ctx.yield_(5)
+    assert hand.session.samples == samples > 0
+    hand.ctx.item_click("//Controls/restart")
+    hand.ctx.yield_(3)
+    assert hand.session.samples == 1, "a paused picture shows its first sample"
+    hand.ctx.item_click("//Controls/go on")
+    hand.ctx.yield_(3)
+    assert hand.session.samples > 1
+
+
+@check
+def samples_end_at_the_target(hand: Hand) -> None:
+    hand.there(lambda: hand.session.edit(samples=7, seed=1))
+    hand.until(lambda: hand.session.is_done)
+    hand.ctx.yield_(3)
+    assert hand.session.samples == 7
+    hand.there(lambda: hand.session.edit(samples=9))
+    hand.until(lambda: hand.session.samples == 9)
+
+
+@check
+def a_picture_is_saved_with_its_recipe_and_opened_again(hand: Hand) -> None:
+    app = hand.window.app
+    for suffix in ("png", "exr"):
+        file = Path.cwd() / f"saved.{suffix}"
+        hand.begin()
+        hand.there(lambda: hand.session.edit(replaced_fov(hand, 25.0), samples=3))
+        hand.until(lambda: hand.session.is_done)
+        hand.there(partial(setattr, app, "save_path", str(file)))
+        hand.there(app.save)
+        hand.begin()
+        hand.there(partial(app.open, str(file)))
+        hand.settle()
+        assert (hand.session.scene.camera.fov, hand.session.settings.samples) == (25.0, 3)
+        hand.there(partial(app.open, "cornell"))
+        hand.there(lambda: hand.session.edit(**SMALL))
+        hand.session.opened = hand.session.state
+
+
+def replaced_fov(hand: Hand, fov: float) -> Scene:
+    scene = hand.session.scene
+    return replaced(scene, camera=replaced(scene.camera, fov=fov))
+
+
+@check
+def what_cannot_be_saved_is_told(hand: Hand) -> None:
+    hand.there(partial(setattr, hand.window.app, "save_path", "/nowhere/picture.png"))
+    hand.there(hand.window.app.save)
+    assert "/nowhere" in hand.session.problem
+
+
+@check
+def preferences_are_kept_while_the_window_is_open(hand: Hand) -> None:
+    file = hand.window.app.preferences_file
+    assert not file.exists()
+    hand.ctx.set_ref("Controls")
+    hand.ctx.combo_click("mode##preference/fly")
+    hand.until(file.exists, frames=1000)
+    assert json.loads(file.read_text())["mode"] == "fly"
+    before = hand.session.scene.camera
+    drag(hand, 60, 0)
+    assert hand.session.scene.camera.position == before.position, "fly: it turns where it stands"
