@@ -54,15 +54,15 @@ def run(
 ) -> float | None:
     """Render to the first limit; returns the estimated error, None below two samples.
 
-    `watch` is called after each dispatch, to show progress. At least one dispatch is made, unless
-    the interruption came before it.
+    `watch` is called after each dispatch, to show progress. Each pixel gets a sample at least,
+    unless the interruption comes before; a frame that is not complete at the end is left out.
     """
 
     def goes_on(renderer: Renderer) -> bool:
         if watch:
             watch(renderer)
         late = limits.deadline is not None and since_start() >= limits.deadline
-        return interruption.signal is None and not late
+        return interruption.signal is None and not (late and renderer.samples)
 
     for look in _looks(limits):
         if interruption.signal is not None:

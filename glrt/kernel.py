@@ -10,6 +10,11 @@ from glrt.shader import Source
 GROUP = 8  # work group of 8 x 8, as in trace.comp
 
 
+def tile_count(width: int, height: int) -> int:
+    """How many work groups cover a picture."""
+    return -(-width // GROUP) * -(-height // GROUP)
+
+
 class Kernel:
     """A compute shader."""
 
@@ -50,7 +55,11 @@ class Kernel:
 
     def run(self, width: int, height: int) -> None:
         """Dispatch over a grid of pixels."""
-        self._program.run(-(-width // GROUP), -(-height // GROUP), 1)
+        self.run_tiles(tile_count(width, height))
+
+    def run_tiles(self, count: int) -> None:
+        """Dispatch work groups, whatever pixels they stand for."""
+        self._program.run(count, 1, 1)
 
     def release(self) -> None:
         """Free the program."""

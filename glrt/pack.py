@@ -79,11 +79,17 @@ def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
 
 
 def pack_frame(
-    scene: Scene, settings: Settings, counts: Mapping[str, int], first_sample: int, samples: int
+    scene: Scene,
+    settings: Settings,
+    counts: Mapping[str, int],
+    first_sample: int,
+    samples: int,
+    first_tile: int = 0,
+    tile_stride: int = 1,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
-    `counts` are the rows of each storage block.
+    `counts` are the rows of each storage block; for tiles and their stride see trace.comp.
     """
     bottom, top = scene.background_colors
     frame = {
@@ -100,6 +106,8 @@ def pack_frame(
         "plane_count": counts["Planes"],
         "quad_count": counts["Quads"],
         "light_count": counts["Lights"],
+        "first_tile": first_tile,
+        "tile_stride": tile_stride,
     }
     return record(STRUCTS["Frame"], frame).tobytes()
 

@@ -50,10 +50,10 @@ class Forecast:
     def after(self, renderer: Renderer) -> dict[str, Any]:
         """The fields of the bar after a dispatch."""
         now = time.perf_counter()
-        if now - self._looked >= LOOK:
+        if renderer.samples and now - self._looked >= LOOK:
             self._looked, self._error = now, renderer.image().error
         seconds = now - self._start
-        total = self._total_seconds(renderer.samples, seconds)
+        total = self._total_seconds(renderer.work, seconds)
         left = max(0.0, total - seconds)
         error = f"error {100 * self._error:.2g} %  " if self._error else ""
         done = f"{renderer.samples} of {self._limits.samples} samples"
@@ -61,7 +61,7 @@ class Forecast:
         rest = f"{error}{seconds:.0f} s, {left:.0f} s to go"
         return {"completed": share, "done": done, "rest": rest}
 
-    def _total_seconds(self, samples: int, seconds: float) -> float:
+    def _total_seconds(self, samples: float, seconds: float) -> float:
         """Seconds to the first limit: the error falls with the square root of the samples."""
         rate = samples / seconds
         candidates = [self._limits.samples / rate]

@@ -13,16 +13,27 @@ from glrt.display import Display
 from glrt.errors import UsageError
 from glrt.film import Film, standard_error
 from glrt.image import Image
-from glrt.kernel import Kernel
+from glrt.kernel import Kernel, tile_count
 from glrt.needs import needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.recipe import Recipe
 from glrt.scene import Scene
-from glrt.schedule import Schedule, iterations_per_sample, most_samples
+from glrt.schedule import (
+    HEADLESS_LIMIT,
+    INTERACTIVE_LIMIT,
+    Portion,
+    Schedule,
+    iterations_per_sample,
+    most_samples,
+    stride_of,
+    whole_frame,
+)
 from glrt.selftest import usable_rounds
 from glrt.settings import Cost, Settings, cost_of_change, settings_for
 from glrt.shader import Source
 from glrt.version import VERSION
+
+ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
 
 
 class Renderer:
@@ -61,6 +72,11 @@ class Renderer:
     def samples(self) -> int:
         """How many samples each pixel has."""
         return self._film.samples
+
+    @property
+    def work(self) -> float:
+        """Samples a pixel, and the share that is done of those in the frame that has begun."""
+        return self.samples + self._schedule.begun
 
     @property
     def size(self) -> tuple[int, int]:
@@ -102,29 +118,41 @@ class Renderer:
             return Cost.RECOMPILE
 
     def step(self, samples: int) -> None:
-        """Add `samples` samples to every pixel in one dispatch, within the driver's loop limit."""
+        """Add `samples` samples to every pixel at once, within the driver's loop limit."""
         if not 1 <= samples <= self.most_samples:
             raise UsageError(
                 f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
             )
+        self._schedule.drop()
         with self.context.gl:
-            self._dispatch(samples, *self.size)
+            for portion in whole_frame(samples, self._tiles):
+                self._dispatch(portion)
             self._film.advance(samples)
             self.context.gl.finish()
+
+    def advance(self, seconds: float, samples: int | None = None) -> bool:
+        """Work for about `seconds`, up to `samples` samples a pixel (default: the settings').
+
+        Returns whether the picture changed: a frame, one sample of each pixel or more, may take
+        several calls. Until it is complete the picture stays as it was.
+        """
+        target = samples or self.settings.samples
+        before, start, spent = self.samples, time.perf_counter(), 0.0
+        while self.samples < target and spent <= ENOUGH * seconds:
+            self._work(target - self.samples, min(seconds - spent, INTERACTIVE_LIMIT / 2))
+            spent = time.perf_counter() - start
+        return self.samples != before
 
     def render(
         self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
     ) -> "Renderer":
         """Step until each pixel has `samples` (default: the settings'), or `goes_on` says no.
 
-        `goes_on` is asked after each dispatch.
+        `goes_on` is asked after each dispatch, of which a frame may need several.
         """
         target = samples or self.settings.samples
         while self.samples < target:
-            count = self._schedule.next_count(target - self.samples)
-            start = time.perf_counter()
-            self.step(count)
-            self._schedule.record(count, time.perf_counter() - start)
+            self._work(target - self.samples, HEADLESS_LIMIT / 2)
             if goes_on and not goes_on(self):
                 break
         return self
@@ -182,8 +210,9 @@ class Renderer:
         parts = {"blocks.glsl": blocks_text(arrays, self.tier)}
         constants = needs_of(self.scene, self.settings).constants()
         self._source = Source("trace.comp", constants, parts=parts)
+        self._tiles = tile_count(*self.size)
         self.most_samples = most_samples
-        self._schedule = Schedule(most_samples)
+        self._schedule = Schedule(self._tiles, most_samples)
 
     def _store(self, name: str, data: bytes) -> None:
         if name in self._buffers:
@@ -193,15 +222,36 @@ class Renderer:
     def _compile(self) -> None:
         start = time.perf_counter()
         self._kernel = Kernel(self.context.gl, self._source)
-        self._dispatch(0, 1, 1)  # drivers compile in the first dispatch; this one adds nothing
+        self._dispatch(Portion(0, 0, 1))  # drivers compile in the first; this one adds nothing
         self.context.gl.finish()
         self.compile_seconds = time.perf_counter() - start
+        self.longest_dispatch = 0.0  # seconds, apart from this first one
 
-    def _dispatch(self, samples: int, width: int, height: int) -> None:
-        frame = pack_frame(self.scene, self.settings, self._counts, self.samples, samples)
+    def _work(self, remaining: int, seconds: float) -> None:
+        """One dispatch that the schedule plans; all those of a frame read the same source."""
+        portion = self._schedule.next_portion(remaining, seconds)
+        start = time.perf_counter()
+        with self.context.gl:
+            self._dispatch(portion)
+            self.context.gl.finish()
+            taken = time.perf_counter() - start
+            self.longest_dispatch = max(self.longest_dispatch, taken)
+            if self._schedule.record(portion, taken):
+                self._film.advance(portion.samples)
+
+    def _dispatch(self, portion: Portion) -> None:
+        frame = pack_frame(
+            self.scene,
+            self.settings,
+            self._counts,
+            self.samples,
+            portion.samples,
+            portion.first,
+            stride_of(self._tiles),
+        )
         self._buffers["FrameBlock"].write(frame)
         self._kernel.bind(self._buffers, self._film.images())
-        self._kernel.run(width, height)
+        self._kernel.run_tiles(portion.tiles)
 
 
 def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:

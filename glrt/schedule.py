@@ -1,10 +1,25 @@
-"""How many samples one dispatch may take: the driver's loop limit, and a time budget."""
+"""How much work one dispatch takes: within the driver's loop limit and a budget of time.
+
+A frame gives every pixel some samples. Where one sample of every pixel takes too long, its
+dispatches take a part of the picture each: tiles of 8 x 8 pixels, one work group each. They are
+numbered so that those of one dispatch lie all over the picture: each part costs about the same.
+"""
+
+import math
+from itertools import count
+from typing import NamedTuple
 
 from glrt.errors import SceneError
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 
-BUDGET = 0.25  # seconds a dispatch: progress and interruption stay prompt
+# What no dispatch may exceed, in seconds: drivers end those of some seconds, and progress,
+# interruption and a window are to stay prompt. Dispatches are planned for half of it.
+HEADLESS_LIMIT, INTERACTIVE_LIMIT = 0.5, 0.1
+MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
+FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
+GROWTH = 4  # of the work from one dispatch to the next, at most
+_GOLDEN = 0.618
 
 
 def iterations_per_sample(scene: Scene, settings: RenderSettings) -> int:
@@ -34,20 +49,71 @@ def most_samples(iterations: int, rounds: int | None) -> int:
     return rounds // iterations
 
 
+def stride_of(tiles: int) -> int:
+    """How far apart in the picture tiles with neighbouring numbers lie, in rows of tiles.
+
+    Without a common factor with `tiles`, so that `number * stride % tiles` meets each tile
+    once; and small enough for that product in 32 bits.
+    """
+    start = max(1, min(int(_GOLDEN * tiles), 2**32 // tiles - 64))
+    return next(stride for stride in count(start) if math.gcd(stride, tiles) == 1)
+
+
+class Portion(NamedTuple):
+    """What one dispatch does: `samples` samples of each pixel in tiles `first` and following."""
+
+    samples: int
+    first: int
+    tiles: int
+
+
+def whole_frame(samples: int, tiles: int) -> list[Portion]:
+    """All tiles in as few dispatches as every driver takes."""
+    starts = range(0, tiles, MOST_TILES)
+    return [Portion(samples, first, min(MOST_TILES, tiles - first)) for first in starts]
+
+
 class Schedule:
-    """Doubles the samples of a dispatch while they fit into the budget."""
+    """Plans frames dispatch by dispatch, from what the dispatches so far took."""
 
-    def __init__(self, most: int, budget: float = BUDGET) -> None:
-        """`most`: samples that a dispatch may take; `budget`: seconds it should take."""
-        self._most = most
-        self._budget = budget
-        self._count = 1
+    def __init__(self, tiles: int, most_samples: int) -> None:
+        """`tiles` of the picture; `most_samples` that a dispatch may take."""
+        self._tiles = tiles
+        self._most = most_samples
+        self._tried = FIRST_TILES / GROWTH  # the most work so far: samples x tiles
+        self._cost = 0.0  # seconds for one tile and sample
+        self.drop()
 
-    def next_count(self, remaining: int) -> int:
-        """How many samples the next dispatch takes."""
-        return max(1, min(self._count, self._most, remaining))
+    @property
+    def begun(self) -> float:
+        """Samples a pixel in the frame that is not complete, on average over the picture."""
+        return self._samples * self._done / self._tiles
 
-    def record(self, count: int, seconds: float) -> None:
-        """Learn from a dispatch."""
-        fitting = int(count * self._budget / max(seconds, 1e-9))
-        self._count = max(1, min(2 * count, fitting))
+    def drop(self) -> None:
+        """Forget the frame that has begun: the next portion starts another."""
+        self._samples = self._done = 0
+
+    def next_portion(self, remaining: int, seconds: float) -> Portion:
+        """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds."""
+        if self._samples > remaining:
+            self.drop()
+        fitting = GROWTH * self._tried
+        if self._cost:
+            fitting = min(fitting, seconds / self._cost)
+        if not self._done:
+            self._samples = max(1, min(int(fitting / self._tiles), self._most, remaining))
+        left = self._tiles - self._done
+        most = min(MOST_TILES, max(1, int(fitting / self._samples)))
+        dispatches = math.ceil(left / most)
+        return Portion(self._samples, self._done, math.ceil(left / dispatches))
+
+    def record(self, portion: Portion, seconds: float) -> bool:
+        """Learn from a dispatch; whether it completed the frame."""
+        work = portion.samples * portion.tiles
+        self._tried = max(self._tried, work)
+        self._cost = max(seconds, 1e-9) / work
+        self._done += portion.tiles
+        is_complete = self._done == self._tiles
+        if is_complete:
+            self.drop()
+        return is_complete

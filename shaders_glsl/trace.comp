@@ -1,5 +1,6 @@
-// Adds samples to a crop of the frame. One swap of source and target a dispatch; the samples of
-// one dispatch go through registers, so that one dispatch of N equals N of one, bit for bit.
+// Adds samples to tiles of a crop of the frame, one tile a work group. Source and target are
+// swapped when all tiles have them; the samples of one dispatch go through registers, so that
+// one dispatch of N equals N of one, bit for bit.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -33,8 +34,19 @@ Pixel load_pixel(ivec2 texel) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
+// Tiles are numbered along rows, `tile_stride` apart: those of one dispatch lie all over the
+// picture, and each dispatch costs about the same.
+ivec2 texel_of_lane() {
+    uvec2 size = gl_WorkGroupSize.xy;
+    uvec2 tiles = (uvec2(imageSize(target_mean)) + size - 1u) / size;
+    uint number = uint(frame.first_tile) + gl_WorkGroupID.x;
+    uint tile = number * uint(frame.tile_stride) % (tiles.x * tiles.y);
+    uvec2 corner = size * uvec2(tile % tiles.x, tile / tiles.x);
+    return ivec2(corner + gl_LocalInvocationID.xy);
+}
+
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = texel_of_lane();
     if (any(greaterThanEqual(texel, imageSize(target_mean)))) return;
     Pixel pixel = load_pixel(texel);
     add_samples(pixel, frame.origin + texel);

@@ -1,0 +1,251 @@
+"""How much a dispatch takes: decided by pure functions, tried on a device with a made-up speed."""
+
+import math
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt import renderer as renderer_module
+from glrt import schedule as schedule_module
+from glrt.context import Context
+from glrt.errors import UsageError
+from glrt.job import Interruption, Limits, run
+from glrt.renderer import Renderer
+from glrt.schedule import (
+    FIRST_TILES,
+    GROWTH,
+    HEADLESS_LIMIT,
+    INTERACTIVE_LIMIT,
+    MOST_TILES,
+    Portion,
+    Schedule,
+    stride_of,
+    whole_frame,
+)
+from glrt.settings import Cost
+from tests.images import same_bits
+from tests.mixture import everything
+from tests.renders import rendered, rendering, same
+
+Device = Callable[[Portion], float]  # seconds for a portion
+
+
+def device(cost: float, latency: float = 1e-4) -> Device:
+    """Seconds: `cost` a tile and sample, after a latency."""
+    return lambda portion: latency + cost * portion.tiles * portion.samples
+
+
+def frames(
+    schedule: Schedule, seconds_for: Device, samples: int, budget: float = 0.25
+) -> list[list[tuple[Portion, float]]]:
+    """The dispatches of each frame and what they took, to so many samples."""
+    done = 0
+    all_frames: list[list[tuple[Portion, float]]] = [[]]
+    while done < samples:
+        portion = schedule.next_portion(samples - done, budget)
+        seconds = seconds_for(portion)
+        all_frames[-1].append((portion, seconds))
+        if schedule.record(portion, seconds):
+            done += portion.samples
+            all_frames.append([])
+    return all_frames[:-1]
+
+
+@pytest.mark.parametrize("tiles", [1, 7, 15, 16, 17, 64, 4096, 100_000])
+@pytest.mark.parametrize("cost", [1e-8, 1e-5, 1e-3])
+def test_a_frame_covers_every_block_once_with_the_same_samples(tiles: int, cost: float) -> None:
+    for frame in frames(Schedule(tiles, 50), device(cost), 60):
+        portions = [portion for portion, _ in frame]
+        ends = [0, *(p.first + p.tiles for p in portions)]
+        assert [p.first for p in portions] == ends[:-1]
+        assert ends[-1] == tiles
+        assert len({p.samples for p in portions}) == 1
+        assert max(p.tiles for p in portions) <= MOST_TILES
+
+
+@pytest.mark.parametrize("limit", [HEADLESS_LIMIT, INTERACTIVE_LIMIT])
+@pytest.mark.parametrize("tiles", [1, 64, 4096, 100_000])
+@pytest.mark.parametrize("cost", [1e-7, 1e-6, 1e-5, 1e-4, 2e-3])
+def test_no_dispatch_exceeds_its_limit_though_tiles_differ(
+    limit: float, tiles: int, cost: float
+) -> None:
+    """A part of the picture costs up to 1.8 times another, and a sample of a tile up to 2 ms."""
+    rng = np.random.default_rng(5)
+
+    def uneven(portion: Portion) -> float:
+        return device(cost)(portion) * rng.uniform(0.6, 1.08)
+
+    for frame in frames(Schedule(tiles, 1000), uneven, 5, limit / 2):
+        assert max(seconds for _, seconds in frame) <= limit
+
+
+def test_a_dispatch_of_a_slow_picture_fills_its_budget() -> None:
+    last = frames(Schedule(4096, 1000), device(1e-3), 3, budget=0.25)[-1]
+    assert len(last) == math.ceil(4096 * 1e-3 / 0.25)
+    assert all(0.2 < seconds <= 0.2502 for _, seconds in last)
+
+
+def test_a_dispatch_of_a_fast_picture_takes_many_samples() -> None:
+    counts = [frame[0][0].samples for frame in frames(Schedule(64, 1000), device(1e-5), 4000)]
+    assert max(counts) == int(0.25 / (1e-5 + 1e-4 / (64 * max(counts))) / 64)
+    assert all(after <= GROWTH * before for before, after in pairwise(counts))
+
+
+def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
+    all_frames = frames(Schedule(4096, 6), device(1e-9), 100)
+    assert all_frames[0][0][0].tiles <= FIRST_TILES
+    assert max(p.samples for frame in all_frames for p, _ in frame) == 6
+    assert sum(frame[0][0].samples for frame in all_frames) == 100
+
+
+def test_a_frame_of_more_samples_than_are_left_is_dropped() -> None:
+    schedule = Schedule(100_000, 100)
+    frames(schedule, device(1e-9), 200)
+    begun = schedule.next_portion(50, 1.0)
+    assert begun == Portion(50, 0, 50_000)
+    schedule.record(begun, 0.01)
+    assert schedule.begun == 25
+    assert schedule.next_portion(50, 1.0) == Portion(50, 50_000, 50_000)
+    assert schedule.next_portion(3, 1.0) == Portion(3, 0, 50_000)
+    assert schedule.begun == 0
+
+
+@pytest.mark.parametrize("tiles", [*range(1, 130), 4096, 65_536, 262_144, 4_194_304])
+def test_tiles_in_steps_of_the_stride_are_all_blocks(tiles: int) -> None:
+    stride = stride_of(tiles)
+    assert math.gcd(stride, tiles) == 1
+    assert (tiles - 1) * stride < 2**32, "the kernel has 32 bits"
+
+
+def test_tiles_of_a_dispatch_lie_all_over_the_picture() -> None:
+    """Of 64 rows of 64 tiles, 128 tiles touch every four rows at least."""
+    for first in (0, 1000, 3900):
+        rows = {(number * stride_of(4096) % 4096) // 64 for number in range(first, first + 128)}
+        assert np.diff(sorted({-1, *rows, 64})).max() <= 4
+
+
+def test_a_whole_frame_is_as_few_dispatches_as_every_driver_takes() -> None:
+    assert whole_frame(3, 4096) == [Portion(3, 0, 4096)]
+    assert whole_frame(1, 70_000) == [Portion(1, 0, 65_535), Portion(1, 65_535, 4465)]
+
+
+# --- the renderer ----------------------------------------------------------------------------
+
+
+@pytest.fixture
+def tiny_dispatches(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every dispatch takes one tile and one sample."""
+    monkeypatch.setattr(schedule_module, "FIRST_TILES", 1)
+    monkeypatch.setattr(renderer_module, "HEADLESS_LIMIT", 1e-12)
+    monkeypatch.setattr(renderer_module, "INTERACTIVE_LIMIT", 1e-12)
+
+
+SHAPES: list[dict[str, Any]] = [
+    {},
+    {"width": 37, "height": 23},
+    {"width": 50, "height": 9, "crop": (3, 1, 41, 7)},
+]
+
+
+@pytest.mark.usefixtures("tiny_dispatches")
+@pytest.mark.parametrize("shape", SHAPES, ids=["square", "odd", "crop"])
+def test_a_frame_in_parts_gives_the_same_bits(context: Context, shape: dict[str, Any]) -> None:
+    with rendering(everything(), context, **shape) as renderer:
+        dispatches: list[float] = []
+
+        def note(renderer: Renderer) -> bool:
+            dispatches.append(renderer.work)
+            return True
+
+        renderer.render(3, note)
+        whole = Renderer(everything(), context=context, **{"width": 16, "height": 16, **shape})
+        whole.step(3)
+        assert len(dispatches) >= 12
+        assert dispatches == sorted(dispatches)
+        assert same(renderer.image(), whole.image())
+        whole.release()
+
+
+@pytest.mark.usefixtures("tiny_dispatches")
+def test_the_last_complete_picture_stays_until_the_next_one_is(context: Context) -> None:
+    with rendering(everything(), context, width=40, height=40) as renderer:
+        renderer.render(2)
+        complete = renderer.image()
+        while renderer.work < 2.5:
+            assert not renderer.advance(0.0, 9)
+        assert renderer.samples == 2
+        assert same(renderer.image(), complete)
+        before = renderer.display()
+        renderer.update(seed=1)
+        assert not renderer.advance(0.0, 9)
+        assert same_bits(renderer.display(), before), "the old picture stays after a restart"
+
+
+@pytest.mark.usefixtures("tiny_dispatches")
+def test_a_restart_drops_the_frame_that_has_begun(context: Context) -> None:
+    expected = rendered(everything(), context, 2, width=40, height=40, seed=4)
+    with rendering(everything(), context, width=40, height=40) as renderer:
+        renderer.render(1)
+        for _ in range(5):
+            renderer.advance(0.0, 9)
+        assert 1 < renderer.work < 2
+        assert renderer.update(seed=4) is Cost.RESTART
+        assert renderer.work == 0
+        assert same(renderer.render(2).image(), expected)
+
+
+def test_advance_tells_when_the_picture_changed_and_stops_at_its_target(context: Context) -> None:
+    with rendering(everything(), context, samples=40) as renderer:
+        assert renderer.advance(10.0, 3)
+        assert renderer.samples == 3
+        assert not renderer.advance(10.0, 3)
+        assert renderer.advance(10.0)
+        assert renderer.samples == 40
+        assert same(renderer.image(), rendered(everything(), context, 40))
+
+
+def test_advance_ends_with_its_time(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each look at this clock is 10 ms after the last."""
+    ticks = iter(range(1_000_000))
+    with rendering(everything(), context) as renderer:
+        monkeypatch.setattr("glrt.renderer.time.perf_counter", lambda: next(ticks) * 0.01)
+        renderer.advance(0.1, 1 << 20)
+        monkeypatch.undo()
+        looked = next(ticks)
+        assert 8 <= looked <= 12
+        assert renderer.longest_dispatch == pytest.approx(0.01)
+
+
+@pytest.mark.usefixtures("tiny_dispatches")
+def test_an_interruption_waits_for_a_dispatch_and_not_for_a_frame(context: Context) -> None:
+    with rendering(everything(), context, width=64, height=64) as renderer:
+        interruption, seen = Interruption(), []
+
+        def interrupt(renderer: Renderer) -> None:
+            seen.append(renderer.work)
+            if len(seen) == 70:
+                interruption.signal = 2
+
+        run(renderer, Limits(100), interruption, interrupt)
+        assert len(seen) == 70
+        assert renderer.samples == 1, "64 dispatches made the first sample"
+
+
+@pytest.mark.usefixtures("tiny_dispatches")
+def test_a_deadline_that_has_passed_still_gives_each_pixel_a_sample(context: Context) -> None:
+    with rendering(everything(), context, width=40, height=40) as renderer:
+        run(renderer, Limits(100, deadline=0.0), Interruption())
+        assert renderer.samples == 1
+
+
+def test_step_drops_what_has_begun(context: Context, tiny_dispatches: None) -> None:
+    with rendering(everything(), context, width=40, height=40) as renderer:
+        renderer.advance(0.0, 9)
+        renderer.step(2)
+        assert renderer.work == 2
+        with pytest.raises(UsageError):
+            renderer.step(0)
+        assert same(renderer.image(), rendered(everything(), context, 2, width=40, height=40))
