@@ -8,7 +8,7 @@ SCENE ?= cornell
 BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
 IN_ENVIRONMENT = .venv/bin/python -m
 
-.PHONY: help render view test check gallery bench clean
+.PHONY: help render view test check gallery bench mutants clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
@@ -38,6 +38,10 @@ gallery: ## render every scene into gallery/
 bench: ## measure how fast the kernel and its variants are
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.bench
+
+mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
+	@$(BOOTSTRAP) test
+	$(IN_ENVIRONMENT) tests.mutation
 
 clean: ## remove .venv and all caches; pictures stay
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache

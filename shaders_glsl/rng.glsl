@@ -12,3 +12,10 @@ uint pcg_hash(uint x) {
 float unit_float(uint x) {
     return float(x >> 8u) * 5.9604644775390625e-8;
 }
+
+// The n-th of numbers that fill [-1/2, 1/2) evenly however many there are: multiples of the golden
+// ratio.
+float golden_turn(uint n) {
+    float turn = unit_float(n * 0x9E3779B9u) - 0.5;
+    return turn;
+}

@@ -42,6 +42,7 @@ NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
+    "1.1920928955078125e-7",  # 2^-23: the last place of a float from its power of two
 }
 
 

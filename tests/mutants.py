@@ -1,0 +1,229 @@
+"""Classic bugs of path tracers, each as a change of shader text and the fast test that finds it.
+
+The tests themselves are on trial: `python -m tests.mutation` plants one bug after the other in a
+copy of the tree and runs its test, which must fail.
+"""
+
+from typing import NamedTuple
+
+
+class Edit(NamedTuple):
+    """Text of a shader file, which stands there once, and what the bug puts in its place."""
+
+    file: str
+    old: str
+    new: str
+
+
+class Mutant(NamedTuple):
+    """A bug, and the tests of one file (an expression for pytest -k) that must fail with it."""
+
+    bug: str
+    edits: tuple[Edit, ...]
+    test: str  # FILE::NAME in tests/; all cases of it are run until one fails
+
+
+def _edit(file: str, old: str, new: str) -> tuple[Edit, ...]:
+    return (Edit(f"shaders_glsl/{file}", old, new),)
+
+
+MUTANTS = [
+    Mutant(
+        "the cosine is missing in Lambert's law",
+        _edit("material.glsl", "color * (wi.z / PI)", "color * (1.0 / PI)"),
+        "test_direct_light.py::test_light_of_a_ball_falls_with_the_square_of_its_distance",
+    ),
+    Mutant(
+        "light is counted twice: by sampling and by scattering",
+        _edit("path.glsl", "power_heuristic(pdf, light_pdf) : 0.0", "1.0 : 1.0"),
+        "test_furnace.py::test_light_sampling_counts_a_wall_once",
+    ),
+    Mutant(
+        "the index of refraction is inverted",
+        _edit(
+            "material.glsl",
+            "outside ? 1.0 / material.ior : material.ior",
+            "outside ? material.ior : 1.0 / material.ior",
+        ),
+        "test_dielectric.py::test_glass_knows_its_inside",
+    ),
+    Mutant(
+        "survivors of roulette are not weighed",
+        _edit("path.glsl", "    throughput /= survival;\n", ""),
+        "test_furnace.py::test_roulette_raises_the_variance_and_leaves_the_mean",
+    ),
+    Mutant(
+        "seeds are hashed from index + frame",
+        _edit(
+            "sampler.glsl",
+            "return pcg_hash(uint(pixel.x) + pcg_hash(uint(pixel.y) + frame));",
+            "return pcg_hash(uint(pixel.y * 128 + pixel.x) + uint(sample_index) + seed);",
+        ),
+        "test_rng.py::test_pixels_and_their_neighbours_are_independent_over_many_frames",
+    ),
+    Mutant(
+        "the running mean is a mix of two weights",
+        _edit(
+            "film.glsl",
+            "vec3 next = mean + (step + dither);",
+            "vec3 next = mean * (1.0 - weight) + x * weight;",
+        ),
+        "test_film.py::test_equal_samples_have_their_value_as_mean_and_no_variance",
+    ),
+    Mutant(
+        "all steps of the running mean are rounded the same way",
+        _edit("film.glsl", "mean + (step + dither)", "mean + step"),
+        "test_robust.py::test_film_keeps_its_digits_over_a_million_samples",
+    ),
+    Mutant(
+        "hits nearer than a fixed epsilon are ignored",
+        _edit(
+            "shape.glsl",
+            "t > 0.0 && t < hit.distance && i != ignored",
+            "t > 1e-3 && t < hit.distance && i != ignored",
+        ),
+        "test_invariance.py::test_scene_scaled_by_a_power_of_two_keeps_its_bits",
+    ),
+    Mutant(
+        "one bounce too many",
+        _edit("path.glsl", "path.depth == frame.bounces", "path.depth > frame.bounces"),
+        "test_furnace.py::test_partial_sums_are_exact_at_every_pixel",
+    ),
+    Mutant(
+        "the density of a sphere lamp is per area, not per solid angle",
+        _edit(
+            "light.glsl",
+            "light.probability / (2.0 * PI * one_minus_cos)",
+            "light.probability / (4.0 * PI * sphere.radius * sphere.radius)",
+        ),
+        "test_light.py::test_the_density_of_a_sphere_lamp_is_one_over_its_solid_angle",
+    ),
+    Mutant(
+        "Fresnel's root is taken of a negative number",
+        _edit("material.glsl", "    if (cos2_t <= 0.0) return 1.0;\n", ""),
+        "test_dielectric.py::test_beyond_the_critical_angle_everything_is_reflected",
+    ),
+    Mutant(
+        "the density of GGX lacks the Jacobian of reflection",
+        _edit(
+            "material.glsl",
+            "ggx_d(alpha, h) / (2.0 * ggx_shadow(alpha, wo))",
+            "ggx_d(alpha, h) * (2.0 * dot(wo, h)) / ggx_shadow(alpha, wo)",
+        ),
+        "test_material.py::test_the_density_of_rough_metal_integrates_to_one",
+    ),
+    Mutant(
+        "the lens has half its angle",
+        _edit(
+            "camera.glsl",
+            "vec3 offset = disk.x * camera.right + disk.y * camera.up;",
+            "vec3 offset = 0.5 * (disk.x * camera.right + disk.y * camera.up);",
+        ),
+        "test_camera.py::test_the_lens_is_a_disk_of_the_size_told_and_evenly_filled",
+    ),
+    Mutant(
+        "roulette ends paths before their light is gathered",
+        (
+            Edit(
+                "shaders_glsl/path.glsl",
+                "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
+                "    vec3 arrived = path.throughput;\n"
+                "    if (ROULETTE && path.depth > 0 && roulette_ends(path.throughput, rng)) {\n"
+                "        return false;\n    }\n"
+                "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
+            ),
+            Edit(
+                "shaders_glsl/path.glsl",
+                "path.throughput * direct_light(",
+                "arrived * direct_light(",
+            ),
+        ),
+        "test_furnace.py::test_lamp_in_the_centre_of_a_matte_ball",
+    ),
+    Mutant(
+        "the background is counted twice after a bounce",
+        _edit(
+            "path.glsl",
+            "path.throughput * background(path.ray.direction)",
+            "path.throughput * background(path.ray.direction) * (path.depth > 0 ? 2.0 : 1.0)",
+        ),
+        "test_furnace.py::test_white_ball_vanishes_under_a_white_sky",
+    ),
+    Mutant(
+        "the cosine of a quad lamp is missing",
+        _edit("light.glsl", "(distance / cos_light)", "distance"),
+        "test_direct_light.py::test_rectangle_lights_the_point_below_its_corner",
+    ),
+    Mutant(
+        "samples are counted from 1",
+        _edit(
+            "film.glsl",
+            "float(index + 1) - pixel.dropped",
+            "float(index + 2) - pixel.dropped",
+        ),
+        "test_film.py::test_the_first_sample_is_taken_as_it_is",
+    ),
+    Mutant(
+        "lamps are never in the shade",
+        _edit(
+            "path.glsl", "occluded(light.ray, light.distance, light.shape)", "light.distance < 0.0"
+        ),
+        "test_truths.py::test_ball_before_a_lamp_takes_its_share_of_the_light",
+    ),
+    Mutant(
+        "the sphere's discriminant is b^2 - c",
+        _edit(
+            "shape.glsl",
+            "r2 - dot(beside, beside)",
+            "along * along - (dot(to_center, to_center) - r2)",
+        ),
+        "test_sphere.py::test_spheres_are_hit_where_float64_says_from_near_and_from_far",
+    ),
+    Mutant(
+        "points stay where the distance leaves them, beside their sphere",
+        _edit(
+            "shape.glsl",
+            "vec3 position = sphere.center + sphere.radius * normal;",
+            "vec3 position = p;",
+        ),
+        "test_shape.py::test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits",
+    ),
+    Mutant(
+        "the cone of a sphere lamp is 1 - sqrt(1 - s2)",
+        _edit("light.glsl", "s2 / (1.0 + sqrt(1.0 - s2))", "1.0 - sqrt(1.0 - s2)"),
+        "test_light.py::test_the_cone_of_a_sphere_keeps_its_digits_up_to_a_million_radii",
+    ),
+    Mutant(
+        "refraction does not scale radiance",
+        _edit("material.glsl", "float scale = eta * eta;", "float scale = 1.0;"),
+        "test_furnace.py::test_camera_in_glass_sees_the_square_of_the_index",
+    ),
+    Mutant(
+        "sampled light is weighed by the density of scattering",
+        _edit(
+            "path.glsl",
+            "power_heuristic(light.pdf, pdf_material(vertex, wi))",
+            "power_heuristic(pdf_material(vertex, wi), light.pdf)",
+        ),
+        "test_furnace.py::test_both_weighted_count_a_box_of_lamps_once",
+    ),
+    Mutant(
+        "a uniform number can be 1",
+        _edit("rng.glsl", "float(x >> 8u) * 5.9604644775390625e-8", "float(x) / 4294967295.0"),
+        "test_rng.py::test_a_unit_float_lies_in_the_unit_interval_and_is_never_one",
+    ),
+    Mutant(
+        "matte surfaces scatter evenly instead of by the cosine",
+        _edit("warp.glsl", "float z = sqrt(1.0 - u.x);", "float z = 1.0 - u.x;"),
+        "test_warp.py::test_the_hemisphere_is_filled_by_the_cosine",
+    ),
+    Mutant(
+        "directions reflected in glass are not made unit vectors",
+        _edit(
+            "material.glsl",
+            "normalized(incoming + 2.0 * cos_i * n)",
+            "incoming + 2.0 * cos_i * n",
+        ),
+        "test_robust.py::test_directions_stay_unit_over_many_reflections_in_glass",
+    ),
+]
