@@ -63,6 +63,7 @@ def make_parser() -> Parser:
     _add_view(commands.add_parser("view", help="show a scene in a window", **_HELP["view"]))
     _add_compare(commands.add_parser("compare", help="do two renders differ", **_HELP["compare"]))
     _add_inspect(commands.add_parser("inspect", help="what a scene needs", **_HELP["inspect"]))
+    _add_chart(commands.add_parser("chart", help="speed against accuracy", **_HELP["chart"]))
     commands.add_parser("doctor", help="which OpenGL routes work here", **_HELP["doctor"])
     commands.add_parser("schema", help="the scene format as JSON Schema", **_HELP["schema"])
     return parser
@@ -89,6 +90,13 @@ _HELP: dict[str, dict[str, Any]] = {
         "or undecided, 1 different (with --strict, undecided too), 2 bad usage or files.",
     },
     "inspect": {"description": "Say what the kernel for a scene contains and leaves out, and why."},
+    "chart": {
+        "description": "Measure the error of every method against its time on some scenes; draw it "
+        "(SVG, PNG), list it (CSV, JSON) and tell what it shows (chart.md).",
+        "epilog": "The same command goes on after an interruption. References are kept in the "
+        "user's cache folder. Exit codes: 0 done, 2 bad usage or scene, or no matplotlib, 3 no "
+        "usable OpenGL, 4 a render failed, 130 interrupted.",
+    },
     "doctor": {"description": "Try every OpenGL route and say which one is used."},
     "schema": {"description": "Print the JSON Schema of scene files, for editors."},
 }
@@ -111,9 +119,7 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--error", type=float, metavar="E", help="stop at this relative RMS error: 0.02 is 2 %%"
     )
-    parser.add_argument(
-        "--context", choices=["auto", *sorted(ROUTES)], default="auto", help="OpenGL route"
-    )
+    _add_context(parser)
     parser.add_argument(
         "--pipeline", choices=["auto", "compute", "fragment"], default="auto", help="kernel kind"
     )
@@ -154,6 +160,27 @@ def _add_inspect(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=_SCENE)
     _add_settings(parser)
     parser.add_argument("--error", metavar="E", help=argparse.SUPPRESS)
+
+
+def _add_chart(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scenes", metavar="SCENE", nargs="+", help=_SCENE)
+    parser.add_argument("-o", dest="output", metavar="DIR", required=True, help="folder to fill")
+    for name, default, kind, text in (
+        ("height", 64, int, "height of the frame in pixels"),
+        ("rounds", 5, int, "runs of each variant"),
+        ("seconds", 60.0, float, "time for the rounds of a scene; its reference takes up to half"),
+    ):
+        metavar = "N" if kind is int else "S"
+        note = f"{text} (default: {default:g})"
+        parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
+    _add_context(parser)
+    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _add_context(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--context", choices=["auto", *sorted(ROUTES)], default="auto", help="OpenGL route"
+    )
 
 
 def _add_settings(parser: argparse.ArgumentParser) -> None:

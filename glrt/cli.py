@@ -1,4 +1,4 @@
-"""The commands `render`, `view`, `compare`, `inspect`, `doctor` and `schema`."""
+"""The commands `render`, `view`, `compare`, `inspect`, `chart`, `doctor` and `schema`."""
 
 import argparse
 import json
@@ -26,6 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
         "view": view,
         "compare": compare,
         "inspect": inspect,
+        "chart": chart,
         "doctor": doctor,
         "schema": schema,
     }
@@ -88,6 +89,13 @@ def inspect(arguments: argparse.Namespace) -> int:
         f"after {LLVMPIPE_ROUNDS:,}."
     )
     return 0
+
+
+def chart(arguments: argparse.Namespace) -> int:
+    """`glrt chart`: error against time of every method."""
+    from glrt.lab.chart import chart_scenes
+
+    return chart_scenes(arguments)
 
 
 def doctor(_arguments: argparse.Namespace) -> int:

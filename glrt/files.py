@@ -36,6 +36,11 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
         ) from error
 
 
+def write_text(path: Path, text: str) -> None:
+    """`write_whole` of a text in UTF-8."""
+    write_whole(path, lambda file: _write_text(file, text))
+
+
 def check_writable(path: Path) -> None:
     """Raise `UsageError` if `write_whole` could not write there; leaves nothing behind."""
     try:
@@ -51,6 +56,10 @@ def reason(error: BaseException) -> str:
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     return (str(error) or type(error).__name__).rstrip(".")
+
+
+def _write_text(file: Path, text: str) -> None:
+    file.write_text(text, encoding="utf-8")
 
 
 def _obstacle(path: Path) -> str | None:

@@ -1,7 +1,7 @@
 """Scene + Settings -> samples on a film, step by step."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import moderngl
@@ -207,12 +207,15 @@ class Renderer:
         for name, rows in arrays.items():
             self._store(name, padded(rows, self.tier))
         self._store("FrameBlock", bytes(STRUCTS["Frame"].itemsize))
-        parts = {"blocks.glsl": blocks_text(arrays, self.tier)}
         constants = needs_of(self.scene, self.settings).constants()
-        self._source = Source("trace.comp", constants, parts=parts)
+        self._source = Source("trace.comp", constants, parts=self._parts(arrays))
         self._tiles = tile_count(*self.size)
         self.most_samples = most_samples
         self._schedule = Schedule(self._tiles, most_samples)
+
+    def _parts(self, arrays: Mapping[str, np.ndarray[Any, Any]]) -> dict[str, str]:
+        """Texts that stand in for shader files."""
+        return {"blocks.glsl": blocks_text(arrays, self.tier)}
 
     def _store(self, name: str, data: bytes) -> None:
         if name in self._buffers:

@@ -33,7 +33,7 @@ ORDER = [
     "__main__",
 ]
 KNOW_OPENGL = {"context", "kernel", "probe", "selftest", "film", "display", "renderer"}
-SLOW_TO_IMPORT = {"OpenEXR", "PIL", "rich"}
+SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60
 

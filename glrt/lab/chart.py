@@ -1,0 +1,99 @@
+"""`glrt chart`: measure scenes, then draw and tell what each method reaches in which time.
+
+Rounds are kept in DIR/NAME.rounds.json as they are made: the same command takes up there after
+an interruption, and one with more rounds adds to them.
+"""
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from glrt import files
+from glrt.context import Choice, open_context
+from glrt.errors import UsageError
+from glrt.lab.chart_files import check_matplotlib, save_chart, save_page
+from glrt.lab.experiment import Plan, Tell, measure_scene
+from glrt.library import load
+from glrt.scene import Scene
+
+INTERRUPTED = 130
+_LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
+
+
+def chart_scenes(arguments: argparse.Namespace) -> int:
+    """A chart of each scene and a page of all of them in a folder; returns the exit code."""
+    check_matplotlib()
+    plan = _plan(arguments)
+    scenes = _scenes(arguments.scenes)
+    folder = _folder(arguments.output)
+    try:
+        with _progress(arguments.quiet) as tell:
+            page = _chart(scenes, plan, folder, arguments.context, tell)
+    except KeyboardInterrupt:
+        print(
+            f"glrt: interrupted; the rounds that are done are kept in {folder}, and the same "
+            "command goes on from there.",
+            file=sys.stderr,
+        )
+        return INTERRUPTED
+    if not arguments.quiet:
+        print(f"Wrote {page} and the charts of {', '.join(scenes)}.", file=sys.stderr)
+    return 0
+
+
+def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell) -> Path:
+    context = open_context(route)
+    experiments = []
+    for number, (name, scene) in enumerate(scenes.items()):
+
+        def tell_of_all(text: str, share: float, before: int = number) -> None:
+            tell(text, (before + share) / len(scenes))
+
+        rounds = folder / f"{name}.rounds.json"
+        experiments.append(measure_scene(name, scene, plan, context, rounds, tell_of_all))
+        save_chart(experiments[-1], folder)
+    return save_page(experiments, folder)
+
+
+def _plan(arguments: argparse.Namespace) -> Plan:
+    for name, (low, high) in _LIMITS.items():
+        if not low <= getattr(arguments, name) <= high:
+            raise UsageError(f"--{name} must be from {low:g} to {high:g}.")
+    return Plan(arguments.height, arguments.rounds, arguments.seconds)
+
+
+def _scenes(sources: Sequence[str]) -> dict[str, Scene]:
+    scenes: dict[str, Scene] = {}
+    for source in sources:
+        name = Path(source).stem
+        if name in scenes:
+            raise UsageError(f"Two scenes are called {name}: their charts would share a file.")
+        scenes[name] = load(source)
+    return scenes
+
+
+def _folder(path: str) -> Path:
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot make the folder {path}: {files.reason(error)}.") from None
+    files.check_writable(folder / "chart.md")
+    return folder
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Tell]:
+    """A bar on stderr with a forecast, on a terminal; else nothing."""
+    if quiet or not sys.stderr.isatty():
+        yield lambda _text, _share: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("chart", total=1.0)
+        yield lambda text, share: bar.update(task, description=text, completed=share)

@@ -1,0 +1,133 @@
+"""The chart of one scene: error against time, and against rays, in logarithms.
+
+Made to be read in black and white and at half its size: variants differ by marker and by the name
+at the end of their curve, what is on the Pareto front is black, and everything else grey.
+"""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from glrt import files
+from glrt.lab.chart_words import ending, percent, speed_up
+from glrt.lab.curves import LEVELS, Curve, front
+from glrt.lab.experiment import Experiment
+
+MARKERS = "os^Dv<>ph*XPd"
+BLACK, GREY, PALE = "black", "0.62", "0.85"
+SIZE = (13.0, 7.0)  # inches, of 100 pixels
+FONT = 13  # points
+
+
+def save_plots(experiment: Experiment, stem: Path) -> None:
+    """Write STEM.svg and STEM.png."""
+    from matplotlib import rc_context
+
+    style: Any = {"font.size": FONT, "svg.hashsalt": "glrt", "svg.fonttype": "none"}
+    with rc_context(style):
+        figure = _figure(experiment)
+        for suffix in (".svg", ".png"):
+            path = stem.with_name(stem.name + suffix)
+            files.write_whole(path, lambda file: figure.savefig(file, dpi=100))
+
+
+def _figure(experiment: Experiment) -> Any:
+    from matplotlib.figure import Figure
+
+    figure = Figure(SIZE, layout="constrained")
+    times, rays = figure.subplots(1, 2, sharey=True, width_ratios=[3, 2])
+    width, height = experiment.size
+    figure.suptitle(f"{experiment.title}: {width} x {height} pixels", weight="bold")
+    _draw(times, experiment.curves, _milliseconds(experiment))
+    _draw(rays, experiment.curves, _rays(experiment))
+    times.set(xlabel="milliseconds a picture", ylabel="relative RMS error")
+    rays.set(xlabel="rays a pixel")
+    _mark_levels(times, experiment.curves)
+    _mark_levels(rays, [])
+    _name_curves(times, experiment.curves)
+    figure.supxlabel(experiment.place, x=0.99, ha="right", size=FONT - 4)
+    return figure
+
+
+def _milliseconds(experiment: Experiment) -> list[list[float]]:
+    return [[point.milliseconds.value for point in curve.points] for curve in experiment.curves]
+
+
+def _rays(experiment: Experiment) -> list[list[float]]:
+    pairs = zip(experiment.curves, experiment.rays, strict=True)
+    return [[rays * point.samples for point in curve.points] for curve, rays in pairs]
+
+
+def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]]) -> None:
+    """Curves over their places on the x axis, and the front of all of them as steps."""
+    axes.set(xscale="log", yscale="log")
+    dots = [
+        (x, point.error.value, number)
+        for number, (curve, xs) in enumerate(zip(curves, places, strict=True))
+        for x, point in zip(xs, curve.points, strict=True)
+    ]
+    best = front([(x, error) for x, error, _ in dots])
+    steps = [dots[place] for place in best]
+    axes.step(*zip(*[dot[:2] for dot in steps], strict=True), where="post", color=BLACK, lw=1.5)
+    for number, (curve, xs) in enumerate(zip(curves, places, strict=True)):
+        errors = [point.error.value for point in curve.points]
+        low, high = ([getattr(p.error, end) for p in curve.points] for end in ("low", "high"))
+        axes.fill_between(xs, low, high, color=PALE, lw=0, zorder=0)
+        axes.plot(xs, errors, MARKERS[number % len(MARKERS)] + "-", color=GREY, ms=6, lw=1)
+    for x, error, number in steps:
+        axes.plot(x, error, MARKERS[number % len(MARKERS)], color=BLACK, ms=7, zorder=5)
+    errors = [error for _, error, _ in dots]
+    axes.set_ylim(min(errors) / 1.5, max(errors) * 1.5)
+
+
+def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
+    """A line at each level of error, and how much faster than naive the fastest gets there."""
+    bottom, top = axes.get_ylim()
+    left, right = axes.get_xlim()
+    axes.set_xlim(left, right)
+    for level in LEVELS:
+        if not bottom < level < top:
+            continue
+        axes.axhline(level, color=GREY, ls=":", lw=1.2, zorder=0)
+        if gain := speed_up(curves, level):
+            label = {"size": FONT - 3, "va": "bottom", "zorder": 6}
+            axes.text(left * 1.05, level, f"{percent(level)}: {gain.text}", **label)
+            if gain.fast < right:
+                ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
+                axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})
+
+
+def _name_curves(axes: Any, curves: Sequence[Curve]) -> None:
+    """Names at the right of the axes, each on a line to the end of its curve."""
+    bottom, top = (math.log(limit) for limit in axes.get_ylim())
+    ends = sorted(
+        ((math.log(curve.points[-1].error.value) - bottom) / (top - bottom), number)
+        for number, curve in enumerate(curves)
+    )
+    for height, (_, number) in zip(_spread([end for end, _ in ends]), ends, strict=True):
+        last = curves[number].points[-1]
+        line = {"arrowstyle": "-", "color": GREY, "lw": 0.8, "shrinkB": 4, "relpos": (0, 0.5)}
+        axes.annotate(
+            ending(curves[number]),
+            (last.milliseconds.value, last.error.value),
+            (1.06, height),
+            textcoords="axes fraction",
+            va="center",
+            size=FONT - 2,
+            arrowprops=line,
+        )
+        marker = {"color": BLACK, "ms": 6, "transform": axes.transAxes, "clip_on": False}
+        axes.plot(1.04, height, MARKERS[number % len(MARKERS)], **marker)
+
+
+def _spread(heights: Sequence[float], gap: float = 0.055) -> list[float]:
+    """Ascending heights moved apart to `gap`, as little as that takes, within 0 to 1."""
+    placed: list[float] = []
+    for height in heights:
+        placed.append(max(height, placed[-1] + gap) if placed else max(height, 0.0))
+    limit = 1.0
+    for index in range(len(placed) - 1, -1, -1):
+        placed[index] = min(placed[index], limit)
+        limit = placed[index] - gap
+    return placed

@@ -1,0 +1,149 @@
+"""What rounds of a measurement say: curves with 95 % intervals, slopes, bias, the Pareto front."""
+
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from glrt.lab.measure import Look, Round, Run, of_variant
+
+LEVELS = (0.1, 0.03, 0.01)  # relative errors at which methods are compared
+# 97.5 % points of Student's t for 1, 2, ... degrees of freedom.
+_STUDENT = (12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179)
+_LEAST_POINTS = 4
+_NOISE_RULES = 3.0  # a slope is fitted where the error is this many times the bias
+
+
+class Interval(NamedTuple):
+    """An estimate with its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+class Point(NamedTuple):
+    """One number of samples: median time with quartiles, error with its 95 % interval."""
+
+    samples: int
+    milliseconds: Interval  # quartiles, not 95 %
+    error: Interval
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A variant: error against time, and what that shows."""
+
+    name: str
+    points: tuple[Point, ...]
+    slope: Interval | None  # of log error over log samples, where noise rules
+    bias: Interval  # relative, 0 where none is seen
+
+    @property
+    def seen_bias(self) -> float:
+        """The bias, 0 where it may be chance."""
+        return self.bias.value if self.bias.low > 0 else 0.0
+
+    @property
+    def is_biased(self) -> bool:
+        """Whether its error ends in a bias: at least half of what is left."""
+        return self.seen_bias > 0.5 * self.points[-1].error.value
+
+    def milliseconds_to(self, error: float) -> tuple[float, bool] | None:
+        """Time until an error is reached, and whether it was measured; None if it never is.
+
+        Between two points on a straight line in logarithms. Beyond the last one, what is not bias
+        falls with the square root of the time.
+        """
+        before = None
+        for point in self.points:
+            if point.error.value <= error:
+                return _between(before, point, error), True
+            before = point
+        last = self.points[-1]
+        noise = last.error.value**2 - self.seen_bias**2
+        room = error**2 - self.seen_bias**2
+        if room <= 0:
+            return None
+        return last.milliseconds.value * max(noise, 0.0) / room, False
+
+
+def curves_of(rounds: Sequence[Round]) -> list[Curve]:
+    """A curve for each variant, in the order of their names in the first round."""
+    return [curve_of(run.variant, of_variant(rounds, run.variant)) for run in rounds[0]]
+
+
+def curve_of(name: str, runs: Sequence[Run]) -> Curve:
+    """The curve of one variant over the samples that all its runs reached."""
+    shared = min(len(run.looks) for run in runs)
+    bias = squared_interval([run.squared_bias for run in runs])
+    columns = zip(*(run.looks[:shared] for run in runs), strict=True)
+    points = [_point(looks) for looks in columns]
+    seen = tuple(point for point in points if point.error.value > 0)
+    return Curve(name, seen, _slope(runs, points, bias), bias)
+
+
+def front(points: Sequence[tuple[float, float]]) -> list[int]:
+    """Places of the points (time, error) that no other beats in both, in the order of time."""
+    best = math.inf
+    places = []
+    for place in sorted(range(len(points)), key=lambda i: points[i]):
+        if points[place][1] < best:
+            best = points[place][1]
+            places.append(place)
+    return places
+
+
+def mean_interval(values: Sequence[float]) -> Interval:
+    """Mean of independent values with Student's interval; of one value, an endless one."""
+    mean = statistics.fmean(values)
+    if len(values) < 2:
+        return Interval(mean, -math.inf, math.inf)
+    freedom = len(values) - 1
+    t = _STUDENT[freedom - 1] if freedom <= len(_STUDENT) else 2.0
+    half = t * statistics.stdev(values) / math.sqrt(len(values))
+    return Interval(mean, mean - half, mean + half)
+
+
+def squared_interval(squares: Sequence[float]) -> Interval:
+    """The root of the mean of squares, each unbiased and so at times below 0."""
+    return Interval(*(math.sqrt(max(value, 0.0)) for value in mean_interval(squares)))
+
+
+def _point(looks: Sequence[Look]) -> Point:
+    times = [1e3 * look.seconds for look in looks]
+    quartiles = (
+        statistics.quantiles(times, n=4, method="inclusive") if len(times) > 1 else 3 * times
+    )
+    time = Interval(statistics.median(times), quartiles[0], quartiles[2])
+    return Point(looks[0].samples, time, squared_interval([look.squared_error for look in looks]))
+
+
+def _slope(runs: Sequence[Run], points: Sequence[Point], bias: Interval) -> Interval | None:
+    """Mean of the slopes of all runs, each a least-squares line; None with too few points."""
+    floor = bias.value if bias.low > 0 else 0.0
+    places = [i for i, p in enumerate(points) if p.error.value > max(_NOISE_RULES * floor, 0.0)]
+    if len(places) < _LEAST_POINTS:
+        return None
+    slopes = []
+    for run in runs:
+        looks = [run.looks[place] for place in places]
+        if any(look.squared_error <= 0 for look in looks):
+            return None
+        samples, squares = np.log([(look.samples, look.squared_error) for look in looks]).T
+        slopes.append(float(np.polyfit(samples, 0.5 * squares, 1)[0]))
+    return mean_interval(slopes)
+
+
+def _between(before: Point | None, after: Point, error: float) -> float:
+    if before is None:
+        return after.milliseconds.value
+    (t0, e0), (t1, e1) = (
+        (math.log(point.milliseconds.value), math.log(point.error.value))
+        for point in (before, after)
+    )
+    share = (e0 - math.log(error)) / (e0 - e1)
+    return math.exp(t0 + share * (t1 - t0))
