@@ -19,7 +19,7 @@ from glrt.scene import Scene
 from glrt.settings import MAX_SAMPLES
 
 WARM_UP = 3  # dispatches that are not counted
-LEAST_LOOKS = 4
+LEAST_LOOKS = 6  # 32 samples: two observations of any sampler, so that the noise is known
 
 
 class Look(NamedTuple):
