@@ -44,5 +44,5 @@ mutants: ## plant classic bugs in the shaders, one at a time; the tests must fin
 	$(IN_ENVIRONMENT) tests.mutation
 
 clean: ## remove .venv and all caches; pictures stay
-	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache
+	rm -rf .venv build dist .pytest_cache .hypothesis .mypy_cache .ruff_cache
 	find glrt tests tools -name __pycache__ -prune -exec rm -rf {} +

@@ -53,8 +53,8 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         has_sphere="sphere" in shapes,
         has_plane="plane" in shapes,
         has_quad="quad" in shapes,
-        has_mirror=any(m.type == "metal" and m.roughness == 0 for m in used),
-        has_rough_metal=any(m.type == "metal" and m.roughness > 0 for m in used),
+        has_mirror=any(m.type == "metal" and m.alpha == 0 for m in used),
+        has_rough_metal=any(m.type == "metal" and m.alpha > 0 for m in used),
         has_dielectric=any(m.type == "dielectric" for m in used),
         has_lens=scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
@@ -111,7 +111,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
 
 
 def _matches(material: Material, limits: dict[str, bool]) -> bool:
-    rough = getattr(material, "roughness", 0.0) > 0
+    rough = getattr(material, "alpha", 0.0) > 0
     return all(rough == wanted for wanted in limits.values())
 
 

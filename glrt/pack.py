@@ -182,7 +182,7 @@ def _pack_materials(scene: Scene) -> Array:
     for row, (name, material) in zip(rows, used.items(), strict=True):
         row["kind"] = CONSTANTS[kinds.get(material.type, "MATTE")]
         row["color"] = getattr(material, "color", 0.0)
-        row["alpha"] = getattr(material, "roughness", 0.0) ** 2
+        row["alpha"] = getattr(material, "alpha", 0.0)
         row["ior"] = getattr(material, "ior", 1.0)
         row["emission"] = scene.emission(name) if is_light(material) else 0.0
     return rows

@@ -17,6 +17,9 @@ LARGEST = 1e15
 # Sine of an angle: below it the cross product of two float32 vectors is mostly rounding error.
 PARALLEL_SINE = 1e-6
 
+# Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
+SMOOTHEST = 1e-8
+
 
 def _length(vector: "Vector") -> float:
     return math.hypot(*vector)
@@ -159,6 +162,12 @@ class Metal(_Tagged):
         description="from 0, a mirror, to 1; its square is the alpha of GGX",
         json_schema_extra={"cost": Cost.RECOMPILE.value},
     )
+
+    @property
+    def alpha(self) -> float:
+        """The alpha of GGX; 0 for a mirror, and for what a float32 cannot tell from one."""
+        alpha = self.roughness**2
+        return alpha if alpha >= SMOOTHEST else 0.0
 
 
 class Dielectric(_Tagged):

@@ -145,6 +145,30 @@ def test_rough_metal_reflects_no_more_than_it_receives(context: Context, roughne
     assert (image.radiance <= 1 + 1e-6).all()
 
 
+@pytest.mark.parametrize("roughness", [5e-324, 1e-12, 9.9e-5])
+def test_metal_smoother_than_a_float_can_tell_is_a_mirror(
+    context: Context, roughness: float
+) -> None:
+    """Its alpha squared may be 0 in float32: 0 / 0 in the density of GGX."""
+    pictures = []
+    for value in (0.0, roughness):
+        room = scene_of(
+            [sphere([0, 0, 0], 1, "metal"), sphere([0, 0.5, 0], 0.25, "lamp")],
+            {"metal": {"type": "metal", "color": [1, 1, 0], "roughness": value}, "lamp": lamp()},
+            render={"width": 16, "height": 16},
+        )
+        pictures.append(rendered(room, context, 4).radiance)
+    assert (pictures[1] == pictures[0]).all()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_smoothest_rough_metal_is_as_bright_as_a_mirror(context: Context, method: str) -> None:
+    metal = {"type": "metal", "color": [1, 1, 1], "roughness": 1.01e-4}
+    settings = {"width": 32, "height": 32, "method": method}
+    image = rendered(under_white_sky(metal), context, 16, **settings)
+    assert image.radiance == pytest.approx(1.0, rel=1e-5)
+
+
 def test_glass_holds_back_what_the_bounce_limit_cuts_off(context: Context) -> None:
     """With D = bounces + 1 segments: 1 - (1 - F) F^(D-2), at an impact of 0.6 radii."""
     reflectance = fresnel_at_impact(0.6, 1.5)

@@ -1,0 +1,55 @@
+"""What holds for every scene file, however wrong: read whole, or refused with one paragraph."""
+
+from pathlib import Path
+
+import numpy as np
+
+from glrt.context import Context
+from glrt.errors import SceneError
+from glrt.renderer import Renderer
+from glrt.scene import Scene
+from glrt.scene_file import parse_scene, read_scene, scene_to_dict
+from tests.fuzz.grammar import Table
+
+SOURCE = "chance.toml"
+
+
+def parsed(table: Table) -> Scene | None:
+    """The scene in the table; None if it was refused as it should be."""
+    try:
+        scene = parse_scene(table, SOURCE)
+    except SceneError as error:
+        check_refusal(str(error), SOURCE)
+        return None
+    assert parse_scene(scene_to_dict(scene), SOURCE) == scene, "a scene survives being written"
+    return scene
+
+
+def read(content: bytes, folder: Path) -> Scene | None:
+    """The scene in a file with this content; None if it was refused as it should be."""
+    path = folder / SOURCE
+    path.write_bytes(content)
+    try:
+        return read_scene(path)
+    except SceneError as error:
+        check_refusal(str(error), str(path))
+        return None
+
+
+def check_refusal(message: str, source: str) -> None:
+    """One short paragraph that names the file."""
+    assert source in message
+    assert message.isprintable(), "one paragraph, fit for a terminal"
+    assert len(message) < 4000, "a paragraph, not a dump"
+
+
+def check_render(scene: Scene, context: Context) -> None:
+    """One sample of a small picture: each pixel a number, not below 0; no sample dropped."""
+    renderer = Renderer(scene, context=context, samples=1, width=8, height=8, crop=None)
+    try:
+        radiance = renderer.render().image().radiance
+        assert np.isfinite(radiance).all()
+        assert (radiance >= 0).all()
+        assert renderer.nonfinite() == 0
+    finally:
+        renderer.release()
