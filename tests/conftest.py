@@ -8,12 +8,15 @@ import numpy as np
 import pytest
 
 from glrt.context import Context, open_context
+from glrt.errors import ContextError
 from glrt.needs import needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.probe import Probe, path_files
 from glrt.scene import Scene
 from glrt.settings import settings_for
 from tests.builders import EVERYTHING
+from tests.packages import needs_package
+from tests.wgsl.device import Device, open_device
 
 pytest_plugins = ["tests.slow_share"]
 
@@ -36,6 +39,15 @@ def ctx(context: Context) -> Iterator[moderngl.Context]:
         assert context.gl.error == "GL_NO_ERROR"
         yield context.gl
         assert context.gl.error == "GL_NO_ERROR"
+
+
+@pytest.fixture(scope="session")
+def webgpu() -> Device:
+    """A WebGPU device. Opening it leaves no OpenGL context current."""
+    try:
+        return open_device()
+    except ContextError as error:
+        needs_package(False, f"mesa-vulkan-drivers or another Vulkan driver ({error})")
 
 
 @pytest.fixture

@@ -1,7 +1,8 @@
 """What works on this machine, found by loading it: package databases do not know of drivers.
 
 A probe returns "" when the thing works, else the reason why it does not. Probes that start a
-driver run as `python probes.py egl|osmesa` in a process of their own, which a driver may crash.
+driver run as `python probes.py egl|osmesa|vulkan` in a process of their own, which a driver may
+crash.
 """
 
 import ctypes
@@ -17,6 +18,7 @@ PLATFORM_DEVICE = 0x313F  # EGL_EXT_platform_device
 OSMESA_NAMES = ("libOSMesa.so.8", "libOSMesa.so.6")
 # OSMesaCreateContextAttribs: OSMESA_FORMAT RGBA, OSMESA_PROFILE core, version 4.3, end
 OSMESA_ATTRIBUTES = (0x22, 0x1908, 0x33, 0x34, 0x36, 4, 0x37, 3, 0)
+VK_INSTANCE_CREATE_INFO = 1  # VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO
 DRIVER_SECONDS = 60
 
 
@@ -58,6 +60,11 @@ def xvfb() -> str:
 def window() -> str:
     """Are the libraries there with which a window opens under X11?"""
     return library("libGL.so.1") or library("libX11.so.6") or library("libXext.so.6")
+
+
+def vulkan() -> str:
+    """Does Vulkan find a device? The tests run a WGSL version of the path tracer on it."""
+    return library("libvulkan.so.1") or _apart("vulkan")
 
 
 def cxx() -> str:
@@ -122,5 +129,30 @@ def start_osmesa() -> None:
         sys.exit("OSMesa makes no OpenGL 4.3 core context")
 
 
+class _VkInstanceCreateInfo(ctypes.Structure):
+    _fields_ = [
+        ("type", ctypes.c_int),
+        ("next", ctypes.c_void_p),
+        ("flags", ctypes.c_uint),
+        ("application", ctypes.c_void_p),
+        ("layer_count", ctypes.c_uint),
+        ("layers", ctypes.c_void_p),
+        ("extension_count", ctypes.c_uint),
+        ("extensions", ctypes.c_void_p),
+    ]
+
+
+def start_vulkan() -> None:
+    """Create an instance of Vulkan 1.0; exit with the reason if it finds no device."""
+    lib = ctypes.CDLL("libvulkan.so.1")
+    instance, count = ctypes.c_void_p(), ctypes.c_uint()
+    wishes = _VkInstanceCreateInfo(type=VK_INSTANCE_CREATE_INFO)
+    if lib.vkCreateInstance(ctypes.byref(wishes), None, ctypes.byref(instance)):
+        sys.exit("Vulkan finds no driver")
+    lib.vkEnumeratePhysicalDevices(instance, ctypes.byref(count), None)
+    if not count.value:
+        sys.exit("Vulkan finds no device")
+
+
 if __name__ == "__main__":
-    {"egl": start_egl, "osmesa": start_osmesa}[sys.argv[1]]()
+    {"egl": start_egl, "osmesa": start_osmesa, "vulkan": start_vulkan}[sys.argv[1]]()

@@ -43,6 +43,13 @@ XVFB = Need(
     ("xvfb", "libx11-6"),
     "Xvfb (Fedora: xorg-x11-server-Xvfb; Arch: xorg-server-xvfb; Alpine: xvfb)",
 )
+VULKAN = Need(
+    "Vulkan, for the WGSL version that the tests compare with",
+    probes.vulkan,
+    ("libvulkan1", "mesa-vulkan-drivers"),
+    "Vulkan (Fedora: vulkan-loader mesa-vulkan-drivers; Arch: vulkan-icd-loader vulkan-swrast; "
+    "Alpine: vulkan-loader mesa-vulkan-swrast) or the driver of your graphics card",
+)
 
 WINDOW = Need(
     "a window",
@@ -55,7 +62,7 @@ WINDOW = Need(
 WANTED = {
     "check": (CXX, VENV),
     "render": (CXX, VENV, EGL, OSMESA),
-    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW),
+    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN),
     "view": (CXX, VENV, EGL, OSMESA, WINDOW),
 }
 Missing = Mapping[Need, str]  # what does not work, and why

@@ -1,0 +1,69 @@
+"""A scene as the bytes of the thesis's buffers.
+
+The numbers are those of `glrt.pack`, relative to the camera: both versions read the same ones.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from glrt.layout import read_constants, record
+from glrt.pack import pack_camera, pack_scene
+from glrt.scene import Scene
+from glrt.settings import Settings
+from tests.wgsl.text import read, struct
+
+Array = np.ndarray[Any, Any]
+
+_CONSTANTS = read_constants(read("scene").replace(": i32", "").replace("const", "const int"))
+_POSITIONS = {"SPHERE": "center", "PLANE": "point", "QUAD": "corner"}
+
+
+def camera_buffer(scene: Scene, settings: Settings) -> bytes:
+    """Position is the origin; orientation, focus and lens as in `glrt.pack`."""
+    camera = pack_camera(scene.camera, settings.width / settings.height)
+    return record(struct("Camera"), camera).tobytes()
+
+
+def object_buffer(scene: Scene) -> bytes:
+    """Every shape in a row of one kind: spheres, planes, quads, as the kernel numbers them."""
+    arrays = pack_scene(scene)
+    return b"".join(
+        _objects(kind, arrays[f"{kind.capitalize()}s"], position)
+        for kind, position in _POSITIONS.items()
+    ) or bytes(struct("Object").itemsize)
+
+
+def material_buffer(scene: Scene) -> bytes:
+    """The materials that some shape is made of."""
+    row = struct("Material")
+    return _taken(pack_scene(scene)["Materials"], row).tobytes() or bytes(row.itemsize)
+
+
+def settings_buffer(scene: Scene, settings: Settings) -> bytes:
+    """What stays the same from frame to frame."""
+    bottom, top = scene.background_colors
+    values = {
+        "background_bottom": bottom,
+        "bounces": settings.bounces,
+        "background_top": top,
+        "zero": 0,
+        "size": (settings.width, settings.height),
+        "object_count": len(scene.objects),
+    }
+    return record(struct("Settings"), values).tobytes()
+
+
+def _objects(kind: str, shapes: Array, position: str) -> bytes:
+    rows = _taken(shapes, struct("Object"))
+    rows["kind"] = _CONSTANTS[kind]
+    rows["position"] = shapes[position]
+    return rows.tobytes()
+
+
+def _taken(rows: Array, dtype: np.dtype[Any]) -> Array:
+    """The fields that both have, by name; zeros for the others."""
+    taken = np.zeros(len(rows), dtype)
+    for name in set(dtype.names or ()) & set(rows.dtype.names or ()):
+        taken[name] = rows[name]
+    return taken

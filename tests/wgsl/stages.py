@@ -1,0 +1,119 @@
+"""Stage by stage: what one sample of each pixel comes by, in both versions.
+
+A difference between the pictures arose in the first stage that differs.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from glrt.blocks import blocks_text, padded, tier_for
+from glrt.context import Context
+from glrt.kernel import Kernel
+from glrt.needs import needs_of
+from glrt.pack import pack_frame, pack_scene
+from glrt.probe import path_files
+from glrt.scene import Scene
+from glrt.settings import Settings
+from glrt.shader import Source, read
+from tests.wgsl import text
+from tests.wgsl.device import Device
+from tests.wgsl.program import OUTPUT, SEEDS, Program
+from tests.wgsl.resources import RandomTexture, SceneBuffers, output_buffer
+
+Array = np.ndarray[Any, Any]
+
+STAGE = np.dtype(
+    [
+        ("draws", [("digest", "u4"), ("count", "u4")]),
+        ("ray", [("origin", "f4", 3), ("direction", "f4", 3)]),
+        (
+            "hit",
+            [
+                ("shape", "i4"),
+                ("distance", "f4"),
+                ("material", "i4"),
+                ("position", "f4", 3),
+                ("normal", "f4", 3),
+            ],
+        ),
+        (
+            "scattering",
+            [
+                ("depth", "i4"),
+                ("inward", "u4"),
+                ("direction", "f4", 3),
+                ("throughput", "f4", 3),
+                ("scale", "f4"),
+                ("radiance", "f4", 3),
+            ],
+        ),
+    ]
+)
+
+_WORDS = {f"{name.upper()}_WORD": field[1] // 4 for name, field in (STAGE.fields or {}).items()}
+_CONSTANTS = {**_WORDS, "WORDS": STAGE.itemsize // 4}
+_GROUP = 64  # work group of stages.comp
+# Every number drawn goes through unit_float, in both languages.
+_DRAW = "return {}(x >> 8u)"
+_RECORD = "digest = pcg_hash(digest ^ x);\n    draws += 1u;\n    return {}(x >> 8u)"
+
+
+def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
+    """The stages of the first sample by the kernel's path text: (H, W) of STAGE."""
+    arrays = pack_scene(scene)
+    counts = {name: len(rows) for name, rows in arrays.items()}
+    tier = tier_for(arrays, "generic")
+    data = {name: padded(rows, tier) for name, rows in arrays.items()}
+    data["FrameBlock"] = pack_frame(scene, settings, counts, 0, 1)
+    entry = (text.FOLDER / "stages.comp").read_text()
+    data["Words"] = bytes(STAGE.itemsize * settings.width * settings.height)
+    parts = {
+        "stages": "".join(f'#include "{name}"\n' for name in path_files()) + entry,
+        "blocks.glsl": blocks_text(arrays, tier),
+        "rng.glsl": "uint digest = 0u;\nuint draws = 0u;\n" + _recording(read("rng.glsl"), "float"),
+    }
+    constants = {**needs_of(scene, settings).constants(), **_CONSTANTS}
+    with context.gl as gl:
+        kernel = Kernel(gl, Source("stages", constants, parts=parts))
+        buffers = {name: gl.buffer(content) for name, content in data.items()}
+        kernel.bind(buffers, {})
+        kernel.run_tiles(-(-settings.width * settings.height // _GROUP))
+        gl.memory_barrier()
+        words = buffers["Words"].read()
+        for resource in (kernel, *buffers.values()):
+            resource.release()
+    return _shaped(words, settings)
+
+
+def wgsl_program(fault: tuple[str, str] | None = None) -> str:
+    """The text that records stages; `fault` is a passage of the path text and its replacement."""
+    constants = "".join(f"const {name}: i32 = {value};\n" for name, value in _CONSTANTS.items())
+    globals_ = "var<private> digest: u32;\nvar<private> draws: u32;\n"
+    source = _recording(text.with_path(text.read("stages")), "f32")
+    return constants + globals_ + (text.planted(source, *fault) if fault else source)
+
+
+class WgslStages:
+    """The stages by the WGSL version, compiled once for all scenes."""
+
+    def __init__(self, device: Device, source: str | None = None) -> None:
+        """Compile `wgsl_program()`, or a text in its place."""
+        self._program = Program(device, source or wgsl_program(), [SEEDS, OUTPUT])
+
+    def run(self, scene: Scene, settings: Settings) -> Array:
+        """The stages of the first sample: (H, W) of STAGE."""
+        device, width, height = self._program.device, settings.width, settings.height
+        words = output_buffer(device, STAGE.itemsize * width * height)
+        seeds = RandomTexture(device, settings).texture.create_view()
+        given = self._program.bind(0, SceneBuffers(device, scene, settings).in_order)
+        self._program.run([given, self._program.bind(1, [seeds, words])], width, height)
+        return _shaped(device.queue.read_buffer(words), settings)
+
+
+def _recording(source: str, to_float: str) -> str:
+    return text.planted(source, _DRAW.format(to_float), _RECORD.format(to_float))
+
+
+def _shaped(words: Any, settings: Settings) -> Array:
+    return np.frombuffer(words, STAGE).reshape(settings.height, settings.width)
