@@ -8,31 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import ArrayLike
 
 from tests.conftest import CallGlsl
+from tests.wgsl.seeds import pcg, seed_texture
 
 Array = np.ndarray[Any, Any]
 
 GOLDEN = 0x9E3779B9  # steps from one dimension to the next
 SIGMAS = 5.0
 SIZE, FRAMES, BLOCK = 128, 256, 8
-
-
-def pcg(values: ArrayLike) -> Array:
-    """`pcg_hash` in numpy, uint32 arithmetic."""
-    x = np.atleast_1d(np.asarray(values, np.uint32))  # scalars would warn of the wanted overflow
-    state = x * np.uint32(747796405) + np.uint32(2891336453)
-    word = ((state >> ((state >> np.uint32(28)) + np.uint32(4))) ^ state) * np.uint32(277803737)
-    hashed: Array = (word >> np.uint32(22)) ^ word
-    return hashed
-
-
-def seed_texture(width: int, height: int, sample: int, seed: int) -> Array:
-    """The thesis's texture of 32-bit seeds of one frame, (H, W)."""
-    y, x = np.mgrid[:height, :width].astype(np.uint32)
-    frame = pcg(np.uint32(sample) + pcg(np.uint32(seed)))
-    return pcg(x + pcg(y + frame))
 
 
 def drawn(seeds: Array, count: int) -> Array:
