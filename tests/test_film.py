@@ -18,7 +18,8 @@ from glrt.shader import Source
 from tests.builders import lamp, scene_of, sphere
 from tests.conftest import CallGlsl
 from tests.numerics import Array
-from tests.test_rng import drawn, pcg
+from tests.test_rng import drawn
+from tests.wgsl.seeds import pcg
 
 NAN, INFINITY = 0x7FC00000, 0x7F800000  # bits of floats
 SAMPLES = 4096

@@ -14,7 +14,8 @@ from tests.conftest import CallGlsl
 from tests.numerics import BELOW_ONE, ULP, Array, directions, dot, float32, length, roots64, wo_at
 from tests.renders import METHODS, assert_mean, rendered, whole
 from tests.test_camera import pinhole
-from tests.test_rng import drawn, pcg
+from tests.test_rng import drawn
+from tests.wgsl.seeds import pcg
 
 HALF_ULP = ULP / 2
 SQUARE = {"width": 256, "height": 256}
