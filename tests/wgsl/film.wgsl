@@ -17,10 +17,16 @@ fn is_finite(x: vec3f) -> bool {
     return all((bitcast<vec3u>(x) & vec3u(0x7F800000u)) != vec3u(0x7F800000u));
 }
 
-// m += (x - m) / n: a mix of m and x would drift (its weights do not add up to 1 in floating point).
+// The mean of `count` samples from that of all but x, m += (x - m) / n: a mix of m and x would
+// drift (its weights do not add up to 1 in floating point). Steps are dithered.
 fn next_mean(mean: vec3f, x: vec3f, count: f32) -> vec3f {
     let weight = 1.0 / count;
-    return exact3(mean + exact3(exact3(x - mean) * weight));
+    let change = exact3(exact3(x - mean) * weight);
+    let exponent = bitcast<vec3u>(mean) & vec3u(0x7F800000u);
+    let last_place = bitcast<vec3f>(exponent) * 1.1920928955078125e-7;
+    let moves = select(vec3f(0.0), vec3f(1.0), change != vec3f(0.0));
+    let dither = exact3(golden_turn(u32(count)) * last_place * moves);
+    return exact3(mean + exact3(change + dither));
 }
 
 // Adds the sample number `index`, from 0; the variance in Welford's form.

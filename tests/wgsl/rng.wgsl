@@ -18,6 +18,12 @@ fn unit_float(x: u32) -> f32 {
     return f32(x >> 8u) * 5.9604644775390625e-8;
 }
 
+// The n-th of numbers that fill [-1/2, 1/2) evenly however many there are: multiples of the golden
+// ratio.
+fn golden_turn(n: u32) -> f32 {
+    return exact(unit_float(n * 0x9E3779B9u) - 0.5);
+}
+
 fn make_sampler(seed: u32) -> Sampler {
     return Sampler(seed, 0u);
 }
