@@ -67,6 +67,11 @@ def vulkan() -> str:
     return library("libvulkan.so.1") or _apart("vulkan")
 
 
+def llvm() -> str:
+    """Is the version of LLVM there that Mitsuba works with? 15 and 16 crash it."""
+    return library("libLLVM.so.19.1")
+
+
 def cxx() -> str:
     """Is the C++ runtime there, which the compiled Python packages need?"""
     return library("libstdc++.so.6")

@@ -58,11 +58,17 @@ WINDOW = Need(
     "OpenGL for X11 (Fedora: mesa-libGL libX11 libXext; Arch: mesa libx11 libxext; "
     "Alpine: mesa-gl libx11 libxext)",
 )
+LLVM = Need(
+    "LLVM 19 for Mitsuba, the renderer that tests compare with",
+    probes.llvm,
+    ("libllvm19",),
+    "LLVM 19 (Fedora: llvm-libs; Arch: llvm-libs; Alpine: llvm19-libs)",
+)
 
 WANTED = {
     "check": (CXX, VENV),
     "render": (CXX, VENV, EGL, OSMESA),
-    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN),
+    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, LLVM),
     "view": (CXX, VENV, EGL, OSMESA, WINDOW),
 }
 Missing = Mapping[Need, str]  # what does not work, and why

@@ -1,0 +1,109 @@
+"""`python -m tests.mitsuba SCENE -o FILE`: the image files of `glrt render`, from Mitsuba.
+
+`python -m tests.mitsuba --serve` renders what `glrt.lab.peer` requests, until stdin ends.
+"""
+
+import argparse
+import json
+import sys
+import time
+from dataclasses import replace
+from functools import lru_cache
+
+from glrt.errors import GlrtError, UsageError
+from glrt.image import Image, check_writable
+from glrt.lab.peer import Request, serve
+from glrt.library import load
+from glrt.settings import Settings, settings_for
+from tests.mitsuba.engine import Engine, load_mitsuba, name_of
+
+
+def main() -> int:
+    """Render as the command line says; returns the exit code of `glrt render`."""
+    arguments = _parser().parse_args()
+    try:
+        return serve_all(arguments) if arguments.serve else render(arguments)
+    except GlrtError as error:
+        print(f"mitsuba: {' '.join(str(error).split())}", file=sys.stderr)
+        return error.exit_code
+
+
+def render(arguments: argparse.Namespace) -> int:
+    """One picture; `--json` prints its figures."""
+    if not (arguments.scene and arguments.output):
+        raise UsageError("give a SCENE and -o FILE, or --serve.")
+    check_writable(arguments.output)
+    scene = load(arguments.scene)
+    given = {name: getattr(arguments, name) for name in _SETTINGS}
+    given = {name: value for name, value in given.items() if value is not None}
+    settings = settings_for(scene.render, **given)
+    mi = load_mitsuba(arguments.variant)
+    engine = Engine(mi, scene, settings, arguments.one_sided, arguments.roulette_depth)
+    start = time.perf_counter()
+    image = engine.image(settings.samples, settings.seed)
+    seconds = time.perf_counter() - start
+    image.save(arguments.output)
+    if arguments.json:
+        rate = settings.width * settings.height * settings.samples / seconds
+        figures = {
+            "scene": arguments.scene,
+            **settings.model_dump(include=set(_SETTINGS)),
+            "renderer": engine.name,
+            "seconds": {"render": round(seconds, 6)},
+            "samples_per_second": round(rate, 1),
+            "error": image.error,
+        }
+        print(json.dumps(figures))
+    return 0
+
+
+def serve_all(arguments: argparse.Namespace) -> int:
+    """Answer requests; a scene once loaded stays."""
+    mi = load_mitsuba(arguments.variant)
+
+    @lru_cache(maxsize=4)
+    def engine(asked: Request) -> Engine:
+        scene = asked.parsed()
+        settings = settings_for(
+            scene.render,
+            width=asked.width,
+            height=asked.height,
+            bounces=asked.bounces,
+            roulette=asked.roulette,
+        )
+        return Engine(mi, scene, settings, asked.one_sided, arguments.roulette_depth)
+
+    def answer(request: Request) -> tuple[Image, float]:
+        ready = engine(replace(request, samples=1, seed=0, batches=1))
+        start = time.perf_counter()
+        image = ready.image(request.samples, request.seed, request.batches)
+        return image, time.perf_counter() - start
+
+    serve(name_of(mi), answer)
+    return 0
+
+
+_SETTINGS = ("width", "height", "samples", "bounces", "seed", "roulette")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m tests.mitsuba", description=__doc__)
+    add = parser.add_argument
+    add("scene", metavar="SCENE", nargs="?", help="a scene of glrt: a file, a name or a picture")
+    add("-o", dest="output", metavar="FILE", help=".exr, .png or .npy")
+    add("--serve", action="store_true", help="render on request, over pipes")
+    for name in _SETTINGS:
+        text = Settings.model_fields[name].description
+        if name == "roulette":
+            add("--roulette", action=argparse.BooleanOptionalAction, help=text)
+        else:
+            add(f"--{name}", type=int, metavar="N", help=text)
+    add("--roulette-depth", type=int, default=5, metavar="N", help="where it starts (default: 5)")
+    add("--one-sided", action="store_true", help="quads light their front alone")
+    add("--variant", choices=["auto", "llvm", "scalar"], default="auto", help="how Mitsuba runs")
+    add("--json", action="store_true", help="one line of figures on stdout")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,181 @@
+"""A scene of glrt in the words of Mitsuba 3: the dictionary that `mitsuba.load_dict` reads."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from glrt.errors import SceneError
+from glrt.scene import Dielectric, Light, Metal, Plane, Quad, Radiance, Scene, Sphere
+from glrt.settings import Settings
+from tests.mitsuba import metal
+from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
+from tests.mitsuba.near import EXTENT, Near, Vector, corners, length, near, normal_of, unit
+
+NEVER = 1 << 30  # the depth at which roulette starts if it never does
+
+# In lengths of Mitsuba's coordinates. A plane becomes a grid so large that the gap to the horizon
+# is a small part of a pixel. Its cells grow outwards, since Mitsuba knows a point on a triangle to
+# a part of the triangle's size.
+GRID = EXTENT * np.array([-(2**20), -(2**15), -(2**10), -32, -1, 1, 32, 2**10, 2**15, 2**20])
+GAP = 5e-6 * EXTENT  # between the two faces of a lamp
+CLIP = (1e-3, 2**20 * EXTENT)  # from the lens; Mitsuba renders nothing before it and beyond
+SKY_ROWS = 512  # from pole to pole: the gradient is then right to 3e-6 of its range
+
+Words = dict[str, Any]
+
+
+def convert(mi: Any, scene: Scene, settings: Settings, roulette: int, one_sided: bool) -> Words:
+    """The scene for Mitsuba, whose variant is set.
+
+    Paths meet roulette from the depth `roulette` on. `one_sided` quads light their front alone.
+    Raises SceneError for what Mitsuba cannot show: coincident faces, and lamps without end.
+    """
+    refuse_coincident(scene)
+    metal.register(mi.variant())
+    at = near(scene)
+    words = {
+        "type": "scene",
+        "integrator": {
+            "type": "path",
+            "max_depth": settings.bounces + 1,  # Mitsuba counts segments
+            "rr_depth": roulette,
+        },
+        "camera": _camera(mi, scene, settings, at),
+    }
+    if any(map(any, scene.background_colors)):
+        words["background"] = _background(mi, *scene.background_colors)
+    for index, item in enumerate(scene.objects):
+        for side, part in enumerate(_shape(mi, scene, item, at, one_sided)):
+            words[f"object {index} {side}"] = part
+    return words
+
+
+def _camera(mi: Any, scene: Scene, settings: Settings, at: Near) -> Words:
+    camera = scene.camera
+    focus = camera.resolved_focus_distance * at.factor
+    radius = focus * math.tan(math.radians(camera.defocus_angle) / 2)
+    lens: Words = {"type": "perspective"}
+    if radius:
+        lens = {"type": "thinlens", "aperture_radius": radius, "focus_distance": focus}
+    return {
+        **lens,
+        "to_world": mi.ScalarTransform4f().look_at([0, 0, 0], unit(camera.view), unit(camera.up)),
+        "fov": camera.fov,
+        "fov_axis": "y",
+        "near_clip": CLIP[0],
+        "far_clip": CLIP[1],
+        "sampler": {"type": "independent"},
+        "film": {
+            "type": "hdrfilm",
+            "width": settings.width,
+            "height": settings.height,
+            "pixel_format": "rgb",
+            "component_format": "float32",
+            "rfilter": {"type": "box"},
+        },
+    }
+
+
+def _background(mi: Any, bottom: Radiance, top: Radiance) -> Words:
+    if bottom == top:
+        return {"type": "constant", "radiance": _color(top)}
+    # Rows run from the upper pole to the lower one, both included, and are interpolated.
+    cosine = np.cos(np.pi * np.arange(SKY_ROWS) / (SKY_ROWS - 1))
+    share = 0.5 * (cosine[:, None] + 1)
+    rows = (1 - share) * np.array(bottom) + share * np.array(top)
+    pixels = np.repeat(rows[:, None].astype(np.float32), 2, axis=1)
+    return {"type": "envmap", "bitmap": mi.Bitmap(pixels)}
+
+
+def _shape(mi: Any, scene: Scene, item: Any, at: Near, one_sided: bool) -> Iterator[Any]:
+    """The shape, or its two faces."""
+    if isinstance(item, Sphere):
+        yield from _sphere(scene, item, at)
+    elif isinstance(item, Plane):
+        if isinstance(scene.materials[item.material], Light):
+            raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
+        yield _mesh(mi, _surface(scene, item.material), *_grid(item, at))
+    elif any(scene.emission(item.material)):
+        for side in (1,) if one_sided else (1, -1):
+            yield _quad(mi, _surface(scene, item.material), item, at, side * GAP / 2)
+    else:
+        yield _quad(mi, _surface(scene, item.material), item, at, 0.0)
+
+
+def _sphere(scene: Scene, item: Sphere, at: Near) -> Iterator[Words]:
+    center, radius = at.point(item.center).tolist(), item.radius * at.factor
+    ball = {"type": "sphere", "center": center, **_surface(scene, item.material)}
+    yield {**ball, "radius": radius}
+    if any(scene.emission(item.material)) and is_seen_from_inside(item, scene):
+        yield {**ball, "radius": radius - GAP, "flip_normals": True}
+
+
+def _grid(item: Plane, at: Near) -> tuple[Vector, list[list[int]]]:
+    """Points and triangles of a plane, around the foot of the camera."""
+    normal = normal_of(item)
+    u = unit(np.cross(normal, np.eye(3)[np.abs(normal).argmin()]))
+    foot = np.dot(at.point(item.point), normal) * normal
+    points = [foot + x * u + y * np.cross(normal, u) for y in GRID for x in GRID]
+    side = len(GRID)
+    cells = [y * side + x for y in range(side - 1) for x in range(side - 1)]
+    first = [[cell, cell + 1, cell + side + 1] for cell in cells]
+    second = [[cell, cell + side + 1, cell + side] for cell in cells]
+    return np.array(points), first + second
+
+
+def _quad(mi: Any, surface: Words, item: Quad, at: Near, lift: float) -> Any:
+    """One face of a quad, lifted to its side: below 0, the back."""
+    u, v = at.along(item.edge_u) / 2, at.along(item.edge_v) / 2
+    center = np.mean([at.point(corner) for corner in corners(item)], axis=0)
+    center += lift * normal_of(item)
+    if lift < 0:
+        u, v = v, u
+    if abs(np.dot(u, v)) <= 1e-6 * length(u) * length(v):
+        return {**surface, **_square(mi, center, u, v)}
+    points = np.array([center - u - v, center + u - v, center + u + v, center - u + v])
+    return _mesh(mi, surface, points, [[0, 1, 2], [0, 2, 3]])  # a rectangle cannot be sheared
+
+
+def _mesh(mi: Any, surface: Words, points: Vector, triangles: list[list[int]]) -> Any:
+    properties = mi.Properties()
+    for name, part in surface.items():
+        properties[name] = mi.load_dict(part)
+    mesh = mi.Mesh("mesh", len(points), len(triangles), properties)
+    parameters = mi.traverse(mesh)
+    parameters["vertex_positions"] = np.ravel(points)
+    parameters["faces"] = np.ravel(triangles)
+    parameters.update()
+    return mesh
+
+
+def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
+    matrix = np.eye(4)
+    matrix[:3] = np.stack([u, v, unit(np.cross(u, v)), middle], axis=1)
+    return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix)}
+
+
+def _surface(scene: Scene, name: str) -> Words:
+    """How a surface scatters, on both sides, and what it emits from its front."""
+    material = scene.materials[name]
+    if isinstance(material, Dielectric):
+        return {"bsdf": {"type": "dielectric", "int_ior": material.ior, "ext_ior": 1.0}}
+    surface: Words = {"bsdf": {"type": "twosided", "bsdf": _scattering(material)}}
+    if any(scene.emission(name)):
+        surface["emitter"] = {"type": "area", "radiance": _color(scene.emission(name))}
+    return surface
+
+
+def _scattering(material: Any) -> Words:
+    if not isinstance(material, Metal):
+        return {"type": "diffuse", "reflectance": _color(material.color)}
+    if not material.roughness:
+        mirror = {"type": "conductor", "material": "none"}  # reflects all, at all angles
+        return {**mirror, "specular_reflectance": _color(material.color)}
+    alpha = material.roughness**2
+    return {"type": metal.NAME, "alpha": alpha, "reflectance": _color(material.color)}
+
+
+def _color(color: Radiance) -> Words:
+    return {"type": "rgb", "value": list(color)}

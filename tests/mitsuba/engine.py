@@ -1,0 +1,117 @@
+"""Mitsuba as a renderer of glrt's scenes. It runs in programs of its own: see `__init__`."""
+
+import ctypes
+import importlib
+import os
+from typing import Any
+
+import numpy as np
+
+from glrt.errors import UsageError
+from glrt.image import Image
+from glrt.recipe import Recipe
+from glrt.scene import Scene
+from glrt.settings import Settings, settings_for
+from glrt.version import VERSION
+from tests.mitsuba.convert import NEVER, convert
+
+LLVM = "libLLVM.so.19.1"  # with 15 and 16, Mitsuba ends the process; 14 it refuses
+LLVM_PACKAGE = "libllvm19"
+
+BATCHES = 64  # at most: their spread tells the error
+MOST_PATHS = 1 << 20  # at a time, which bounds memory
+
+Pixels = np.ndarray[Any, np.dtype[np.float32]]
+
+
+def load_mitsuba(variant: str = "auto") -> Any:
+    """The module with its variant set: `llvm`, `scalar`, or `auto`, LLVM where it is there.
+
+    Raises UsageError if Mitsuba or its LLVM is not installed.
+    """
+    if variant == "auto":
+        variant = "llvm" if _has_llvm() else "scalar"
+    if variant == "llvm" and not _has_llvm():
+        raise UsageError(f"Mitsuba's LLVM mode needs the system package {LLVM_PACKAGE}.")
+    os.environ["DRJIT_LIBLLVM_PATH"] = LLVM
+    try:
+        mi = importlib.import_module("mitsuba")
+    except ImportError:
+        raise UsageError("Mitsuba is not installed: pip install mitsuba.") from None
+    mi.set_variant({"llvm": "llvm_ad_rgb", "scalar": "scalar_rgb"}[variant])
+    return mi
+
+
+def _has_llvm() -> bool:
+    try:
+        ctypes.CDLL(LLVM)
+    except OSError:
+        return False
+    return True
+
+
+def name_of(mi: Any) -> str:
+    """What a recipe calls the renderer."""
+    return f"Mitsuba {mi.__version__}, {mi.variant()}"
+
+
+class Engine:
+    """A scene ready to be rendered many times; settings are those of glrt.
+
+    With `roulette` on, paths meet Mitsuba's, from the depth `roulette_depth` on.
+    """
+
+    def __init__(
+        self,
+        mi: Any,
+        scene: Scene,
+        settings: Settings,
+        one_sided: bool = False,
+        roulette_depth: int = 5,
+    ) -> None:
+        """Convert the scene and load it; SceneError if Mitsuba cannot show it."""
+        self._mi = mi
+        self.name = name_of(mi)
+        self.scene = scene
+        self.settings = settings_for(settings, method="mis", sampler="independent")
+        depth = roulette_depth if settings.roulette else NEVER
+        self._loaded = mi.load_dict(convert(mi, scene, settings, depth, one_sided))
+
+    def pixels(self, samples: int, seed: int) -> Pixels:
+        """The mean of `samples` samples, (H, W, 3), row 0 on top. Equal seeds, equal samples."""
+        return np.array(self._mi.render(self._loaded, spp=samples, seed=seed), dtype=np.float32)
+
+    def image(self, samples: int, seed: int = 0, batches: int = BATCHES) -> Image:
+        """A picture with its standard errors, from the spread of batches."""
+        sizes = _sizes(samples, batches, self.settings.width * self.settings.height)
+        total, squares = np.zeros((2, self.settings.height, self.settings.width, 3))
+        for index, size in enumerate(sizes):
+            pixels = self.pixels(size, _seed(seed, index)).astype(float)
+            total += size * pixels
+            squares += size * np.square(pixels)
+        mean = total / samples
+        spread = np.maximum(squares / samples - np.square(mean), 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            stderr = np.sqrt(spread / (len(sizes) - 1))
+        pair = mean.astype(np.float32), stderr.astype(np.float32)
+        return Image(*pair, samples, self._recipe(samples, seed))
+
+    def _recipe(self, samples: int, seed: int) -> Recipe:
+        return Recipe(
+            scene=self.scene,
+            settings=settings_for(self.settings, samples=samples, seed=seed),
+            samples=samples,
+            version=VERSION,
+            renderer=self.name,
+        )
+
+
+def _sizes(samples: int, batches: int, pixels: int) -> list[int]:
+    """Samples of each batch, as equal as can be; of more batches if memory asks for it."""
+    least = -(-samples * pixels // MOST_PATHS)
+    count = min(samples, max(batches, least))
+    return [(index + 1) * samples // count - index * samples // count for index in range(count)]
+
+
+def _seed(seed: int, batch: int) -> int:
+    return (seed * 0x10001 + batch) % (1 << 32)
