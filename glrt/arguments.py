@@ -2,6 +2,7 @@
 
 import argparse
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any, NoReturn, get_args
 
 from glrt.context import ROUTES
@@ -64,6 +65,7 @@ def make_parser() -> Parser:
     _add_compare(commands.add_parser("compare", help="do two renders differ", **_HELP["compare"]))
     _add_inspect(commands.add_parser("inspect", help="what a scene needs", **_HELP["inspect"]))
     _add_chart(commands.add_parser("chart", help="speed against accuracy", **_HELP["chart"]))
+    _add_stress(commands.add_parser("stress", help="where methods fail", **_HELP["stress"]))
     commands.add_parser("doctor", help="which OpenGL routes work here", **_HELP["doctor"])
     commands.add_parser("schema", help="the scene format as JSON Schema", **_HELP["schema"])
     return parser
@@ -96,6 +98,12 @@ _HELP: dict[str, dict[str, Any]] = {
         "epilog": "The same command goes on after an interruption. References are kept in the "
         "user's cache folder. Exit codes: 0 done, 2 bad usage or scene, or no matplotlib, 3 no "
         "usable OpenGL, 4 a render failed, 130 interrupted.",
+    },
+    "stress": {
+        "description": "Sweep into the places where methods fail: what glrt does beside the naive "
+        "way, in charts and a table, with a verdict for each case.",
+        "epilog": "Exit codes: 0 all guarantees hold, 1 one is broken, 2 bad usage, 3 no usable "
+        "OpenGL, 4 the render failed.",
     },
     "doctor": {"description": "Try every OpenGL route and say which one is used."},
     "schema": {"description": "Print the JSON Schema of scene files, for editors."},
@@ -175,6 +183,16 @@ def _add_chart(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
     _add_context(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _add_stress(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("cases", metavar="CASE", nargs="*", help="what to try (default: everything)")
+    add("-o", dest="folder", metavar="DIR", type=Path, help="folder for table and charts")
+    add("--quick", action="store_true", help="fewer samples: below two minutes on two cores")
+    add("--list", action="store_true", help="name the cases, and run none")
+    add("--json", action="store_true", help="one line of figures on stdout")
+    _add_context(parser)
 
 
 def _add_context(parser: argparse.ArgumentParser) -> None:

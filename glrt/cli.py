@@ -1,4 +1,4 @@
-"""The commands `render`, `view`, `compare`, `inspect`, `chart`, `doctor` and `schema`."""
+"""The commands `render`, `view`, `compare`, `inspect`, `chart`, `stress`, `doctor` and `schema`."""
 
 import argparse
 import json
@@ -27,6 +27,7 @@ def main(arguments: list[str] | None = None) -> int:
         "compare": compare,
         "inspect": inspect,
         "chart": chart,
+        "stress": stress,
         "doctor": doctor,
         "schema": schema,
     }
@@ -96,6 +97,13 @@ def chart(arguments: argparse.Namespace) -> int:
     from glrt.lab.chart import chart_scenes
 
     return chart_scenes(arguments)
+
+
+def stress(arguments: argparse.Namespace) -> int:
+    """`glrt stress`: exit code 1 when a guarantee is broken."""
+    from glrt.lab.stress.command import stress as run_cases
+
+    return run_cases(arguments)
 
 
 def doctor(_arguments: argparse.Namespace) -> int:

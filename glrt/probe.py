@@ -9,6 +9,9 @@ import moderngl
 import numpy as np
 
 from glrt.kernel import Kernel
+from glrt.pack import STRUCTS, pack_frame, pack_scene
+from glrt.scene import Scene
+from glrt.settings import settings_for
 from glrt.shader import Source, read
 
 Array = np.ndarray[Any, Any]
@@ -89,6 +92,22 @@ class Probe:
 def path_files() -> list[str]:
     """The shader files that trace a path, in the order in which they build on each other."""
     return re.findall(r'#include "(\w+\.glsl)"', read("trace.comp"))
+
+
+def scene_blocks(scene: Scene | None = None) -> dict[str, bytes]:
+    """The content of the blocks that path text reads; zeros without a scene.
+
+    A driver may want a buffer for a block that nothing reads.
+    """
+    if not scene:
+        blocks = {"Spheres": "Sphere", "Planes": "Plane", "Quads": "Quad", "Lights": "Light"}
+        blocks |= {"Materials": "Material", "FrameBlock": "Frame"}
+        return {name: bytes(STRUCTS[row].itemsize) for name, row in blocks.items()}
+    arrays = pack_scene(scene)
+    counts = {name: len(rows) for name, rows in arrays.items()}
+    frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1)
+    data = {name: rows.tobytes() or bytes(rows.itemsize) for name, rows in arrays.items()}
+    return {**data, "FrameBlock": frame}
 
 
 def _plain(values: Any) -> Array:

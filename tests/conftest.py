@@ -10,8 +10,7 @@ import pytest
 from glrt.context import Context, open_context
 from glrt.errors import ContextError
 from glrt.needs import needs_of
-from glrt.pack import STRUCTS, pack_frame, pack_scene
-from glrt.probe import Probe, path_files
+from glrt.probe import Probe, path_files, scene_blocks
 from glrt.scene import Scene
 from glrt.settings import settings_for
 from tests.builders import EVERYTHING
@@ -75,23 +74,10 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
             prelude = needs_of(scene, settings_for(scene.render)).constants()
         prelude |= constants or {}
         probe = Probe(expression, returns, setup, functions, path_files(), prelude)
-        blocks = _scene_buffers(ctx, scene)
+        blocks = {name: ctx.buffer(data) for name, data in scene_blocks(scene).items()}
         result = probe.run(ctx, inputs, blocks)
         for buffer in blocks.values():
             buffer.release()
         return result
 
     return call
-
-
-def _scene_buffers(gl: moderngl.Context, scene: Scene | None) -> dict[str, moderngl.Buffer]:
-    """The kernel's blocks; of zeros without a scene, since blocks may be active unused."""
-    if not scene:
-        blocks = {"Spheres": "Sphere", "Planes": "Plane", "Quads": "Quad", "Lights": "Light"}
-        blocks |= {"Materials": "Material", "FrameBlock": "Frame"}
-        return {name: gl.buffer(bytes(STRUCTS[row].itemsize)) for name, row in blocks.items()}
-    arrays = pack_scene(scene)
-    counts = {name: len(rows) for name, rows in arrays.items()}
-    frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1)
-    data = {name: rows.tobytes() or bytes(rows.itemsize) for name, rows in arrays.items()}
-    return {name: gl.buffer(rows) for name, rows in {**data, "FrameBlock": frame}.items()}

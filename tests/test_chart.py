@@ -14,7 +14,7 @@ from PIL import Image
 
 from glrt.cli import main
 from glrt.context import Context
-from glrt.lab import chart_files
+from glrt.lab import plot
 from glrt.lab.experiment import Plan, measure_scene
 from glrt.lab.measure import Bench, of_variant
 from glrt.lab.rays import rays_per_sample
@@ -259,7 +259,7 @@ def test_a_bad_command_is_refused_in_a_paragraph(
 def test_without_matplotlib_the_command_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(chart_files, "find_spec", lambda _name: None)
+    monkeypatch.setattr(plot, "find_spec", lambda _name: None)
     assert main(["chart", "cornell", "-o", str(tmp_path / "there")]) == 2
     assert "pip install 'glrt[chart]'" in capsys.readouterr().err
     assert not (tmp_path / "there").exists()

@@ -13,8 +13,9 @@ from pathlib import Path
 from glrt import files
 from glrt.context import Choice, open_context
 from glrt.errors import UsageError
-from glrt.lab.chart_files import check_matplotlib, save_chart, save_page
+from glrt.lab.chart_files import save_chart, save_page
 from glrt.lab.experiment import Plan, Tell, measure_scene
+from glrt.lab.plot import check_matplotlib
 from glrt.library import load
 from glrt.scene import Scene
 

@@ -4,25 +4,14 @@ import csv
 import io
 import json
 from collections.abc import Iterator, Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from glrt import files
-from glrt.errors import UsageError
 from glrt.lab.chart_plot import save_plots
 from glrt.lab.chart_words import page
 from glrt.lab.curves import LEVELS, Curve, front
 from glrt.lab.experiment import Experiment
-
-
-def check_matplotlib() -> None:
-    """UsageError if what draws charts is not installed."""
-    if find_spec("matplotlib") is None:
-        raise UsageError(
-            "Charts are drawn by matplotlib, which is not installed: pip install 'glrt[chart]', "
-            "or pip install matplotlib."
-        )
 
 
 def save_chart(experiment: Experiment, folder: Path) -> None:

@@ -1,0 +1,158 @@
+"""The house style of charts: log-log, readable without colour, files written whole.
+
+Colours are those of Okabe and Ito, which the colour-blind tell apart; markers and dashes say the
+same in black and white. Matplotlib is loaded when the first chart is drawn.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from glrt import files
+from glrt.errors import UsageError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FORMATS = (".svg", ".png")
+_STYLES = (  # colour, marker, dashes: of the first curve, the second, and so on
+    ("#0072b2", "o", "-"),
+    ("#d55e00", "s", "--"),
+    ("#009e73", "^", "-."),
+    ("#cc79a7", "D", ":"),
+    ("#56b4e9", "v", (0, (5, 1, 1, 1, 1, 1))),
+    ("#e69f00", "P", (0, (8, 2))),
+)
+_LOOK: dict[Any, Any] = {
+    "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same chart everywhere
+    "font.size": 10.0,
+    "axes.titlesize": 11.0,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "lines.linewidth": 1.6,
+    "lines.markersize": 5.0,
+    "savefig.dpi": 110,
+    "svg.hashsalt": "glrt",  # the same chart gives the same file
+}
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Values over a parameter. Zeros, which have no logarithm, are drawn hollow at the bottom."""
+
+    label: str
+    x: Sequence[float]
+    y: Sequence[float]
+    is_bound: bool = False  # a thin line without markers: what must not be passed
+
+
+@dataclass(frozen=True)
+class Chart:
+    """What one pair of axes shows; labels name the unit. Both axes are logarithmic."""
+
+    title: str
+    x_label: str
+    y_label: str
+    curves: Sequence[Curve]
+    limit: float | None = None  # of the parameter: a vertical line
+    limit_label: str = ""
+    note: str = ""  # a line below the title
+
+
+def check_matplotlib() -> None:
+    """UsageError if what draws charts is not installed."""
+    if find_spec("matplotlib") is None:
+        raise UsageError(
+            "Charts are drawn by matplotlib, which is not installed: pip install 'glrt[chart]', "
+            "or pip install matplotlib."
+        )
+
+
+def save_chart(chart: Chart, path: Path) -> None:
+    """Write one chart, in the format that the suffix names: .svg or .png."""
+    with _figure((7.2, 5.0)) as figure:
+        axes = figure.subplots()
+        _draw(axes, chart)
+        figure.legend(loc="outside lower left", ncols=1)
+        _save(figure, path)
+
+
+def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4) -> None:
+    """Write all charts side by side, each with its own legend."""
+    rows = -(-len(charts) // columns)
+    columns = min(columns, len(charts))
+    with _figure((4.1 * columns, 3.7 * rows + 0.4)) as figure:
+        figure.suptitle(title, x=0.01, ha="left", fontsize=14)
+        grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
+        for axes, chart in zip(grid, charts, strict=False):
+            _draw(axes, chart)
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=7.5)
+        for axes in grid[len(charts) :]:
+            axes.set_axis_off()
+        _save(figure, path)
+
+
+@contextmanager
+def _figure(size: tuple[float, float]) -> "Iterator[Figure]":
+    """An empty figure, `size` in inches, in the house style."""
+    check_matplotlib()
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    with rc_context(_LOOK):
+        yield Figure(size, layout="constrained")
+
+
+def _draw(axes: "Axes", chart: Chart) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_title(chart.title + (f"\n{chart.note}" if chart.note else ""))
+    axes.set_xlabel(chart.x_label)
+    axes.set_ylabel(chart.y_label)
+    bottom = _bottom(chart.curves)
+    styles = iter(_STYLES)
+    for curve in chart.curves:
+        if curve.is_bound:
+            axes.plot(curve.x, curve.y, color="#555555", lw=1.0, ls=(0, (2, 2)), label=curve.label)
+        else:
+            _draw_curve(axes, curve, next(styles), bottom)
+    if chart.limit is not None:
+        axes.axvline(chart.limit, color="#555555", lw=1.0, label=chart.limit_label)
+
+
+def _draw_curve(axes: "Axes", curve: Curve, style: Any, bottom: float) -> None:
+    color, marker, dashes = style
+    y = np.array(curve.y, np.float64)
+    shown = np.where(y > 0, y, bottom)
+    axes.plot(curve.x, shown, color=color, ls=dashes, marker=marker, label=curve.label)
+    zero = y <= 0
+    if zero.any():
+        hollow = {"mfc": "white", "mec": color, "ls": "none", "marker": marker, "zorder": 3}
+        axes.plot(np.array(curve.x)[zero], shown[zero], **hollow)
+
+
+def _bottom(curves: Sequence[Curve]) -> float:
+    """Where zeros are drawn: a power of ten below everything else."""
+    positive = [y for curve in curves for y in curve.y if y > 0]
+    return float(10 ** (np.floor(np.log10(min(positive))) - 1)) if positive else 1.0
+
+
+def _save(figure: "Figure", path: Path) -> None:
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise UsageError(f"Cannot write {path}: the name of a chart ends in .svg or .png.")
+    metadata = {"Date": None} if suffix == ".svg" else None
+    files.write_whole(
+        path, lambda target: figure.savefig(target, format=suffix[1:], metadata=metadata)
+    )

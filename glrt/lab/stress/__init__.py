@@ -1,0 +1,1 @@
+"""Sweeps into the places where methods fail: the method chosen beside the naive one."""
