@@ -17,7 +17,7 @@ from tests.builders import EVERYTHING
 from tests.packages import needs_package
 from tests.wgsl.device import Device, open_device
 
-pytest_plugins = ["tests.slow_share"]
+pytest_plugins = ["tests.slow_share", "tests.alarms"]
 
 Array = np.ndarray[Any, Any]
 CallGlsl = Callable[..., Array]

@@ -66,7 +66,7 @@ HARD: dict[str, tuple[list[Table], Samples]] = {
     ),
     "polished metal": (
         [FLOOR, CEILING, BULB, sphere([0, -0.4, -3], 0.6, "polished")],
-        Samples(nee=2048),
+        Samples(nee=4096),
     ),
     "rough metal": ([FLOOR, CEILING, BULB, sphere([0, -0.4, -3], 0.6, "rough")], Samples()),
     "a mirror": ([FLOOR, CEILING, BULB, sphere([0, -0.4, -3], 0.6, "mirror")], Samples()),

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.image import Image
+from tests.alarms import ALPHA, book
 
 
 class Kind(NamedTuple):
@@ -55,10 +56,11 @@ def red(image: Image) -> Image:
 
 
 def alarms_allowed(pairs: int, alpha: float) -> int:
-    """As many or fewer happen in all but one in 10,000 sets of pairs."""
+    """As many or fewer happen in all but one in 10 million sets of pairs."""
+    book()
     below = 0.0
     for count in range(pairs + 1):
         below += math.comb(pairs, count) * alpha**count * (1 - alpha) ** (pairs - count)
-        if below >= 1 - 1e-4:
+        if below >= 1 - ALPHA:
             return count
     return pairs

@@ -1,6 +1,6 @@
 """Scenes rendered for tests, and what the noise of the pictures allows to say.
 
-Every statistical test fails by chance once in 10,000 seeds (ALPHA); the seeds are fixed.
+Chance fails a verdict once in 10 million seeds (tests/alarms.py); the seeds are fixed.
 """
 
 from collections.abc import Iterator
@@ -16,9 +16,9 @@ from glrt.image import Image
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.stats import block_means, block_stderr, sidak_threshold, z_test
+from tests.alarms import ALPHA, book
 from tests.images import same_bits
 
-ALPHA = 1e-4
 METHODS = ("naive", "nee", "mis")
 SAMPLERS = ("independent", "sobol")
 ENOUGH = 500  # effective samples behind a mean before its own variance may judge it
@@ -67,6 +67,7 @@ def assert_mean(estimate: Estimate, truth: ArrayLike, within: float, floor: floa
 
     `floor` is the part of the standard error that the estimate does not know, such as rounding.
     """
+    book()
     verdict = z_test(*estimate, truth, ALPHA, floor)
     assert verdict, f"{verdict}: {estimate.mean.ravel()[:12]} against {np.ravel(truth)[:12]}"
     half = interval(verdict.tests) * np.maximum(estimate.stderr, floor)
@@ -103,6 +104,7 @@ def assert_agree(a: Image, b: Image, within: float) -> None:
     measured over a handful of hits knows nothing of those that did not come.
     """
     size = next(size for size in (4, 8, 16, 32, 64) if _is_sure(a, size) and _is_sure(b, size))
+    book()
     parts = difference(blocks(a, size), blocks(b, size))
     verdict = z_test(*parts, 0, ALPHA / 2)
     assert verdict, f"{verdict} among blocks of {size}"

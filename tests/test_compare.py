@@ -18,6 +18,7 @@ from glrt.errors import UsageError
 from glrt.image import Image
 from glrt.lab.false_alarms import without_errors
 from glrt.library import load
+from tests.alarms import ALPHA, book
 from tests.images import recipe
 from tests.noisy import KINDS, MIXES, alarms_allowed, flat, noisy, red
 from tests.renders import rendered
@@ -150,10 +151,11 @@ def test_renders_of_fewer_bounces_differ_and_other_seeds_do_not(context: Context
     reference = rendered(load("cornell"), context, 64, **settings)
     other = rendered(load("cornell"), context, 64, seed=1, **settings)
     short = rendered(load("cornell"), context, 64, seed=1, bounces=3, **settings)
-    assert glrt.compare(other, reference)
+    assert glrt.compare(other, reference, ALPHA)
     assert glrt.compare(short, reference).verdict == "different"
     naive = rendered(load("cornell"), context, 64, seed=1, method="naive", **settings)
-    assert glrt.compare(naive, reference)
+    assert glrt.compare(naive, reference, ALPHA)
+    book(2)
 
 
 # --- Pixels without noise, and broken ones ---------------------------------------------------

@@ -47,12 +47,12 @@ def run(folder: Path, line: str, capsys: pytest.CaptureFixture[str]) -> tuple[in
 @pytest.mark.parametrize(
     ("line", "code", "verdict"),
     [
-        ("a.exr b.exr", 0, "undecided"),
-        ("a.exr b.exr --strict", 1, "undecided"),
-        ("a.exr b.exr --strict --bias 0.5", 0, "same"),
+        ("a.exr b.exr --alpha 1e-7", 0, "undecided"),
+        ("a.exr b.exr --strict --alpha 1e-7", 1, "undecided"),
+        ("a.exr b.exr --strict --bias 0.5 --alpha 1e-7", 0, "same"),
         ("c.exr b.exr", 1, "different"),
         ("c.exr b.exr --strict", 1, "different"),
-        ("a.npy b.exr --samples 64", 0, "undecided"),
+        ("a.npy b.exr --samples 64 --alpha 1e-7", 0, "undecided"),
         ("b.exr c.npy --reference-samples 64", 1, "different"),
     ],
 )

@@ -108,7 +108,7 @@ def test_rectangle_lights_the_point_below_its_inside(context: Context, method: s
     corner = [-left * height, height, -near * height]
     edges = [(left + right) * height, 0, 0], [0, 0, (near + far) * height]
     scene = scene_of([FLOOR, quad(corner, *edges, "lamp")], MATERIALS, ASIDE)
-    image = rendered(scene, context, 256, method=method, bounces=1)
+    image = rendered(scene, context, 512, method=method, bounces=1)
     truth = sum(rectangle_form_factor(a, b) for a in (left, right) for b in (near, far))
     assert_mean(whole(image), truth, within=0.01)
 
@@ -121,7 +121,7 @@ def test_matte_ball_averages_the_sky_above_its_surface(
     eye = {"position": [3 * c for c in normal], "look_at": [0, 0, 0], "up": [0, 0.5, 1]}
     ball = sphere([0, 0, 0], 1, "floor")
     scene = scene_of([ball], MATERIALS, {**eye, "fov": 0.01}, background=SKY)
-    image = rendered(scene, context, 512, bounces=1)
+    image = rendered(scene, context, 1024, bounces=1)
     assert_mean(whole(image), 0.5 * (FLAT + 2 / 3 * STEEP * normal[1]), within=0.005)
 
 

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from glrt.context import Context
 from glrt.stats import z_test
+from tests.alarms import ALPHA, book
 from tests.builders import glass, lamp, plane, quad, scene_of, sphere
-from tests.renders import ALPHA, Estimate, assert_mean, rendered, rendering, whole
+from tests.renders import Estimate, assert_mean, rendered, rendering, whole
 
 Floats = NDArray[np.float64]
 
@@ -34,6 +35,7 @@ def test_mirror_ball_shows_the_sky_where_each_pixel_reflects(context: Context) -
     image = rendered(scene, context, samples, width=size, height=size)
     stderr = pixels.std(axis=2)[whole_pixels] / math.sqrt(samples)
     truth = pixels.mean(axis=2)[whole_pixels]
+    book()
     verdict = z_test(image.radiance[whole_pixels], stderr, truth, ALPHA, floor=1e-5)
     assert verdict, verdict
     assert whole_pixels.sum() > 400

@@ -1,7 +1,7 @@
 """Random numbers: the same in numpy and in the shader, uniform, and independent.
 
-Every statistical test has fixed seeds, so its verdict never changes; bounds lie at 5 standard
-deviations of the statistic, which good numbers pass with a chance of 1 - 6e-7 a figure.
+Every statistical test has fixed seeds, so its verdict never changes; tests/alarms.py says by which
+chance good numbers would fail it.
 """
 
 from typing import Any
@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.alarms import SIGMAS, assert_fits, assert_near, book
 from tests.conftest import CallGlsl
 from tests.wgsl.seeds import pcg, seed_texture
 
 Array = np.ndarray[Any, Any]
 
 GOLDEN = 0x9E3779B9  # steps from one dimension to the next
-SIGMAS = 5.0
 SIZE, FRAMES, BLOCK = 128, 256, 8
 
 
@@ -69,6 +69,7 @@ def departures(z: Array) -> dict[str, float]:
         "lower neighbour": (correlation(z[1:], z[:-1]), 1 / SIZE),
         "diagonal neighbour": (correlation(z[1:, 1:], z[:-1, :-1]), 1 / SIZE),
     }
+    book(len(figures))
     return {name: value for name, (value, sd) in figures.items() if abs(value) > SIGMAS * sd}
 
 
@@ -146,17 +147,17 @@ def test_numbers_have_the_moments_of_uniform_ones(call_glsl: CallGlsl) -> None:
     xy = call_glsl("next_2d(rng)", "vec2", setup=setup, x=np.arange(count)).astype(np.float64)
     x, y = (xy - 0.5).T
     for z in (x, y):
-        assert abs(z.mean()) < SIGMAS * np.sqrt(1 / 12 / count)
-        assert abs((z**2).mean() - 1 / 12) < SIGMAS * np.sqrt(1 / 180 / count)
-        assert abs((z**3).mean()) < SIGMAS * np.sqrt(1 / 448 / count)
-    assert abs((x * y).mean()) < SIGMAS / 12 / np.sqrt(count)
+        assert_near(z.mean(), 0, np.sqrt(1 / 12 / count))
+        assert_near((z**2).mean(), 1 / 12, np.sqrt(1 / 180 / count))
+        assert_near((z**3).mean(), 0, np.sqrt(1 / 448 / count))
+    assert_near((x * y).mean(), 0, 1 / 12 / np.sqrt(count))
 
 
 def test_consecutive_numbers_of_a_pixel_are_not_correlated() -> None:
     numbers = drawn(seed_texture(256, 128, 0, 0), 24) / 2**24
     for lag in range(1, 9):
         earlier, later = numbers[:, :-lag], numbers[:, lag:]
-        assert abs(correlation(earlier, later)) < SIGMAS / np.sqrt(earlier.size)
+        assert_near(correlation(earlier, later), 0, 1 / np.sqrt(earlier.size))
 
 
 @pytest.mark.parametrize("dimensions", [(0, 1), (1, 2), (2, 3), (0, 7), (7, 8)])
@@ -164,9 +165,7 @@ def test_pairs_of_numbers_fill_the_square_evenly(dimensions: tuple[int, int]) ->
     numbers = drawn(seed_texture(512, 256, 0, 0), max(dimensions) + 1)
     cells = numbers[:, dimensions] >> np.uint32(20)  # 16 x 16 cells
     counts = np.bincount(16 * cells[:, 0] + cells[:, 1], minlength=256)
-    expected = len(numbers) / 256
-    chi_square = ((counts - expected) ** 2 / expected).sum()
-    assert abs(chi_square - 255) < SIGMAS * np.sqrt(2 * 255)
+    assert_fits(counts, np.full(256, len(numbers) / 256))
 
 
 @pytest.mark.parametrize(
@@ -198,4 +197,4 @@ def test_a_seed_of_index_plus_frame_is_caught(call_glsl: CallGlsl) -> None:
 def test_pictures_of_two_seeds_are_independent(call_glsl: CallGlsl) -> None:
     pictures = [sums_over_frames(call_glsl, 0, seed) for seed in (0, 1, 2**32 - 1)]
     for a, b in ((0, 1), (0, 2), (1, 2)):
-        assert abs(correlation(pictures[a], pictures[b])) < SIGMAS / SIZE
+        assert_near(correlation(pictures[a], pictures[b]), 0, 1 / SIZE)

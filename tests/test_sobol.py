@@ -11,6 +11,7 @@ import pytest
 
 from glrt.context import Context
 from glrt.scene import Scene
+from tests.alarms import assert_fits, assert_near
 from tests.builders import lamp, plane, quad, room_of_planes, scene_of, sphere
 from tests.conftest import CallGlsl
 from tests.mixture import everything
@@ -18,7 +19,6 @@ from tests.numerics import BELOW_ONE, Array
 from tests.renders import METHODS, SAMPLERS, assert_agree, rendered, rendering, same
 
 BLOCK = 16
-SIGMAS = 5.0
 
 
 def draws(
@@ -87,8 +87,7 @@ def test_each_point_is_uniform_over_pixels_and_blocks(call_glsl: CallGlsl, place
     for skipped in (0, 3):
         cells = np.floor(draws(call_glsl, pixel, sample, skipped) * 16).astype(int)
         counts = np.bincount(16 * cells[:, 0] + cells[:, 1], minlength=256)
-        chi_square = ((counts - n / 256) ** 2 / (n / 256)).sum()
-        assert abs(chi_square - 255) < SIGMAS * np.sqrt(2 * 255)
+        assert_fits(counts, np.full(256, n / 256))
 
 
 def test_draws_of_one_sample_are_independent(call_glsl: CallGlsl) -> None:
@@ -99,8 +98,7 @@ def test_draws_of_one_sample_are_independent(call_glsl: CallGlsl) -> None:
     for a, b in combinations(range(8), 2):
         cells = np.floor(numbers[:, [a, b]] * 16).astype(int)
         counts = np.bincount(16 * cells[:, 0] + cells[:, 1], minlength=256)
-        chi_square = ((counts - n / 256) ** 2 / (n / 256)).sum()
-        assert abs(chi_square - 255) < SIGMAS * np.sqrt(2 * 255), (a, b)
+        assert_fits(counts, np.full(256, n / 256))
 
 
 @pytest.mark.parametrize("step", ["neighbour", "block"])
@@ -116,8 +114,8 @@ def test_blocks_are_independent_of_their_neighbours(call_glsl: CallGlsl, step: s
     a, b = product
     if step == "neighbour":
         a, b = a[::2], b[::2]
-    assert abs(np.corrcoef(a, b)[0, 1]) < SIGMAS / np.sqrt(len(a))
-    assert abs(a.mean()) < SIGMAS * a.std() / np.sqrt(len(a))
+    assert_near(np.corrcoef(a, b)[0, 1], 0, 1 / np.sqrt(len(a)))
+    assert_near(a.mean(), 0, a.std() / np.sqrt(len(a)))
     assert a.std() < 0.35 * np.sqrt(7 / 144 / BLOCK)  # of independent numbers
 
 

@@ -40,7 +40,7 @@ def test_black_ball_over_a_floor_takes_its_share_of_the_sky(
         background={"color": [1, 1, 1]},
     )
     image = rendered(scene, context, 1024, bounces=1, width=32, height=32)
-    assert_mean(whole(image), 0.5 * (1 - sphere_form_factor(s2, cosine)), within=0.005)
+    assert_mean(whole(image), 0.5 * (1 - sphere_form_factor(s2, cosine)), within=0.006)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -192,7 +192,7 @@ def test_pixel_shows_how_much_of_it_is_covered(context: Context) -> None:
     assert (image.radiance[:, 4] == 0).all()
     spread = math.sqrt(0.25 * 0.75 / (5 * 4096)) * 2
     column = image.radiance[:, 3].mean(axis=0)
-    assert_mean(Estimate(column, np.full(3, spread)), 0.5, within=0.06)
+    assert_mean(Estimate(column, np.full(3, spread)), 0.5, within=0.07)
 
 
 @pytest.mark.parametrize(("angle", "width"), [(25.0, 64), (40.0, 32)])
