@@ -163,13 +163,15 @@ def _pack_quads(
 ) -> Array:
     rows = np.zeros(len(quads), STRUCTS["Quad"])
     for index, (row, quad) in enumerate(zip(rows, quads, strict=True)):
-        u, v = _vector(quad.edge_u), _vector(quad.edge_v)
-        normal = np.cross(u, v)
+        normal = np.cross(_vector(quad.edge_u), _vector(quad.edge_v))
         area = np.linalg.norm(normal)
+        u, v = sorted((_vector(quad.edge_u), _vector(quad.edge_v)), key=np.linalg.norm)
+        length = np.linalg.norm(v)
         row["corner"], row["edge_u"], row["edge_v"] = _vector(quad.corner) - eye, u, v
-        row["normal"], row["area"] = normal / area, area
-        row["dual_u"] = np.cross(v, normal / area) / area
-        row["dual_v"] = np.cross(normal / area, u) / area
+        row["normal"], row["length"] = normal / area, length
+        row["width"], row["shear"] = area / length, np.dot(u, v) / length
+        row["dual_u"] = np.cross(v, np.cross(u, v)) / area**2
+        row["dual_v"] = np.cross(np.cross(u, v), u) / area**2
         row["material"] = names[quad.material]
         row["light"] = light_of.get(first + index, CONSTANTS["NO_LIGHT"])
     return rows

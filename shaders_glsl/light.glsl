@@ -1,9 +1,10 @@
-// Light sampling. A lamp is chosen with a fixed probability; then a point on a quad by area, or
-// a direction in the cone that a sphere fills. Densities are per solid angle at the ray's origin
+// Light sampling. A lamp is chosen with a fixed probability; then a point on a quad, or a direction
+// in the cone that a sphere fills. Densities are per solid angle at the ray's origin
 // and contain the choice.
 //
 // The density is 0, and scattering alone finds the light, for planes (infinite area), for the
-// background, for the lamp just left, and for a sphere that contains the point.
+// background, for the lamp just left, for a sphere that contains the point, and for a quad whose
+// plane does.
 
 struct LightSample {
     Ray ray;
@@ -22,21 +23,50 @@ float cone_of_sphere(vec3 to_center, float radius) {
     return one_minus_cos;
 }
 
+bool is_of_sphere(Light light) {
+    return HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < sphere_count());
+}
+
+Quad quad_of(Light light) {
+    return quad_at(light.shape - sphere_count() - plane_count());
+}
+
+// Whether sampling may find this lamp from the ray's origin.
+bool is_sampled(int index, Ray ray) {
+    Light light = light_at(index);
+    if (light.shape == ray.leaves) return false;
+    if (is_of_sphere(light)) {
+        Sphere sphere = sphere_at(light.shape);
+        return cone_of_sphere(sphere.center - ray.origin, sphere.radius) > 0.0;
+    }
+    return is_beside(quad_of(light), ray.origin);
+}
+
+// Of both, weighted, points by area are as good as those by strips, and cheaper: near a lamp, the
+// weights leave it to scattering. Light sampling alone would miss what is near (docs/speed.md).
+float pdf_quad(Quad quad, Ray ray, float distance) {
+    if (WEIGHT_BOTH) {
+        float cos_light = abs(dot(ray.direction, quad.normal));
+        if (cos_light == 0.0) return 0.0;
+        float pdf = (distance / (quad.width * quad.length)) * (distance / cos_light);
+        return pdf;
+    }
+    StripView view = view_strips(quad, ray.origin);
+    float share = dot(quad.dual_u, distance * ray.direction - view.corner);
+    return pdf_strips(quad, view, clamp(share, 0.0, 1.0));
+}
+
 // The density of choosing this lamp and sampling this ray, which meets it at this distance.
 float pdf_light(int index, Ray ray, float distance) {
+    if (!is_sampled(index, ray)) return 0.0;
     Light light = light_at(index);
-    if (light.shape == ray.leaves) return 0.0;
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < sphere_count())) {
+    if (is_of_sphere(light)) {
         Sphere sphere = sphere_at(light.shape);
         float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
-        if (one_minus_cos == 0.0) return 0.0;
         float pdf = light.probability / (2.0 * PI * one_minus_cos);
         return pdf;
     }
-    Quad quad = quad_at(light.shape - sphere_count() - plane_count());
-    float cos_light = abs(dot(ray.direction, quad.normal));
-    if (cos_light == 0.0) return 0.0;
-    float pdf = light.probability * (distance / quad.area) * (distance / cos_light);
+    float pdf = light.probability * pdf_quad(quad_of(light), ray, distance);
     return pdf;
 }
 
@@ -69,7 +99,9 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
 
 LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
     Quad quad = quad_at(shape - sphere_count() - plane_count());
-    vec3 to_point = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v - ray.origin;
+    vec2 share = u;
+    if (!WEIGHT_BOTH) share = sample_strips(quad, view_strips(quad, ray.origin), u);
+    vec3 to_point = quad.corner - ray.origin + share.x * quad.edge_u + share.y * quad.edge_v;
     float distance = length(to_point);
     if (distance == 0.0) return no_light_sample(ray);
     vec3 direction = to_point / distance;

@@ -21,8 +21,8 @@ float power_heuristic(float p_a, float p_b) {
 // comes from the camera or a delta.
 float emission_weight(Ray ray, Hit hit, int light, float pdf) {
     if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
+    if (!is_sampled(light, ray)) return 1.0;
     float light_pdf = pdf_light(light, ray, hit.distance);
-    if (light_pdf == 0.0) return 1.0;
     return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
 }
 

@@ -30,10 +30,12 @@ struct Quad {
     int material;
     vec3 normal;  // unit, along cross(edge_u, edge_v)
     int light;
-    vec3 edge_u;
-    float area;
+    vec3 edge_u;  // the shorter edge
+    float width;  // across edge_v
     vec3 edge_v;
+    float length;
     vec3 dual_u;  // dot(dual_u, p - corner) is 0 at the corner, 1 at the end of edge_u
+    float shear;  // of edge_u, along edge_v
     vec3 dual_v;
 };
 

@@ -13,6 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "camera.glsl"
 #include "shape.glsl"
 #include "material.glsl"
+#include "strips.glsl"
 #include "light.glsl"
 #include "path.glsl"
 #include "film.glsl"

@@ -13,7 +13,7 @@ from tests.conftest import CallGlsl
 from tests.numerics import BELOW_ONE, Array, directions, length, unit_square
 
 LAMPS = {"matte": MATTE, "lamp": lamp(2.0), "bright": lamp(30.0), "dark": lamp(0.0)}
-SIDES = 1.3, 0.7  # of the quad lamp
+SIDES = 0.7, 1.3  # of the quad lamp, the shorter first: points go by it
 BALL = scene_of([sphere([0, 0, -3], 1, "lamp")], LAMPS)
 QUAD = scene_of([quad([0, 0, -1], [SIDES[0], 0, 0], [0, SIDES[1], 0], "lamp")], LAMPS)
 MANY = scene_of(
@@ -185,7 +185,7 @@ def exact_density(rows: dict[str, Array], shape: int, direction: Array, distance
         return np.full(len(direction), 1 / (2 * np.pi * (1 - np.sqrt(1 - sine2))))
     quad_row = rows["Quads"][flat]
     cosine = np.abs(direction @ quad_row["normal"].astype(np.float64))
-    density: Array = distance**2 / (quad_row["area"] * cosine)
+    density: Array = distance**2 / (quad_row["width"] * quad_row["length"] * cosine)
     return density
 
 
