@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
-from tests.wgsl import text
 from tests.wgsl.device import Device
+from tests.wgsl.text import RAYTRACER, Fault, joined
 
 GROUP = 8  # work group of 8 x 8
 _COMPUTE = 4  # of wgpu.ShaderStage
@@ -55,10 +55,9 @@ class Program:
 class RayTracer(Program):
     """The thesis's compute shader: random texture, two sources, two targets."""
 
-    def __init__(
-        self, device: Device, source: str | None = None, texel: str = "rgba32float"
-    ) -> None:
-        """Compile `raytracer.wgsl`, or a text in its place; `texel` is the format of colours."""
+    def __init__(self, device: Device, *faults: Fault, texel: str = "rgba32float") -> None:
+        """Compile `raytracer.wgsl`; `texel` is the format of the colour textures."""
+        source = joined(RAYTRACER, *faults).replace("rgba32float", texel)
         target = {"storage_texture": {"access": "write-only", "format": texel}}
-        super().__init__(device, source or text.raytracer(), [SEEDS, COLOR, COLOR, target, target])
+        super().__init__(device, source, [SEEDS, COLOR, COLOR, target, target])
         self.texel = texel

@@ -9,7 +9,7 @@ from tests.wgsl.device import Device
 from tests.wgsl.seeds import seed_texture
 
 _UNIFORM, _STORAGE, _COPY_DST, _COPY_SRC = 0x40, 0x80, 0x08, 0x04  # of wgpu.BufferUsage
-_SAMPLED, _STORED, _TO, _FROM = 0x04, 0x08, 0x02, 0x01  # of wgpu.TextureUsage
+_SAMPLED, _STORED, _TARGET, _TO, _FROM = 0x04, 0x08, 0x10, 0x02, 0x01  # of wgpu.TextureUsage
 
 
 class SceneBuffers:
@@ -64,9 +64,19 @@ def color_texture(device: Device, size: tuple[int, int], texel: str) -> Any:
     return texture(device, (*size, 1), texel, _SAMPLED | _STORED | _FROM)
 
 
+def screen_texture(device: Device, size: tuple[int, int, int], texel: str) -> Any:
+    """A texture to draw on."""
+    return texture(device, size, texel, _TARGET | _FROM)
+
+
 def texture(device: Device, size: tuple[int, int, int], texel: str, usage: int) -> Any:
     """A texture of one layer."""
     return device.create_texture(size=size, format=texel, usage=usage)
+
+
+def look_buffer(device: Device, content: bytes) -> Any:
+    """How the picture is to be shown."""
+    return device.create_buffer_with_data(data=content, usage=_UNIFORM)
 
 
 def output_buffer(device: Device, size: int) -> Any:

@@ -16,10 +16,10 @@ from glrt.probe import path_files
 from glrt.scene import Scene
 from glrt.settings import Settings
 from glrt.shader import Source, read
-from tests.wgsl import text
 from tests.wgsl.device import Device
 from tests.wgsl.program import OUTPUT, SEEDS, Program
 from tests.wgsl.resources import RandomTexture, SceneBuffers, output_buffer
+from tests.wgsl.text import FOLDER, PATH, Fault, joined, planted
 
 Array = np.ndarray[Any, Any]
 
@@ -66,7 +66,7 @@ def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
     tier = tier_for(arrays, "generic")
     data = {name: padded(rows, tier) for name, rows in arrays.items()}
     data["FrameBlock"] = pack_frame(scene, settings, counts, 0, 1)
-    entry = (text.FOLDER / "stages.comp").read_text()
+    entry = (FOLDER / "stages.comp").read_text()
     data["Words"] = bytes(STAGE.itemsize * settings.width * settings.height)
     parts = {
         "stages": "".join(f'#include "{name}"\n' for name in path_files()) + entry,
@@ -86,20 +86,16 @@ def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
     return _shaped(words, settings)
 
 
-def wgsl_program(fault: tuple[str, str] | None = None) -> str:
-    """The text that records stages; `fault` is a passage of the path text and its replacement."""
-    constants = "".join(f"const {name}: i32 = {value};\n" for name, value in _CONSTANTS.items())
-    globals_ = "var<private> digest: u32;\nvar<private> draws: u32;\n"
-    source = _recording(text.with_path(text.read("stages")), "f32")
-    return constants + globals_ + (text.planted(source, *fault) if fault else source)
-
-
 class WgslStages:
     """The stages by the WGSL version, compiled once for all scenes."""
 
-    def __init__(self, device: Device, source: str | None = None) -> None:
-        """Compile `wgsl_program()`, or a text in its place."""
-        self._program = Program(device, source or wgsl_program(), [SEEDS, OUTPUT])
+    def __init__(self, device: Device, *faults: Fault) -> None:
+        """Compile the path text and `stages.wgsl`."""
+        text = joined((*PATH, "stages"), *faults)
+        constants = [f"const {name}: i32 = {value};" for name, value in _CONSTANTS.items()]
+        recorded = ["var<private> digest: u32;", "var<private> draws: u32;"]
+        source = "\n".join([*constants, *recorded, _recording(text, "f32")])
+        self._program = Program(device, source, [SEEDS, OUTPUT])
 
     def run(self, scene: Scene, settings: Settings) -> Array:
         """The stages of the first sample: (H, W) of STAGE."""
@@ -112,7 +108,7 @@ class WgslStages:
 
 
 def _recording(source: str, to_float: str) -> str:
-    return text.planted(source, _DRAW.format(to_float), _RECORD.format(to_float))
+    return planted(source, _DRAW.format(to_float), _RECORD.format(to_float))
 
 
 def _shaped(words: Any, settings: Settings) -> Array:

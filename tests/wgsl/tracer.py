@@ -69,8 +69,13 @@ class Tracer:
         self._pairs.reverse()
         self._groups.reverse()
 
+    @property
+    def picture(self) -> Any:
+        """The texture with the mean so far: the target of the last frame."""
+        return self._pairs[1][0]
+
     def read(self) -> Exposure:
-        """The target of the last frame."""
+        """Mean and variance so far."""
         mean, variance = (self._read(texture) for texture in self._pairs[1])
         parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
         return Exposure(*(part.copy() for part in parts))
