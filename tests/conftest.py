@@ -42,11 +42,11 @@ def ctx(context: Context) -> Iterator[moderngl.Context]:
 
 @pytest.fixture(scope="session")
 def webgpu() -> Device:
-    """A WebGPU device. Opening it leaves no OpenGL context current."""
+    """A WebGPU device."""
     try:
         return open_device()
     except ContextError as error:
-        needs_package(False, f"mesa-vulkan-drivers or another Vulkan driver ({error})")
+        needs_package(False, f"mesa-vulkan-drivers ({error})")
 
 
 @pytest.fixture

@@ -1,5 +1,7 @@
 """The WGSL version and the GLSL version compute the same picture, stage by stage and bit by bit.
 
+So on software drivers. On a GPU, OpenGL and Vulkan may round otherwise, within a tolerance.
+
 Each fault planted into one of them shows in the stages where it must, and in no other.
 """
 
@@ -9,12 +11,22 @@ import pytest
 
 from glrt.context import Context
 from glrt.library import load
+from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import Settings
 from tests.builders import scene_of, sphere
 from tests.mixture import MATERIALS, everything
-from tests.wgsl.crosscheck import Record, WgslVersion, agreements, glsl_record
-from tests.wgsl.device import Device
+from tests.wgsl.crosscheck import (
+    FRAMES,
+    Array,
+    Record,
+    WgslVersion,
+    agreements,
+    flipped,
+    glsl_record,
+    relative_rms,
+)
+from tests.wgsl.device import Device, is_software
 from tests.wgsl.text import Fault, joined, planted
 from tests.wgsl.tracer import Tracer, naive
 
@@ -72,6 +84,15 @@ FAULTS = {
 }
 
 
+DOT = "exact(a.x * b.x) + exact(exact(a.y * b.y) + exact(a.z * b.z))"
+OTHER_DOT = "exact(exact(a.x * b.x) + exact(a.y * b.y)) + exact(a.z * b.z)"
+ROUNDINGS = {
+    "another order of sums": (Fault("exact", DOT, OTHER_DOT), True),
+    "one bounce too many": (FAULTS["one bounce too many"][0], False),
+    "another seed": (FAULTS["another seed"][0], False),
+}
+
+
 @pytest.fixture(scope="session")
 def wgsl(webgpu: Device) -> WgslVersion:
     return WgslVersion(webgpu)
@@ -95,20 +116,50 @@ def settings_of(scene: Scene, **more: int) -> Settings:
     return naive(scene, None, width=WIDTH, height=HEIGHT, **more)
 
 
+def other_seed(context: Context, scene: Scene, settings: Settings) -> Array:
+    """The picture of the last frame, of other random numbers."""
+    renderer = Renderer(scene, settings, context, seed=settings.seed + 1)
+    radiance = renderer.render(FRAMES).image().radiance
+    renderer.release()
+    return radiance
+
+
+def is_the_same_but_for_rounding(one: Record, other: Record, independent: Array) -> bool:
+    """What two drivers can be held to: few paths take another branch, the noise is the same."""
+    few = flipped(one[ONE][0], other[ONE][0]) <= 0.0005
+    return few and relative_rms(one[MANY][0], other[MANY][0], independent) <= 0.01
+
+
 def differing(one: Record, other: Record) -> set[str]:
     return {stage for stage, identical, _ in agreements(one, other) if identical < 1}
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_every_stage_is_the_same_to_the_last_bit(
-    wgsl: WgslVersion, context: Context, name: str
+def test_both_versions_show_the_same(
+    webgpu: Device, wgsl: WgslVersion, context: Context, name: str
 ) -> None:
     scene = scene_named(name)
     settings = settings_of(scene)
-    record = wgsl.record(scene, settings)
+    record, kernel = wgsl.record(scene, settings), glsl_record(context, scene, settings)
     assert len({pixel.tobytes() for pixel in record[MANY][0].reshape(-1, 3)}) > 100
-    found = list(agreements(record, glsl_record(context, scene, settings)))
-    assert [each for each in found if each.identical < 1 or each.distance] == []
+    if context.is_software and is_software(webgpu):
+        assert [each for each in agreements(record, kernel) if each.identical < 1] == []
+    else:
+        assert is_the_same_but_for_rounding(record, kernel, other_seed(context, scene, settings))
+
+
+@pytest.mark.parametrize("name", ROUNDINGS)
+def test_on_a_gpu_rounding_passes_and_nothing_else(
+    webgpu: Device, context: Context, name: str
+) -> None:
+    fault, passes = ROUNDINGS[name]
+    scene = scene_named("mixture")
+    settings = settings_of(scene, bounces=2)
+    record = WgslVersion(webgpu, fault).record(scene, settings)
+    kernel = glsl_record(context, scene, settings)
+    assert differing(record, kernel) >= {ONE, MANY}
+    independent = other_seed(context, scene, settings)
+    assert is_the_same_but_for_rounding(record, kernel, independent) == passes
 
 
 @pytest.fixture(scope="session")

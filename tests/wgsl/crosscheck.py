@@ -69,6 +69,17 @@ def agreements(one: Record, other: Record) -> Iterator[Agreement]:
         yield Agreement(stage, float(same.mean()), distance)
 
 
+def flipped(one: Array, other: Array) -> float:
+    """Share of the pixels of one sample that differ by more than 1 %: another branch was taken."""
+    apart = np.abs(one - other) > 0.01 * np.maximum(np.abs(one), np.abs(other))
+    return float(apart.any(axis=-1).mean())
+
+
+def relative_rms(one: Array, other: Array, independent: Array) -> float:
+    """Difference of two pictures in the noise between the second and one of another seed."""
+    return float(np.linalg.norm(one - other) / np.linalg.norm(independent - other))
+
+
 def _record(stages: Array, first: Image, last: Image, shown: Array) -> Record:
     traced = {
         stage: [_as_planes(stages[stage][part]) for part in STAGE[stage].names or ()]
