@@ -50,11 +50,14 @@ def main(arguments: list[str] | None = None) -> int:
 
 def render(arguments: argparse.Namespace) -> int:
     """`glrt render`: the exit code says whether the picture is what was asked for."""
+    from glrt.cautions import cautions
     from glrt.image import check_writable
 
     scene, settings, limits = _job(arguments)
     for output in arguments.outputs:
         check_writable(output)
+    for text in [] if arguments.quiet else cautions(scene, settings):
+        print(f"glrt: caution: {text}", file=sys.stderr)
     with Interruption().watched() as interruption:
         return _render(arguments, scene, settings, limits, interruption)
 
@@ -75,6 +78,7 @@ def compare(arguments: argparse.Namespace) -> int:
 
 def inspect(arguments: argparse.Namespace) -> int:
     """`glrt inspect`: what the kernel contains and leaves out."""
+    from glrt.cautions import cautions
     from glrt.needs import explain
     from glrt.schedule import iterations_per_sample
     from glrt.selftest import LLVMPIPE_ROUNDS
@@ -89,6 +93,8 @@ def inspect(arguments: argparse.Namespace) -> int:
         f"\nA sample takes up to {rounds:,} rounds of loops; llvmpipe ends those of a dispatch "
         f"after {LLVMPIPE_ROUNDS:,}."
     )
+    for text in cautions(scene, settings):
+        print(f"\ncaution: {text}")
     return 0
 
 

@@ -17,6 +17,7 @@ ORDER = [
     *("version", "errors", "resources", "settings", "scene_parts", "scene", "scene_advice"),
     *(
         "scene_file",
+        "cautions",
         "needs",
         "layout",
         "shader",

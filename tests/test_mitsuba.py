@@ -20,6 +20,7 @@ from glrt.image import Image
 from glrt.lab.peer import Peer, Request
 from glrt.library import load
 from glrt.scene import Scene, Sphere
+from tests.alarms import ALPHA, book
 from tests.builders import glass, lamp, plane, quad, scene_of, sphere
 from tests.mitsuba.engine import LLVM_PACKAGE
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
@@ -91,7 +92,8 @@ def ours(context: Context, scene: Scene, samples: int = SAMPLES, **changes: Any)
 
 def judged(ours: Image, theirs: Image) -> Comparison:
     """With equal numbers of samples the noise of both adds up, whatever their methods."""
-    return compare(ours, theirs, alpha=1e-4, alike=True)
+    book()
+    return compare(ours, theirs, alpha=ALPHA, alike=True)
 
 
 def test_everything_looks_the_same_to_mitsuba(context: Context, their_picture: Image) -> None:
@@ -164,7 +166,8 @@ def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:
     assert image.radiance.shape == (16, 24, 3)
     assert image.samples == json.loads(done.stdout)["samples"] == 16
     assert image.error == json.loads(done.stdout)["error"]
-    assert compare(image, glrt.render(load("sky"), 16, width=24, height=16, bounces=2), 1e-4)
+    book()
+    assert compare(image, glrt.render(load("sky"), 16, width=24, height=16, bounces=2), ALPHA)
 
 
 @pytest.mark.parametrize(

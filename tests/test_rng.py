@@ -153,6 +153,19 @@ def test_numbers_have_the_moments_of_uniform_ones(call_glsl: CallGlsl) -> None:
     assert_near((x * y).mean(), 0, 1 / 12 / np.sqrt(count))
 
 
+def test_a_hundred_million_numbers_have_the_mean_of_uniform_ones(call_glsl: CallGlsl) -> None:
+    """2^27 of them, known to 1e-5 of their range; summed as whole numbers of 16 bits."""
+    lanes, rounds = 2**16, 2**11
+    setup = f"""
+        uint sum = 0u;
+        Sampler rng = make_sampler(pixel_seed(ivec2(x % 256, x / 256), 0, 9u));
+        for (int k = 0; k < {rounds}; ++k) sum += uint(next_independent(rng) * 65536.0);"""
+    sums = call_glsl("sum", "uint", setup=setup, x=np.arange(lanes)).astype(np.float64)
+    mean = sums.sum() / (lanes * rounds) / 65536
+    assert_near(mean, 0.5 * (1 - 2.0**-16), np.sqrt(1 / 12 / (lanes * rounds)))
+    assert_near(sums.var() / 65536**2, rounds / 12, rounds / 12 * np.sqrt(2 / lanes))
+
+
 def test_consecutive_numbers_of_a_pixel_are_not_correlated() -> None:
     numbers = drawn(seed_texture(256, 128, 0, 0), 24) / 2**24
     for lag in range(1, 9):
