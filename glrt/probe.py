@@ -130,10 +130,10 @@ def _block(name: str, values: Array) -> str:
 
 
 def _local(name: str, values: Array) -> str:
-    scalar = _SCALARS[values.dtype.kind]
+    scalar, row = _SCALARS[values.dtype.kind], "i" if len(values) > 1 else "0"
     if values.ndim == 1:
-        return f"    {scalar} {name} = in_{name}[{'i' if len(values) > 1 else '0'}];"
+        return f"    {scalar} {name} = in_{name}[{row}];"
     width = values.shape[1]
     prefix = "" if scalar == "float" else scalar[0]
-    parts = ", ".join(f"in_{name}[{width} * i + {k}]" for k in range(width))
+    parts = ", ".join(f"in_{name}[{width} * {row} + {k}]" for k in range(width))
     return f"    {prefix}vec{width} {name} = {prefix}vec{width}({parts});"

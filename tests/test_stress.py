@@ -14,8 +14,10 @@ from glrt.context import Context
 from glrt.lab.stress import command, report
 from glrt.lab.stress.cases import CASES
 from glrt.lab.stress.sweep import Case, Finding, Lab, Sweep
+from tests.alarms import book
 
 TINY = 1 / 64
+VERDICTS = {"lamps": 11, "ceiling": 18, "bulb": 18, "caustic": 3, "fireflies": 1, "seeds": 7}
 SWEEP = Sweep(
     parameter="size",
     measure="error",
@@ -44,6 +46,7 @@ def test_every_case_holds_and_tells_the_naive_method_from_the_chosen(
 ) -> None:
     lab = Lab(context, TINY)
     sweep = CASES[name].run(lab)
+    book(VERDICTS.get(name, 0))
     assert sweep.broken() == []
     curves = [sweep.chosen[1], *sweep.others.values()]
     assert all(len(curve) == len(sweep.x) > 3 for curve in curves)
@@ -64,7 +67,10 @@ def test_a_guarantee_holds_where_it_is_given_and_nowhere_else() -> None:
     assert replace(SWEEP, guaranteed=[False, False, True, True]).limit() == 4.0
     assert replace(SWEEP, chosen=("naive", SWEEP.others["naive"])).broken() == [2.0, 4.0]
     assert replace(SWEEP, chosen=("nan", [float("nan")] * 4)).broken() == [1.0, 2.0, 4.0]
-    assert replace(SWEEP, bound=None, guaranteed=None, chosen=("", [9.0] * 4)).broken() == []
+    free = replace(SWEEP, bound=None, guaranteed=None, chosen=("", [9.0] * 4))
+    assert free.broken() == []
+    assert replace(free, wrong=[2.0]).broken() == [2.0]
+    assert replace(SWEEP, wrong=[8.0]).broken() == [8.0]
 
 
 @pytest.fixture

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FORMATS = (".svg", ".png")
-_STYLES = (  # colour, marker, dashes: of the first curve, the second, and so on
+_STYLES = (  # colour, marker, dashes of the first curve, the second, and so on
     ("#0072b2", "o", "-"),
     ("#d55e00", "s", "--"),
     ("#009e73", "^", "-."),
@@ -29,6 +29,7 @@ _STYLES = (  # colour, marker, dashes: of the first curve, the second, and so on
     ("#56b4e9", "v", (0, (5, 1, 1, 1, 1, 1))),
     ("#e69f00", "P", (0, (8, 2))),
 )
+_HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same chart everywhere
     "font.size": 10.0,
@@ -40,8 +41,6 @@ _LOOK: dict[Any, Any] = {
     "grid.color": "#dddddd",
     "grid.linewidth": 0.6,
     "legend.frameon": False,
-    "lines.linewidth": 1.6,
-    "lines.markersize": 5.0,
     "savefig.dpi": 110,
     "svg.hashsalt": "glrt",  # the same chart gives the same file
 }
@@ -97,7 +96,8 @@ def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4
         grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
         for axes, chart in zip(grid, charts, strict=False):
             _draw(axes, chart)
-            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=7.5)
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8)
+            axes.yaxis.label.set_size(8.5)
         for axes in grid[len(charts) :]:
             axes.set_axis_off()
         _save(figure, path)
@@ -122,24 +122,28 @@ def _draw(axes: "Axes", chart: Chart) -> None:
     axes.set_ylabel(chart.y_label)
     bottom = _bottom(chart.curves)
     styles = iter(_STYLES)
+    width = 2.6  # of the first curve: those that cover it are thinner, and it shows below
     for curve in chart.curves:
         if curve.is_bound:
             axes.plot(curve.x, curve.y, color="#555555", lw=1.0, ls=(0, (2, 2)), label=curve.label)
         else:
-            _draw_curve(axes, curve, next(styles), bottom)
+            _draw_curve(axes, curve, next(styles), bottom, width)
+            width = 1.4
     if chart.limit is not None:
         axes.axvline(chart.limit, color="#555555", lw=1.0, label=chart.limit_label)
 
 
-def _draw_curve(axes: "Axes", curve: Curve, style: Any, bottom: float) -> None:
+def _draw_curve(axes: "Axes", curve: Curve, style: Any, bottom: float, width: float) -> None:
     color, marker, dashes = style
+    look = {"color": color, "marker": marker, "lw": width, "ms": 2.5 + 1.5 * width}
     y = np.array(curve.y, np.float64)
     shown = np.where(y > 0, y, bottom)
-    axes.plot(curve.x, shown, color=color, ls=dashes, marker=marker, label=curve.label)
+    axes.plot(curve.x, shown, **look, ls=dashes, label=curve.label)
     zero = y <= 0
     if zero.any():
-        hollow = {"mfc": "white", "mec": color, "ls": "none", "marker": marker, "zorder": 3}
-        axes.plot(np.array(curve.x)[zero], shown[zero], **hollow)
+        told = any(line.get_label() == _HOLLOW for line in axes.lines)
+        hollow = {**look, "ls": "none", "mfc": "white", "zorder": 3}
+        axes.plot(np.array(curve.x)[zero], shown[zero], **hollow, label="" if told else _HOLLOW)
 
 
 def _bottom(curves: Sequence[Curve]) -> float:

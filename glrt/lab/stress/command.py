@@ -14,7 +14,7 @@ from glrt.lab.plot import check_matplotlib
 from glrt.lab.stress import report
 from glrt.lab.stress.cases import CASES
 from glrt.lab.stress.sweep import Case, Finding, Lab
-from glrt.scene import unknown
+from glrt.scene import nearest, quoted
 
 BROKEN = 1
 QUICK = 0.125  # of the rows and samples of a full run
@@ -41,7 +41,9 @@ def known_cases(names: Sequence[str]) -> list[Case]:
     """The cases of these names, each once, or all; `UsageError` lists them for an unknown one."""
     for name in names:
         if name not in CASES:
-            raise UsageError(unknown("case", name, CASES, "glrt stress knows"))
+            near = nearest(name, tuple(CASES))
+            question = f"; did you mean {quoted(near)}?" if near else "."
+            raise UsageError(f"unknown case {quoted(name)}{question} Cases: {', '.join(CASES)}.")
     return [CASES[name] for name in dict.fromkeys(names)] or list(CASES.values())
 
 

@@ -1,12 +1,14 @@
-"""Many samples: what a running mean loses, what seeds share, what a limit of bounces leaves out."""
+"""Sums: what a running mean loses, what pixels share, what a limit of bounces leaves out."""
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from glrt.lab.stress.sweep import Array, Lab, Sweep
+from glrt.lab.stress.scenes import lamp, plane, scene_of
+from glrt.lab.stress.sweep import SIGMAS, Array, Lab, Sweep
 
 PORTION = 1 << 15  # samples a dispatch, below the loop limit of software drivers
 DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and how many are bright
@@ -84,3 +86,98 @@ def _errors(means: Array, mixed: Array, count: int) -> Array:
     found = np.column_stack([means * [1, 1, 1 / count, 1], mix])
     rms: Array = np.sqrt(np.mean((found / truth[:, None] - 1) ** 2, axis=0))
     return rms
+
+
+SIDE, BLOCK = 128, 8  # pixels of the frame in `seeds`, and of the blocks that it is judged by
+SUM = """
+    ivec2 pixel = ivec2(i %% SIDE, i / SIDE);
+    float sum = 0.0;
+    for (int k = 0; k < frames; ++k) {
+        uint index = first + uint(k);
+        sum += unit_float(%s) - 0.5;
+    }""".replace("SIDE", str(SIDE))
+SHIFTED = f"pcg_hash(pcg_hash(uint(pixel.y * {SIDE} + pixel.x) + index))"
+OURS = "pcg_hash(pixel_seed(pixel, int(index), 7u) ^ STEP)"
+
+
+def seeds(lab: Lab) -> Sweep:
+    """Means of blocks of pixels scatter as chance wants if pixels share no random numbers."""
+    x = [1 << power for power in (0, 8, 16, 20, 24, 28, 31)]
+    frames = lab.count(256)
+    ours: list[float] = []
+    shifted: list[float] = []
+    for first in x:
+        given = {
+            "frames": [frames],
+            "first": np.array([first - 1], np.uint32),
+            "place": np.zeros(SIDE * SIDE, np.int32),
+        }
+        for found, number in ((ours, OURS), (shifted, SHIFTED)):
+            sums = lab.path("sum + 0.0 * float(place)", given, setup=SUM % number)
+            found.append(_excess(sums.astype(np.float64) / math.sqrt(frames / 12)))
+    blocks = (SIDE // BLOCK) ** 2
+    return Sweep(
+        parameter="number of the first frame",
+        measure=f"excess of the noise of {BLOCK} x {BLOCK} pixel means,\nof what chance gives",
+        x=x,
+        chosen=("glrt: place, frame and seed hashed together", ours),
+        others={"hash of place + frame": shifted},
+        promise="within 5.3 standard deviations of chance",
+        bound=[SIGMAS / math.sqrt(2 * blocks)] * len(x),
+    )
+
+
+def _excess(scores: Array) -> float:
+    """How far from 1 the standard deviation of the blocks of independent scores is."""
+    side = SIDE // BLOCK
+    blocks = scores.reshape(side, BLOCK, side, BLOCK).sum(axis=(1, 3)) / BLOCK
+    return float(abs(blocks.std() - 1))
+
+
+def albedo(lab: Lab) -> Sweep:
+    """A closed room whose walls shine and reflect: every bounce adds its power of the albedo."""
+    absorbed = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001]
+    limits = (1000, 10, 100)
+    light = {limit: [_room_light(lab, 1 - x, limit) for x in absorbed] for limit in limits}
+    whole = [1 / float(np.float32(x)) for x in absorbed]
+    sums = [_series(1 - x, 1000) for x in absorbed]
+    lost = {
+        f"light lost by {limit} bounces": _relative(light[limit], whole)
+        for limit in (10, 100, 1000)
+    }
+    return Sweep(
+        parameter="share of light that a wall absorbs, 1 - albedo",
+        measure="relative error of the radiance",
+        x=absorbed,
+        chosen=("glrt, 1000 bounces, against the sum of 1000", _relative(light[1000], sums)),
+        others=lost,
+        promise="at most 2e-5 from the sum up to the limit",
+        bound=[2e-5] * len(absorbed),
+    )
+
+
+def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
+    """Radiance in a room of planes that emit 1, without roulette: every path says the same."""
+    normals = [
+        [side if k == axis else 0 for k in range(3)] for axis in range(3) for side in (1, -1)
+    ]
+    walls = [plane([-x for x in normal], normal, "wall") for normal in normals]
+    size: dict[str, Any] = {
+        "width": 8,
+        "height": 8,
+        "bounces": bounces,
+        "roulette": False,
+        "method": "naive",
+    }
+    image = lab.render(scene_of(walls, {"wall": lamp(1, albedo)}), 1, **size)
+    return float(image.radiance.mean(dtype=np.float64))
+
+
+def _series(albedo: float, bounces: int) -> float:
+    """1 + a + a^2 + ... of the albedo that the kernel is given."""
+    a = float(np.float32(albedo))
+    return (1 - a ** (bounces + 1)) / (1 - a)
+
+
+def _relative(found: Sequence[float], truth: Sequence[float]) -> list[float]:
+    return [abs(a / b - 1) for a, b in zip(found, truth, strict=True)]

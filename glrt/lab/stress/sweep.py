@@ -1,6 +1,7 @@
 """What a case of `glrt stress` is, what it finds, and whether a guarantee is broken."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -16,15 +17,15 @@ from glrt.scene import Scene
 
 Array = np.ndarray[Any, Any]
 
-SIGMAS = 5.0  # standard errors that a mean may be off: chance goes beyond once in 1.7 million
+SIGMAS = 5.33  # standard errors that a mean may be off: chance goes beyond once in 10 million
 
 
 @dataclass(frozen=True)
 class Sweep:
     """Errors over one stress parameter: `chosen` is what glrt does, the others stand beside it.
 
-    The guarantee: `chosen` is at most `bound` wherever `guaranteed` says so. Without a bound none
-    is given, and the sweep shows how far things go.
+    The guarantee: `chosen` is at most `bound` wherever `guaranteed` says so. Where there is no
+    bound to give, `wrong` alone says what failed.
     """
 
     parameter: str  # with its unit
@@ -32,16 +33,18 @@ class Sweep:
     x: Sequence[float]
     chosen: tuple[str, Sequence[float]]
     others: Mapping[str, Sequence[float]]
-    promise: str  # the guarantee in words, or why there is none
+    promise: str  # the guarantee in words
     bound: Sequence[float] | None = None
     guaranteed: Sequence[bool] | None = None  # everywhere, if None
+    wrong: Sequence[float] = ()  # values of the parameter at which something else failed
 
     def broken(self) -> list[float]:
         """The values of the parameter at which the guarantee is broken; NaN breaks it too."""
         if self.bound is None:
-            return []
+            return list(self.wrong)
         rows = zip(self.x, self.chosen[1], self.bound, self.covered(), strict=True)
-        return [x for x, y, bound, covered in rows if covered and not y <= bound]
+        above = {x for x, y, bound, covered in rows if covered and not y <= bound}
+        return sorted(above | set(self.wrong))
 
     def covered(self) -> Sequence[bool]:
         """Where the guarantee holds."""
@@ -88,13 +91,30 @@ class Lab:
                 block.release()
         return result
 
-    def render(self, scene: Scene, samples: int, **settings: Any) -> Image:
+    def render(
+        self, scene: Scene, samples: int, kind: type[Renderer] = Renderer, **settings: Any
+    ) -> Image:
         """A picture, by the tier that `glrt render` uses."""
-        renderer = Renderer(scene, context=self.context, tier="baked", **settings)
-        try:
+        with self.rendering(scene, kind, **settings) as renderer:
             return renderer.render(samples).image()
+
+    @contextmanager
+    def rendering(
+        self, scene: Scene, kind: type[Renderer] = Renderer, **settings: Any
+    ) -> Iterator[Renderer]:
+        """A renderer, by the tier that `glrt render` uses."""
+        renderer = kind(scene, context=self.context, tier="baked", **settings)
+        try:
+            yield renderer
         finally:
             renderer.release()
+
+
+def mean_of(image: Image) -> tuple[float, float]:
+    """Mean over the picture, and its standard error."""
+    spread = np.square(image.stderr, dtype=np.float64).sum()
+    mean = float(image.radiance.mean(dtype=np.float64))
+    return mean, float(np.sqrt(spread) / image.radiance.size)
 
 
 _FLAGS: Any = {field.name: True for field in fields(Needs)}
@@ -126,8 +146,6 @@ class Finding:
     @property
     def verdict(self) -> str:
         """In a few words."""
-        if self.sweep.bound is None:
-            return "no guarantee"
         broken = self.sweep.broken()
         return "holds" if not broken else f"BROKEN at {', '.join(f'{x:.3g}' for x in broken)}"
 
@@ -148,7 +166,7 @@ class Finding:
             y_label=s.measure,
             curves=curves,
             limit=s.limit(),
-            limit_label="the guarantee ends here",
+            limit_label="limit of the guarantee",
         )
 
     def small_chart(self) -> Chart:
