@@ -5,14 +5,13 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NoReturn, get_args
 
-from glrt.context import ROUTES
+from glrt.context import ROUTES, Pipeline
 from glrt.errors import UsageError
 from glrt.settings import RenderSettings, Settings
 from glrt.version import VERSION
 
 LATER = {
     "--resume": "adding samples to an older picture",
-    "--pipeline fragment": "the pipeline for OpenGL 4.1",
     "inspect --error": "the choice of the cheapest method",
 }
 
@@ -129,7 +128,10 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     )
     _add_context(parser)
     parser.add_argument(
-        "--pipeline", choices=["auto", "compute", "fragment"], default="auto", help="kernel kind"
+        "--pipeline",
+        choices=get_args(Pipeline),
+        default="auto",
+        help="kind of shader; fragment needs OpenGL 4.1 alone; default: compute where it works",
     )
     parser.add_argument("--resume", metavar="FILE", help=argparse.SUPPRESS)
     parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
@@ -253,7 +255,6 @@ def refuse_later(arguments: argparse.Namespace) -> None:
     """UsageError for what the format of the command line knows and this version does not do."""
     given = {
         "--resume": getattr(arguments, "resume", None) is not None,
-        "--pipeline fragment": getattr(arguments, "pipeline", "") == "fragment",
         "inspect --error": arguments.command == "inspect" and arguments.error is not None,
     }
     for option, is_given in given.items():

@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from glrt.shader import read
+from glrt.texels import accessor
 
 Array = np.ndarray[Any, Any]
 Tier = Literal["storage", "generic", "baked"]
@@ -27,8 +28,13 @@ def tier_for(arrays: Mapping[str, Array], wanted: Tier) -> Tier:
     return "generic" if wanted == "baked" and shapes > MOST_BAKED else wanted
 
 
-def blocks_text(arrays: Mapping[str, Array], tier: Tier = "generic") -> str:
-    """The text of `blocks.glsl` for these arrays, keyed by block name."""
+def blocks_text(
+    arrays: Mapping[str, Array], tier: Tier = "generic", has_storage: bool = True
+) -> str:
+    """The text of `blocks.glsl` for these arrays, keyed by block name.
+
+    Without storage blocks, as in OpenGL 4.1, textures take their place.
+    """
     text = read("blocks.glsl")
     for block, rows in arrays.items():
         struct = block.removesuffix("s")
@@ -39,19 +45,23 @@ def blocks_text(arrays: Mapping[str, Array], tier: Tier = "generic") -> str:
         if tier == "baked" and block in BAKED:
             text = text.replace(storage, _constants(struct, f"{name}s", rows))
             text = text.replace(f"frame.{name}_count", str(len(rows)))
-        elif _is_uniform(rows, tier):
+        elif is_uniform(rows, tier):
             uniform = f"layout(std140) uniform {block} {{ {struct} {name}s[{_capacity(rows)}]; }};"
             text = text.replace(storage, uniform)
+        elif not has_storage:
+            getter = f"{struct} {name}_at(int index) {{ return {name}s[index]; }}"
+            text = text.replace(storage, "").replace(getter, accessor(struct, block, rows.dtype))
     return text
 
 
 def padded(rows: Array, tier: Tier) -> bytes:
     """The content of a block's buffer: as large as the uniform block, and never empty."""
-    least = _capacity(rows) if _is_uniform(rows, tier) else 1
+    least = _capacity(rows) if is_uniform(rows, tier) else 1
     return rows.tobytes().ljust(least * rows.itemsize, b"\0")
 
 
-def _is_uniform(rows: Array, tier: Tier) -> bool:
+def is_uniform(rows: Array, tier: Tier) -> bool:
+    """Whether an array that is not baked lies in a uniform block."""
     return tier != "storage" and _capacity(rows) * rows.itemsize <= UNIFORM_BYTES
 
 

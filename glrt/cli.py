@@ -154,7 +154,7 @@ def _render(
 ) -> int:
     from glrt.renderer import Renderer
 
-    renderer = Renderer(scene, settings, arguments.context, tier="baked")
+    renderer = Renderer(scene, settings, arguments.context, "baked", arguments.pipeline)
     setup = since_start() - renderer.compile_seconds
     start = time.perf_counter()
     with _watch(arguments, limits) as watch:
@@ -232,7 +232,7 @@ def _figures(
         "bounces": settings.bounces,
         "method": settings.method,
         "seed": settings.seed,
-        "pipeline": "compute",
+        "pipeline": renderer.pipeline,
         "context": renderer.context.route,
         "renderer": renderer.context.renderer,
         "seconds": {name: round(value, 6) for name, value in seconds.items()},

@@ -16,8 +16,9 @@ import moderngl
 from glrt.errors import ContextError
 
 Choice = Literal["auto", "egl", "osmesa", "window"]
+Pipeline = Literal["auto", "compute", "fragment"]
 ROUTES = ("egl", "window", "osmesa")  # in this order: the last is never hardware
-REQUIRED = 430  # compute shaders
+COMPUTE, FRAGMENT = 430, 410  # the versions of OpenGL that the two pipelines need
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi")
 _OSMESA_LIBRARIES = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
 ADVICE = (
@@ -44,20 +45,27 @@ class Context:
         return str(self.gl.info["GL_VERSION"])
 
     @property
+    def has_compute(self) -> bool:
+        """Whether there are compute shaders and storage blocks."""
+        return self.gl.version_code >= COMPUTE
+
+    @property
     def is_software(self) -> bool:
         """Whether the processor draws."""
         return any(word in self.renderer.lower() for word in _SOFTWARE)
 
 
-def open_context(choice: Choice = "auto") -> Context:
+def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Context:
     """Open a route, or the best: hardware before software, else the first that works.
 
-    Raises ContextError with the reason of every route that failed.
+    It has OpenGL 4.3 at least if the pipeline is to be compute, else 4.1. Raises ContextError with
+    the reason of every route that failed.
     """
     failures: list[str] = []
+    required = COMPUTE if pipeline == "compute" else FRAGMENT
     software: Context | None = None
     for route in ROUTES if choice == "auto" else (choice,):
-        for context in _try_route(route, failures):
+        for context in _try_route(route, failures, required):
             if choice != "auto" or not context.is_software:
                 return _prefer(context, software)
             software = _prefer(software or context, context)
@@ -65,7 +73,7 @@ def open_context(choice: Choice = "auto") -> Context:
             break
     if software:
         return software
-    raise ContextError(f"no usable OpenGL {REQUIRED / 100}: {'; '.join(failures)}. {ADVICE}")
+    raise ContextError(f"no usable OpenGL {required / 100}: {'; '.join(failures)}. {ADVICE}")
 
 
 def open_route(route: str) -> Context:
@@ -91,11 +99,11 @@ def _has_display() -> bool:
     return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY"))
 
 
-def _try_route(route: str, failures: list[str]) -> Iterator[Context]:
+def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Iterator[Context]:
     """Every context that a route offers, one at a time; EGL may offer several devices."""
     for device in range(16 if route == "egl" else 1):
         try:
-            gl = _create(route, device)
+            gl = _create_newest(route, device, required)
         except Exception as error:  # each backend raises what it likes: it becomes the reason
             if device == 0:
                 failures.append(f"{route}: {error}")
@@ -103,33 +111,44 @@ def _try_route(route: str, failures: list[str]) -> Iterator[Context]:
         yield Context(gl, route)
 
 
-def _create(route: str, device: int) -> moderngl.Context:
+def _create_newest(route: str, device: int, required: int) -> moderngl.Context:
+    """With compute shaders, else as new as is required."""
+    try:
+        return _create(route, device, COMPUTE)
+    except Exception:
+        if required == COMPUTE:
+            raise
+        return _create(route, device, required)
+
+
+def _create(route: str, device: int, required: int) -> moderngl.Context:
     if route == "window" and not _has_display():
         raise ContextError("there is no display (DISPLAY is not set)")
     options: dict[str, Any] = {"standalone": True}
     if route == "egl":
         options |= {"backend": "egl", "device_index": device}
     if route == "osmesa":
-        options = {"context": OSMesa()}
-    return moderngl.create_context(require=REQUIRED, **options)
+        options = {"context": OSMesa(5 if required == COMPUTE else 1)}
+    return moderngl.create_context(require=required, **options)
 
 
 # In OSMesa's names: FORMAT = RGBA, DEPTH_BITS, PROFILE = CORE, CONTEXT_MAJOR_VERSION and _MINOR_.
-_ATTRIBUTES = (0x22, 0x1908, 0x30, 24, 0x33, 0x34, 0x36, 4, 0x37, 5, 0)
+_ATTRIBUTES = (0x22, 0x1908, 0x30, 24, 0x33, 0x34, 0x36, 4, 0x37)
 _UNSIGNED_BYTE = 0x1401
 
 
 class OSMesa:
     """The loader that moderngl asks for: OSMesa through ctypes."""
 
-    def __init__(self) -> None:
-        """Open a core context of OpenGL 4.5, the newest that OSMesa has."""
+    def __init__(self, minor: int = 5) -> None:
+        """Open a core context of OpenGL 4.`minor`; 4.5 is the newest that OSMesa has."""
         self._library = _load_osmesa()
         create = self._library.OSMesaCreateContextAttribs
         create.restype, create.argtypes = ctypes.c_void_p, [ctypes.c_void_p, ctypes.c_void_p]
-        self._context = create((ctypes.c_int * len(_ATTRIBUTES))(*_ATTRIBUTES), None)
+        attributes = (*_ATTRIBUTES, minor, 0)
+        self._context = create((ctypes.c_int * len(attributes))(*attributes), None)
         if not self._context:
-            raise ContextError("OSMesa has no OpenGL 4.5 core context")
+            raise ContextError(f"OSMesa has no OpenGL 4.{minor} core context")
         self._pixel = (ctypes.c_ubyte * 4)()  # the default framebuffer: unused, but required
         self.__enter__()
 

@@ -51,6 +51,7 @@ def _route_lines(route: str, chosen: str) -> list[str]:
         return [f"{route:<8}does not work: {reason} ({_HINTS[route]})"]
     kind = "software" if context.is_software else "hardware"
     text = f"{route:<8}works: {context.renderer}, {kind}, OpenGL {context.version}"
+    text += "" if context.has_compute else ", fragment pipeline"
     seconds = time.perf_counter() - start
     context.gl.release()
     used = " <- used" if route == chosen else ""
@@ -60,11 +61,14 @@ def _route_lines(route: str, chosen: str) -> list[str]:
 def _verdict(chosen: str) -> str:
     if chosen:
         return f"`glrt render` uses {chosen}; --context chooses another."
-    return f"No route gives OpenGL 4.3. {ADVICE}"
+    return f"No route gives OpenGL 4.1. {ADVICE}"
 
 
 def _self_test_lines() -> list[str]:
     context = open_context("auto")
+    if not context.has_compute:
+        context.gl.release()
+        return ["The self-test needs compute shaders, which OpenGL 4.3 brings."]
     try:
         lines = findings(self_test(context))
     except GlrtError as error:

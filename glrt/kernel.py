@@ -7,47 +7,38 @@ import moderngl
 from glrt.errors import RenderError
 from glrt.shader import Source
 
-GROUP = 8  # work group of 8 x 8, as in trace.comp
+GROUP = 8  # pixels along the edge of a tile, as in tiles.glsl; a work group of trace.comp
+
+Resource = moderngl.Buffer | moderngl.Texture
+Images = Mapping[str, moderngl.Texture]
 
 
 def tile_count(width: int, height: int) -> int:
-    """How many work groups cover a picture."""
+    """How many tiles cover a picture."""
     return -(-width // GROUP) * -(-height // GROUP)
 
 
 class Kernel:
-    """A compute shader."""
+    """A compute shader: a tile is a work group, and images are read and written in place."""
 
     def __init__(self, gl: moderngl.Context, source: Source) -> None:
         """Compile; RenderError tells the driver's message by shader file and line."""
         try:
             self._program = gl.compute_shader(source.text)
         except moderngl.Error as error:
-            message = " ".join(source.explain(str(error)).split())
-            raise RenderError(f"the driver refuses the kernel: {message}") from error
+            raise _refusal(source, error) from error
 
     @property
     def names(self) -> set[str]:
         """The blocks, images and uniforms that the compiled program uses."""
         return set(self._program)
 
-    def bind(
-        self,
-        buffers: Mapping[str, moderngl.Buffer],
-        images: Mapping[str, moderngl.Texture],
-    ) -> None:
+    def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
         """Give each block and image of the program the buffer or texture of its name.
 
-        Blocks that the compiler dropped need none; a missing one is a KeyError with its name.
+        Those that the compiler dropped need none; a missing one is a KeyError with its name.
         """
-        for slot, name in enumerate(self._program):
-            member = self._program[name]
-            if isinstance(member, moderngl.UniformBlock):
-                member.binding = slot
-                buffers[name].bind_to_uniform_block(slot)
-            elif isinstance(member, moderngl.StorageBlock):
-                member.binding = slot
-                buffers[name].bind_to_storage_buffer(slot)
+        _bind_blocks(self._program, scene)
         for unit, name in enumerate(images):
             if name in self._program:
                 self._program[name] = unit
@@ -64,3 +55,65 @@ class Kernel:
     def release(self) -> None:
         """Free the program."""
         self._program.release()
+
+
+class FragmentKernel:
+    """A vertex and a fragment shader: a tile is an instance of a quad, drawn over the targets."""
+
+    def __init__(self, gl: moderngl.Context, vertex: Source, fragment: Source) -> None:
+        """Compile; RenderError tells the driver's message by shader file and line."""
+        self._gl = gl
+        self._targets: moderngl.Framebuffer | None = None
+        try:
+            self._program = gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
+        except moderngl.Error as error:
+            raise _refusal(fragment, error) from error
+        self._quad = gl.vertex_array(self._program, [])
+
+    def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
+        """As Kernel.bind; images whose names begin with "target" are drawn to, in their order."""
+        _bind_blocks(self._program, scene)
+        for unit, (name, texture) in enumerate({**scene, **images}.items()):
+            if isinstance(texture, moderngl.Texture) and name in self._program:
+                self._program[name] = unit
+                texture.use(unit)
+        self._release_targets()
+        targets = [texture for name, texture in images.items() if name.startswith("target")]
+        self._targets = self._gl.framebuffer(color_attachments=targets)
+
+    def run_tiles(self, count: int) -> None:
+        """Draw tiles; what a window has turned on, such as blending, does not touch them."""
+        with self._gl.scope(self._targets, moderngl.NOTHING):
+            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=count)
+
+    def release(self) -> None:
+        """Free the program."""
+        self._release_targets()
+        self._quad.release()
+        self._program.release()
+
+    def _release_targets(self) -> None:
+        if self._targets:
+            self._targets.release()
+            self._targets = None
+
+
+def _bind_blocks(
+    program: moderngl.ComputeShader | moderngl.Program, scene: Mapping[str, Resource]
+) -> None:
+    for slot, name in enumerate(program):
+        member = program[name]
+        if not isinstance(member, moderngl.UniformBlock | moderngl.StorageBlock):
+            continue
+        member.binding = slot
+        buffer = scene[name]
+        assert isinstance(buffer, moderngl.Buffer)
+        if isinstance(member, moderngl.UniformBlock):
+            buffer.bind_to_uniform_block(slot)
+        else:
+            buffer.bind_to_storage_buffer(slot)
+
+
+def _refusal(source: Source, error: moderngl.Error) -> RenderError:
+    message = " ".join(source.explain(str(error)).split())
+    return RenderError(f"the driver refuses the kernel: {message}")

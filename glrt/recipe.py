@@ -20,6 +20,7 @@ class Recipe(Frozen):
     version: str = Field(description="version of glrt")
     renderer: str = Field(description="name of the OpenGL driver")
     tier: str = Field("generic", description="where the kernel found its shapes")
+    pipeline: str = Field("compute", description="the kind of shader")
 
     def to_json(self) -> str:
         """One line of ASCII that `from_json` reads back without loss."""

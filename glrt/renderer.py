@@ -1,21 +1,22 @@
 """Scene + Settings -> samples on a film, step by step."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import moderngl
 import numpy as np
 
-from glrt.blocks import Tier, blocks_text, padded, tier_for
-from glrt.context import Choice, Context, open_context
+from glrt.blocks import Tier, tier_for
+from glrt.context import Choice, Context, Pipeline, open_context
 from glrt.display import Display
 from glrt.errors import UsageError
 from glrt.film import Film, standard_error
 from glrt.image import Image
-from glrt.kernel import Kernel, tile_count
+from glrt.kernel import Resource, tile_count
 from glrt.needs import needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
+from glrt.pipelines import Arrays, compiled, resolve, scene_text, sources, upload
 from glrt.recipe import Recipe
 from glrt.scene import Scene
 from glrt.schedule import (
@@ -30,7 +31,6 @@ from glrt.schedule import (
 )
 from glrt.selftest import usable_rounds
 from glrt.settings import Cost, Settings, cost_of_change, settings_for
-from glrt.shader import Source
 from glrt.version import VERSION
 
 ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
@@ -48,20 +48,23 @@ class Renderer:
         settings: Settings | None = None,
         context: Context | Choice = "auto",
         tier: Tier = "generic",
+        pipeline: Pipeline = "auto",
         **overrides: Any,
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
 
         `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
         "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
+        The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
         self._owns_context = not isinstance(context, Context)
-        self.context = context if isinstance(context, Context) else open_context(context)
+        self.context = context if isinstance(context, Context) else open_context(context, pipeline)
+        self.pipeline = resolve(pipeline, self.context)
         self._wanted_tier = tier
-        self._buffers: dict[str, moderngl.Buffer] = {}
+        self._resources: dict[str, Resource] = {}
         most_samples = self._most_samples(self.scene, self.settings)
         with self.context.gl:
             self._upload(most_samples)
@@ -107,11 +110,11 @@ class Renderer:
         self.scene, self.settings = after
         if self.scene == before[0] and cost_of_change(before[1], self.settings) is Cost.FREE:
             return Cost.FREE
-        compiled = self._source
+        before_texts = self._texts()
         with self.context.gl:
             self._upload(most_samples)
             self._film.restart(*self.size, self.settings.block)
-            if self._source.text == compiled.text:
+            if self._texts() == before_texts:
                 return Cost.RESTART
             self._kernel.release()
             self._compile()
@@ -168,6 +171,7 @@ class Renderer:
             version=VERSION,
             renderer=self.context.renderer,
             tier=self.tier,
+            pipeline=self.pipeline,
         )
         return Image(film.mean, standard_error(film), self.samples, recipe)
 
@@ -189,8 +193,8 @@ class Renderer:
         with self.context.gl:
             self._film.release()
             self._kernel.release()
-            for buffer in self._buffers.values():
-                buffer.release()
+            for resource in self._resources.values():
+                resource.release()
         if self._owns_context:
             self.context.gl.release()
 
@@ -204,27 +208,27 @@ class Renderer:
         arrays = pack_scene(self.scene)
         self._counts = {name: len(rows) for name, rows in arrays.items()}
         self.tier = tier_for(arrays, self._wanted_tier)
-        for name, rows in arrays.items():
-            self._store(name, padded(rows, self.tier))
-        self._store("FrameBlock", bytes(STRUCTS["Frame"].itemsize))
+        for resource in self._resources.values():
+            resource.release()
+        self._frame = self.context.gl.buffer(reserve=STRUCTS["Frame"].itemsize)
+        shapes = upload(self.context.gl, self.pipeline, arrays, self.tier)
+        self._resources = {**shapes, "FrameBlock": self._frame}
         constants = needs_of(self.scene, self.settings).constants()
-        self._source = Source("trace.comp", constants, parts=self._parts(arrays))
+        self._shaders = sources(self.pipeline, constants, self._parts(arrays))
         self._tiles = tile_count(*self.size)
         self.most_samples = most_samples
         self._schedule = Schedule(self._tiles, most_samples)
 
-    def _parts(self, arrays: Mapping[str, np.ndarray[Any, Any]]) -> dict[str, str]:
+    def _parts(self, arrays: Arrays) -> dict[str, str]:
         """Texts that stand in for shader files."""
-        return {"blocks.glsl": blocks_text(arrays, self.tier)}
+        return {"blocks.glsl": scene_text(self.pipeline, arrays, self.tier)}
 
-    def _store(self, name: str, data: bytes) -> None:
-        if name in self._buffers:
-            self._buffers[name].release()
-        self._buffers[name] = self.context.gl.buffer(data)
+    def _texts(self) -> list[str]:
+        return [shader.text for shader in self._shaders]
 
     def _compile(self) -> None:
         start = time.perf_counter()
-        self._kernel = Kernel(self.context.gl, self._source)
+        self._kernel = compiled(self.context.gl, self._shaders)
         self._dispatch(Portion(0, 0, 1))  # drivers compile in the first; this one adds nothing
         self.context.gl.finish()
         self.compile_seconds = time.perf_counter() - start
@@ -252,8 +256,8 @@ class Renderer:
             portion.first,
             stride_of(self._tiles),
         )
-        self._buffers["FrameBlock"].write(frame)
-        self._kernel.bind(self._buffers, self._film.images())
+        self._frame.write(frame)
+        self._kernel.bind(self._resources, self._film.images())
         self._kernel.run_tiles(portion.tiles)
 
 

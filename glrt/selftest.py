@@ -56,8 +56,10 @@ def usable_rounds(context: Context, wanted: int) -> int | None:
     invocation.
     """
     known = _with_reserve(LLVMPIPE_ROUNDS)
-    if "llvmpipe" in context.renderer.lower() and wanted <= known:
+    if "llvmpipe" in context.renderer.lower() and (wanted <= known or not context.has_compute):
         return known
+    if not context.has_compute:
+        return known if context.is_software else None
     limit = measured_loop_limit(context)
     return None if limit >= MOST_ROUNDS else _with_reserve(limit)
 

@@ -78,6 +78,6 @@ struct Frame {
     int plane_count;
     int quad_count;
     int light_count;
-    int first_tile;         // of this dispatch: see trace.comp
+    int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;
 };

@@ -18,6 +18,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "path.glsl"
 #include "film.glsl"
 #include "samples.glsl"
+#include "tiles.glsl"
 
 layout(rgba32f) uniform readonly image2D source_mean;      // a: dropped samples
 layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
@@ -35,20 +36,11 @@ Pixel load_pixel(ivec2 texel) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
-// Tiles are numbered along rows, `tile_stride` apart: those of one dispatch lie all over the
-// picture, and each dispatch costs about the same.
-ivec2 texel_of_lane() {
-    uvec2 size = gl_WorkGroupSize.xy;
-    uvec2 tiles = (uvec2(imageSize(target_mean)) + size - 1u) / size;
-    uint number = uint(frame.first_tile) + gl_WorkGroupID.x;
-    uint tile = number * uint(frame.tile_stride) % (tiles.x * tiles.y);
-    uvec2 corner = size * uvec2(tile % tiles.x, tile / tiles.x);
-    return ivec2(corner + gl_LocalInvocationID.xy);
-}
-
 void main() {
-    ivec2 texel = texel_of_lane();
-    if (any(greaterThanEqual(texel, imageSize(target_mean)))) return;
+    ivec2 picture = imageSize(target_mean);
+    ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
+    ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
+    if (any(greaterThanEqual(texel, picture))) return;
     Pixel pixel = load_pixel(texel);
     add_samples(pixel, frame.origin + texel);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));

@@ -22,6 +22,7 @@ ORDER = [
         "layout",
         "shader",
         "pack",
+        "texels",
         "blocks",
         "stats",
         "tonemap",
@@ -29,16 +30,27 @@ ORDER = [
         "recipe",
     ),
     *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),
-    *("context", "kernel", "probe", "selftest", "film", "display", "schedule", "renderer"),
-    *("__init__", "job", "progress", "doctor", "lab", "ui", "arguments", "compare_command", "cli"),
+    *("context", "kernel", "probe", "selftest", "pipelines", "film", "display", "schedule"),
+    *(
+        "renderer",
+        "__init__",
+        "job",
+        "progress",
+        "doctor",
+        "lab",
+        "ui",
+        "arguments",
+        "compare_command",
+        "cli",
+    ),
     "__main__",
 ]
-KNOW_OPENGL = {"context", "kernel", "probe", "selftest", "film", "display", "renderer"}
+KNOW_OPENGL = {"context", "kernel", "pipelines", "probe", "selftest", "film", "display", "renderer"}
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60
 
-ENTRIES = {"trace.comp", "blocks.glsl", "display.frag", "display.vert"}
+ENTRIES = {"trace.comp", "trace.vert", "trace.frag", "blocks.glsl", "display.frag", "display.vert"}
 NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it

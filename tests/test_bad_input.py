@@ -82,7 +82,7 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
     "unknown context": ("render {scene} -o {tmp}/a.png --context vulkan", ["--context", "osmesa"]),
     "unknown sampler": ("render {scene} -o {tmp}/a.png --sampler halton", ["--sampler", "sobol"]),
     "resume of later": ("render {scene} -o {tmp}/a.png --resume b.exr", ["--resume"]),
-    "fragment of later": ("render {scene} -o {tmp}/a.png --pipeline fragment", ["fragment"]),
+    "unknown pipeline": ("render {scene} -o {tmp}/a.png --pipeline mesh", ["'mesh'", "fragment"]),
     "picture without recipe": (
         "render {tmp}/foreign.png -o {tmp}/a.png",
         ["foreign.png", "recipe"],

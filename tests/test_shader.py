@@ -8,8 +8,12 @@ import moderngl
 import pytest
 
 from glrt import shader
+from glrt.blocks import blocks_text
 from glrt.errors import RenderError
-from glrt.kernel import Kernel
+from glrt.kernel import FragmentKernel, Kernel
+from glrt.library import load
+from glrt.pack import pack_scene
+from glrt.pipelines import sources
 from glrt.probe import path_files
 from glrt.resources import folder
 from glrt.shader import Source, read
@@ -31,40 +35,8 @@ layout(local_size_x = 1) in;
 layout(std430) buffer Data { vec4 data; };
 void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
-FRAGMENT_ENTRY = "\n".join(
-    [
-        '#include "scene.glsl"',
-        "layout(std140) uniform FrameBlock { Frame frame; };",
-        "layout(std140) uniform Spheres { Sphere spheres[32]; };",
-        "layout(std140) uniform Planes { Plane planes[32]; };",
-        "layout(std140) uniform Quads { Quad quads[32]; };",
-        "layout(std140) uniform Materials { Material materials[32]; };",
-        "layout(std140) uniform Lights { Light lights[32]; };",
-        "Sphere sphere_at(int index) { return spheres[index]; }",
-        "Plane plane_at(int index) { return planes[index]; }",
-        "Quad quad_at(int index) { return quads[index]; }",
-        "Material material_at(int index) { return materials[index]; }",
-        "Light light_at(int index) { return lights[index]; }",
-        "int sphere_count() { return frame.sphere_count; }",
-        "int plane_count() { return frame.plane_count; }",
-        "int quad_count() { return frame.quad_count; }",
-        "int light_count() { return frame.light_count; }",
-        *(f'#include "{name}"' for name in INCLUDES if name != "blocks.glsl"),
-        "layout(location = 0) out vec4 target_mean;",
-        "layout(location = 1) out vec4 target_variance;",
-        "void main() {",
-        "    ivec2 place = ivec2(gl_FragCoord.xy);",
-        "    Pixel pixel = empty_pixel();",
-        "    add_samples(pixel, place);",
-        "    target_mean = vec4(pixel.mean, pixel.dropped);",
-        "    target_variance = vec4(pixel.variance, 0.0);",
-        "}",
-    ]
-)
+OLD_BLOCKS = {"blocks.glsl": blocks_text(pack_scene(load("cornell")), has_storage=False)}
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
-WHOLE_SCREEN = """#version 410 core
-void main() { gl_Position = vec4(gl_VertexID * 4 - 1, (gl_VertexID & 1) * 4 - 1, 0.0, 1.0); }
-"""
 
 
 @pytest.fixture
@@ -233,7 +205,7 @@ Ray f(vec3 parameter, inout float other) {
 def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     files = {path.name for path in folder("shaders_glsl").iterdir()}
     reached = {*INCLUDES, *re.findall(r'#include "(\w+\.glsl)"', TONEMAP_ENTRY)}
-    assert files == reached | {"trace.comp", *DISPLAY_STAGES}
+    assert files == reached | {"trace.comp", "trace.vert", "trace.frag", *DISPLAY_STAGES}
 
 
 @pytest.mark.parametrize("features", FEATURE_SETS)
@@ -268,20 +240,22 @@ def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -
 
 
 @pytest.mark.parametrize("features", FEATURE_SETS)
-def test_the_path_text_is_glsl_4_10_and_serves_a_fragment_shader(
-    ctx: moderngl.Context, features: str
-) -> None:
-    source = Source("path.frag", FEATURE_SETS[features], "410 core", {"path.frag": FRAGMENT_ENTRY})
-    ctx.program(vertex_shader=WHOLE_SCREEN, fragment_shader=source.text).release()
-    assert warnings((VERTEX, WHOLE_SCREEN), (FRAGMENT, source.text)) == []
+def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) -> None:
+    vertex, fragment = sources("fragment", FEATURE_SETS[features], OLD_BLOCKS)
+    FragmentKernel(ctx, vertex, fragment).release()
+    assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 
-def test_the_path_text_in_glsl_4_10_refuses_what_came_later(ctx: moderngl.Context) -> None:
+def test_glsl_4_10_refuses_what_came_later(ctx: moderngl.Context) -> None:
     for late in ("buffer Later { float later[]; };", "layout(binding = 1) uniform L { float l; };"):
-        parts = {"path.frag": FRAGMENT_ENTRY + late}
-        source = Source("path.frag", EVERYTHING, "410 core", parts)
-        with pytest.raises(moderngl.Error):
-            ctx.program(vertex_shader=WHOLE_SCREEN, fragment_shader=source.text)
+        parts = {"blocks.glsl": OLD_BLOCKS["blocks.glsl"] + late}
+        with pytest.raises(RenderError, match="refuses the kernel"):
+            FragmentKernel(ctx, *sources("fragment", EVERYTHING, parts))
+
+
+def test_both_kernels_include_the_same_path_text() -> None:
+    by_fragment = re.findall(r'#include "(\w+\.glsl)"', read("trace.frag"))
+    assert [name for name in INCLUDES if name != "tiles.glsl"] == by_fragment
 
 
 def test_the_path_text_is_what_the_kernel_includes() -> None:

@@ -9,7 +9,7 @@ from imgui_bundle import imgui  # noqa: F401 - first: glfw then is the library t
 import glfw  # isort: skip
 import moderngl
 
-from glrt.context import REQUIRED, Context
+from glrt.context import COMPUTE, Context
 from glrt.errors import ContextError
 
 INSTEAD = "Use `glrt render`, which needs none; `glrt doctor` tells which OpenGL works here."
@@ -35,7 +35,7 @@ class WindowLoader:
 def wrap_window() -> Context:
     """The context of the window that is open."""
     loader: Any = WindowLoader()
-    return Context(moderngl.create_context(require=REQUIRED, context=loader), "window")
+    return Context(moderngl.create_context(require=COMPUTE, context=loader), "window")
 
 
 def check_window() -> None:
@@ -52,7 +52,7 @@ def check_window() -> None:
 
 
 def _opens() -> bool:
-    major, minor = divmod(REQUIRED // 10, 10)
+    major, minor = divmod(COMPUTE // 10, 10)
     glfw.window_hint(glfw.VISIBLE, glfw.FALSE)
     glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, major)
     glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, minor)

@@ -1,0 +1,49 @@
+"""Arrays of structs as textures of words, for drivers without storage blocks.
+
+The words are unsigned integers: a texture of floats may lose what looks like a denormal number.
+"""
+
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray[Any, Any]
+
+ROWS = 512  # structs along a texture: with 7 texels each well within the 16,384 that 4.1 grants
+_TEXEL = 16  # bytes of RGBA32UI
+_CASTS = {"f": "uintBitsToFloat({})", "i": "int({})", "u": "{}"}
+
+
+def accessor(struct: str, block: str, dtype: np.dtype[Any]) -> str:
+    """GLSL of a texture named `block` and of the function that reads a struct from it."""
+    texels = dtype.itemsize // _TEXEL
+    fetches = [
+        f"    uvec4 row{k} = texelFetch({block}, place + ivec2({k}, 0), 0);" for k in range(texels)
+    ]
+    fields = [_field(field[0], field[1]) for field in (dtype.fields or {}).values()]
+    return "\n".join(
+        [
+            f"uniform usampler2D {block};",
+            f"{struct} {struct.lower()}_at(int index) {{",
+            f"    ivec2 place = ivec2({texels} * (index % {ROWS}), index / {ROWS});",
+            *fetches,
+            f"    return {struct}({', '.join(fields)});",
+            "}",
+        ]
+    )
+
+
+def texels(data: bytes, itemsize: int) -> tuple[tuple[int, int], bytes]:
+    """Width and height of the texture for an array of structs, and its content."""
+    width = ROWS * itemsize // _TEXEL
+    height = -(-len(data) // (width * _TEXEL))
+    return (width, height), data.ljust(width * height * _TEXEL, b"\0")
+
+
+def _field(dtype: np.dtype[Any], offset: int) -> str:
+    base, count = dtype.base, dtype.itemsize // 4
+    start = offset % _TEXEL // 4
+    words = f"row{offset // _TEXEL}.{'xyzw'[start : start + count]}"
+    if base.kind == "i" and count > 1:
+        return f"ivec{count}({words})"
+    return _CASTS[base.kind].format(words)
