@@ -35,9 +35,10 @@ gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.gallery
 
-bench: ## measure how fast the kernel and its variants are
+bench: ## measure how fast the kernel and its variants are, and other renderers
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.bench
+	$(IN_ENVIRONMENT) glrt.lab.rivals
 
 mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
 	@$(BOOTSTRAP) test

@@ -95,7 +95,8 @@ class Renderer:
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
-        self._film.restart(*self.size)
+        with self.context.gl:
+            self._film.restart(*self.size, self.settings.block)
 
     def update(self, scene: Scene | None = None, **changes: Any) -> Cost | None:
         """Go on with another scene or other settings; returns what that cost, None for nothing.

@@ -67,7 +67,7 @@ def mitsuba() -> Iterator[Peer]:
     if find_spec("mitsuba") is None:
         pytest.skip(NO_WHEEL)
     try:
-        peer = Peer([sys.executable, "-m", "tests.mitsuba", "--serve", "--variant", "llvm"])
+        peer = Peer([sys.executable, "-m", "tests.mitsuba.serve"])
     except RenderError as error:
         needs_package(LLVM_PACKAGE not in str(error), LLVM_PACKAGE)
         raise
@@ -100,6 +100,13 @@ def test_everything_looks_the_same_to_mitsuba(context: Context, their_picture: I
     found = judged(ours(context, everything()), their_picture)
     assert found, str(found)
     assert found.shown < 0.02
+
+
+def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    """Found if the shadowing of both directions were independent, as in its `roughconductor`."""
+    scene = everything(roughness=1.0)
+    found = judged(ours(context, scene), theirs(mitsuba, scene))
+    assert found, str(found)
 
 
 def test_the_inside_of_balls_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
@@ -150,7 +157,6 @@ def test_scene_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer, name: 
     settings = {"width": 64, "height": 64, "bounces": scene.render.bounces}
     found = judged(ours(context, scene, 1024, **settings), theirs(mitsuba, scene, 1024, **settings))
     assert found.verdict == "same", str(found)
-    assert 0.7 < found.spread < 1.3
 
 
 def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:

@@ -145,6 +145,14 @@ def test_the_error_needs_two_blocks(context: Context) -> None:
         assert np.isfinite(renderer.render(32).image().stderr).all()
 
 
+def test_a_restart_gives_the_picture_anew(context: Context) -> None:
+    with rendering(everything(), context, sampler="sobol") as renderer:
+        first = renderer.render(40).image()
+        renderer.restart()
+        assert renderer.samples == 0
+        assert same(renderer.render(40).image(), first)
+
+
 def test_a_change_of_the_sampler_leaves_nothing_behind(context: Context) -> None:
     alone = [rendered(everything(), context, 40, sampler=s) for s in ("independent", "sobol")]
     with rendering(everything(), context, sampler="sobol") as renderer:

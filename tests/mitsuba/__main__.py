@@ -1,28 +1,21 @@
-"""`python -m tests.mitsuba SCENE -o FILE`: the image files of `glrt render`, from Mitsuba.
-
-`python -m tests.mitsuba --serve` renders what `glrt.lab.peer` requests, until stdin ends.
-"""
+"""`python -m tests.mitsuba SCENE -o FILE`: the image files of `glrt render`, from Mitsuba."""
 
 import argparse
 import json
 import sys
 import time
-from dataclasses import replace
-from functools import lru_cache
 
-from glrt.errors import GlrtError, UsageError
-from glrt.image import Image, check_writable
-from glrt.lab.peer import Request, serve
+from glrt.errors import GlrtError
+from glrt.image import check_writable
 from glrt.library import load
 from glrt.settings import Settings, settings_for
-from tests.mitsuba.engine import Engine, load_mitsuba, name_of
+from tests.mitsuba.engine import Engine, load_mitsuba
 
 
 def main() -> int:
     """Render as the command line says; returns the exit code of `glrt render`."""
-    arguments = _parser().parse_args()
     try:
-        return serve_all(arguments) if arguments.serve else render(arguments)
+        return render(_parser().parse_args())
     except GlrtError as error:
         print(f"mitsuba: {' '.join(str(error).split())}", file=sys.stderr)
         return error.exit_code
@@ -30,8 +23,6 @@ def main() -> int:
 
 def render(arguments: argparse.Namespace) -> int:
     """One picture; `--json` prints its figures."""
-    if not (arguments.scene and arguments.output):
-        raise UsageError("give a SCENE and -o FILE, or --serve.")
     check_writable(arguments.output)
     scene = load(arguments.scene)
     given = {name: getattr(arguments, name) for name in _SETTINGS}
@@ -57,41 +48,14 @@ def render(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def serve_all(arguments: argparse.Namespace) -> int:
-    """Answer requests; a scene once loaded stays."""
-    mi = load_mitsuba(arguments.variant)
-
-    @lru_cache(maxsize=4)
-    def engine(asked: Request) -> Engine:
-        scene = asked.parsed()
-        settings = settings_for(
-            scene.render,
-            width=asked.width,
-            height=asked.height,
-            bounces=asked.bounces,
-            roulette=asked.roulette,
-        )
-        return Engine(mi, scene, settings, asked.one_sided, arguments.roulette_depth)
-
-    def answer(request: Request) -> tuple[Image, float]:
-        ready = engine(replace(request, samples=1, seed=0, batches=1))
-        start = time.perf_counter()
-        image = ready.image(request.samples, request.seed, request.batches)
-        return image, time.perf_counter() - start
-
-    serve(name_of(mi), answer)
-    return 0
-
-
 _SETTINGS = ("width", "height", "samples", "bounces", "seed", "roulette")
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m tests.mitsuba", description=__doc__)
     add = parser.add_argument
-    add("scene", metavar="SCENE", nargs="?", help="a scene of glrt: a file, a name or a picture")
-    add("-o", dest="output", metavar="FILE", help=".exr, .png or .npy")
-    add("--serve", action="store_true", help="render on request, over pipes")
+    add("scene", metavar="SCENE", help="a scene of glrt: a file, a name or a picture")
+    add("-o", dest="output", metavar="FILE", required=True, help=".exr, .png or .npy")
     for name in _SETTINGS:
         text = Settings.model_fields[name].description
         if name == "roulette":

@@ -59,9 +59,11 @@ def _camera(mi: Any, scene: Scene, settings: Settings, at: Near) -> Words:
     lens: Words = {"type": "perspective"}
     if radius:
         lens = {"type": "thinlens", "aperture_radius": radius, "focus_distance": focus}
+    eye = at.point(camera.position)
+    ahead = eye + EXTENT * unit(camera.view)
     return {
         **lens,
-        "to_world": mi.ScalarTransform4f().look_at([0, 0, 0], unit(camera.view), unit(camera.up)),
+        "to_world": mi.ScalarTransform4f().look_at(eye, ahead, unit(camera.up)),
         "fov": camera.fov,
         "fov_axis": "y",
         "near_clip": CLIP[0],
@@ -113,7 +115,7 @@ def _sphere(scene: Scene, item: Sphere, at: Near) -> Iterator[Words]:
 
 
 def _grid(item: Plane, at: Near) -> tuple[Vector, list[list[int]]]:
-    """Points and triangles of a plane, around the foot of the camera."""
+    """Points and triangles of a plane, around the foot of the origin."""
     normal = normal_of(item)
     u = unit(np.cross(normal, np.eye(3)[np.abs(normal).argmin()]))
     foot = np.dot(at.point(item.point), normal) * normal

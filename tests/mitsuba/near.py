@@ -1,7 +1,8 @@
-"""Where Mitsuba gets a scene: the camera at the origin, and always of one size.
+"""Where Mitsuba gets a scene: a glass ball in the origin, or the camera, and always of one size.
 
 Mitsuba lifts each ray off its surface by (1 + |p|) 1500 * 2^-24, p being the point from the origin:
-not the same in every unit and place. At this size the 1 no longer counts.
+not the same in every unit and place. At this size the 1 no longer counts. Where rays graze glass,
+the lift changes the angle that they meet its far side at, and shows; so the origin is there.
 """
 
 from collections.abc import Iterator
@@ -10,22 +11,22 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.scene import Plane, Quad, Scene, Sphere
+from glrt.scene import Dielectric, Plane, Quad, Scene, Sphere
 
 Vector = NDArray[np.float64]
 
-EXTENT = 1000.0  # from the camera to the farthest point of a shape, planes aside
+EXTENT = 1000.0  # from the origin to the farthest point of a shape, planes aside
 
 
 class Near(NamedTuple):
     """From the coordinates of a scene to Mitsuba's."""
 
-    eye: Vector
+    origin: Vector
     factor: float
 
     def point(self, point: ArrayLike) -> Vector:
         """A position."""
-        return self.along(np.asarray(point, float) - self.eye)
+        return self.along(np.asarray(point, float) - self.origin)
 
     def along(self, vector: ArrayLike) -> Vector:
         """A difference of positions."""
@@ -33,21 +34,29 @@ class Near(NamedTuple):
 
 
 def near(scene: Scene) -> Near:
-    """The coordinates in which the camera is the origin and the scene EXTENT large."""
+    """The coordinates in which the scene is EXTENT large."""
+    origin = _origin(scene)
+    reaches = [length(origin - scene.camera.position), scene.camera.resolved_focus_distance]
+    return Near(origin, EXTENT / max(*reaches, *_reaches(scene, origin)))
+
+
+def _origin(scene: Scene) -> Vector:
+    """The center of the glass ball that stands nearest to the camera, or else the camera."""
     eye = np.array(scene.camera.position)
-    reaches = [scene.camera.resolved_focus_distance, *_reaches(scene, eye)]
-    return Near(eye, EXTENT / max(reaches))
+    balls = [item for item in scene.objects if isinstance(item, Sphere)]
+    glass = [b.center for b in balls if isinstance(scene.materials[b.material], Dielectric)]
+    return min(map(np.array, glass), key=lambda center: length(center - eye), default=eye)
 
 
-def _reaches(scene: Scene, eye: Vector) -> Iterator[float]:
-    """How far each shape stretches from the camera; a plane, how far it is."""
+def _reaches(scene: Scene, origin: Vector) -> Iterator[float]:
+    """How far each shape stretches from the origin; a plane, how far it is."""
     for item in scene.objects:
         if isinstance(item, Sphere):
-            yield length(np.array(item.center) - eye) + item.radius
+            yield length(origin - item.center) + item.radius
         elif isinstance(item, Quad):
-            yield max(length(corner - eye) for corner in corners(item))
+            yield max(length(corner - origin) for corner in corners(item))
         else:
-            yield abs(np.dot(unit(item.normal), np.array(item.point) - eye))
+            yield abs(float(np.dot(unit(item.normal), origin - item.point)))
 
 
 def corners(quad: Quad) -> list[Vector]:

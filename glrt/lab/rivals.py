@@ -1,0 +1,270 @@
+"""glrt against other renderers, in time to an error of 2 %, at 128 x 128 pixels on this machine.
+
+Mitsuba 3, on the CPU by LLVM, gets every advantage that its users would give it: light sampling,
+roulette or none, whichever is better, and lamps of one side where nobody sees the other. The WGSL
+version is what glrt is the OpenGL fallback of: both scatter alone. A renderer that is not installed
+is left out, and named.
+"""
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glrt import files
+from glrt.context import Context, open_context
+from glrt.errors import GlrtError, RenderError
+from glrt.lab.contest import Array, Lead, Runs, lead_of, seconds_to
+from glrt.lab.peer import Peer, Request
+from glrt.library import load
+from glrt.renderer import Renderer
+from glrt.scene import Dielectric, Lambertian, Scene
+from glrt.version import VERSION
+
+TARGET_ERROR = 0.02
+ROUNDS_OF_TRIAL = 6  # in which Mitsuba's roulette is chosen
+LEVEL_SECONDS = 4.0  # for a picture with little noise
+MITSUBA, WGSL = "Mitsuba", "WGSL"
+PEERS = {
+    MITSUBA: [sys.executable, "-m", "tests.mitsuba.serve"],
+    WGSL: [sys.executable, "-m", "tests.wgsl.serve"],
+}
+SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
+BACKS_UNSEEN = ("cornell", "room")  # their lamp hangs under the ceiling
+
+Picture = np.ndarray[Any, np.dtype[np.float32]]
+Render = Callable[[int, int], tuple[Picture, float]]  # samples, seed -> picture, seconds
+
+
+@dataclass(frozen=True)
+class Contender:
+    """A way to render a scene, ready."""
+
+    name: str
+    render: Render
+    block: int = 1  # samples come in multiples of it
+
+
+@dataclass(frozen=True)
+class Row:
+    """The figures of one renderer and scene."""
+
+    scene: str
+    renderer: str
+    samples_per_second: float  # pixel samples, median
+    relative_variance: float  # of one sample
+    seconds_to_target: float
+    rival: str | None
+    lead: Lead | None  # over it
+
+
+def scene_named(name: str) -> Scene:
+    """A scene that comes with glrt, or `room`: cornell without glass."""
+    if name != "room":
+        return load(name)
+    scene = load("cornell")
+    matte = Lambertian(color=(0.76, 0.75, 0.73))
+    materials = {
+        name: matte if isinstance(material, Dielectric) else material
+        for name, material in scene.materials.items()
+    }
+    return scene.model_copy(update={"materials": materials})
+
+
+class Contest:
+    """All renderers that are there."""
+
+    def __init__(self, context: Context, peers: dict[str, Peer], size: int, rounds: int) -> None:
+        """At size x size pixels."""
+        self._context, self._peers = context, peers
+        self._size, self._rounds = size, rounds
+
+    def rows(self, name: str, seconds: float) -> Iterator[Row]:
+        """The figures of a scene; each of its renders takes about `seconds`."""
+        scene = scene_named(name)
+        with ExitStack() as stack:
+            ours = [
+                stack.enter_context(self._glrt(scene, "mis", sampler=sampler))
+                for sampler in ("independent", "sobol")
+            ]
+            level = _level(ours[1], LEVEL_SECONDS)
+            rivals = []
+            if MITSUBA in self._peers:
+                rivals = [self._mitsuba(name, scene, level, seconds)]
+            yield from self._duel(name, ours, rivals, level, seconds)
+            ours = [stack.enter_context(self._glrt(scene, "naive", roulette=False))]
+            rivals = [self._peer(WGSL, scene, WGSL)] if WGSL in self._peers else []
+            yield from self._duel(name, ours, rivals, level, seconds)
+
+    def _duel(
+        self,
+        name: str,
+        ours: list[Contender],
+        rivals: list[Contender],
+        level: Array,
+        seconds: float,
+    ) -> Iterator[Row]:
+        runs = interleaved([*ours, *rivals], self._rounds, seconds)
+        rival = runs[-1] if rivals else None
+        for each in runs:
+            ahead = rival if each is not rival else None
+            yield Row(
+                scene=name,
+                renderer=each.renderer,
+                samples_per_second=float(np.median(each.rates)),
+                relative_variance=float(each.variances(level).mean()),
+                seconds_to_target=seconds_to(TARGET_ERROR, each, level),
+                rival=ahead.renderer if ahead else None,
+                lead=lead_of(each, ahead, level) if ahead else None,
+            )
+
+    @contextmanager
+    def _glrt(self, scene: Scene, method: str, **settings: Any) -> Iterator[Contender]:
+        settings |= {"method": method, "width": self._size, "height": self._size}
+        renderer = Renderer(scene, context=self._context, tier="baked", **settings)
+
+        def render(samples: int, seed: int) -> tuple[Picture, float]:
+            renderer.update(seed=seed)
+            renderer.restart()  # also from an equal seed
+            start = time.perf_counter()
+            image = renderer.render(samples).image()
+            return image.radiance, time.perf_counter() - start
+
+        sampler = f", {renderer.settings.sampler}" if method == "mis" else ""
+        try:
+            yield Contender(f"glrt {method}{sampler}", render, renderer.settings.block)
+        finally:
+            renderer.release()
+
+    def _mitsuba(self, name: str, scene: Scene, level: Array, seconds: float) -> Contender:
+        """With or without roulette: what a first trial finds better."""
+        asked = {"one_sided": name in BACKS_UNSEEN}
+        both = [
+            self._peer(MITSUBA, scene, f"Mitsuba, {text}", roulette=roulette, **asked)
+            for text, roulette in (("roulette", True), ("no roulette", False))
+        ]
+        runs = interleaved(both, ROUNDS_OF_TRIAL, seconds)
+        times = [seconds_to(TARGET_ERROR, each, level) for each in runs]
+        return both[times.index(min(times))]
+
+    def _peer(self, peer: str, scene: Scene, name: str, **asked: Any) -> Contender:
+        settings = {"width": self._size, "height": self._size, "bounces": scene.render.bounces}
+
+        def render(samples: int, seed: int) -> tuple[Picture, float]:
+            request = Request.of(scene, samples=samples, seed=seed, **settings, **asked)
+            image, seconds = self._peers[peer].render(request)
+            return image.radiance, seconds
+
+        return Contender(name, render)
+
+
+def interleaved(contenders: list[Contender], rounds: int, seconds: float) -> list[Runs]:
+    """Renders of all contenders in turns; each takes about `seconds`."""
+    samples = [_samples_for(each, seconds) for each in contenders]
+    renders: list[list[tuple[Picture, float]]] = [[] for _ in contenders]
+    for seed in range(1, rounds + 1):
+        for each, count, done in zip(contenders, samples, renders, strict=True):
+            done.append(each.render(count, seed))
+    return [
+        Runs(
+            renderer=each.name,
+            samples=count,
+            seconds=np.array([taken for _, taken in done]),
+            pictures=np.stack([picture for picture, _ in done]),
+        )
+        for each, count, done in zip(contenders, samples, renders, strict=True)
+    ]
+
+
+def _level(contender: Contender, seconds: float) -> Array:
+    """The picture with little noise."""
+    return contender.render(_samples_for(contender, seconds), 0)[0].astype(np.float64)
+
+
+def _samples_for(contender: Contender, seconds: float) -> int:
+    """How many take that time, in whole blocks; the first render compiles."""
+    samples = 16
+    contender.render(samples, 0)
+    taken = contender.render(samples, 0)[1]
+    return max(round(seconds / taken * samples / contender.block), 1) * contender.block
+
+
+def table(rows: list[Row]) -> Iterator[str]:
+    """The rows as Markdown."""
+    yield "| scene | renderer | million samples/s | variance | to 2 % | time | rate | of variance |"
+    yield "|---|---|---|---|---|---|---|---|"
+    for row in rows:
+        lead = [str(factor) for factor in row.lead] if row.lead else [""] * 3
+        yield (
+            f"| {row.scene} | {row.renderer} | {row.samples_per_second / 1e6:.2f} "
+            f"| {row.relative_variance:.3g} | {row.seconds_to_target:.3g} s | {' | '.join(lead)} |"
+        )
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m glrt.lab.rivals`; returns the exit code."""
+    parsed = _parser().parse_args(arguments)
+    try:
+        with ExitStack() as stack:
+            peers = dict(_started(stack))
+            context = open_context()
+            renderers = [context.renderer, *(peer.name for peer in peers.values())]
+            place = f"glrt {VERSION}, {'; '.join(renderers)}; {os.cpu_count()} processors"
+            work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
+            print(f"{place}, {work}\n")
+            contest = Contest(context, peers, parsed.size, parsed.rounds)
+            rows: list[Row] = []
+            for name in parsed.scenes:
+                print(f"{name} ...", file=sys.stderr)
+                rows += contest.rows(name, parsed.seconds)
+        print("\n".join(table(rows)))
+        if parsed.json:
+            figures = {"place": place, "work": work, "rows": [_plain(row) for row in rows]}
+            files.write_text(parsed.json, json.dumps(figures, indent=1) + "\n")
+    except GlrtError as error:
+        print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
+        return error.exit_code
+    return 0
+
+
+def _started(stack: ExitStack) -> Iterator[tuple[str, Peer]]:
+    for name, command in PEERS.items():
+        try:
+            peer = Peer(command)
+        except RenderError as error:
+            print(f"Without {name}: {error}", file=sys.stderr)
+        else:
+            stack.callback(peer.close)
+            yield name, peer
+
+
+def _plain(row: Row) -> dict[str, Any]:
+    lead = (
+        {name: factor._asdict() for name, factor in row.lead._asdict().items()}
+        if row.lead
+        else None
+    )
+    return {**asdict(row), "lead": lead}
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m glrt.lab.rivals", description=__doc__)
+    add = parser.add_argument
+    add("--scenes", nargs="+", choices=SCENES, metavar="NAME", default=SCENES)
+    add("--size", type=int, default=128, metavar="N", help="pixels a side (default: 128)")
+    add("--rounds", type=int, default=30, metavar="N", help="renders of each (default: 30)")
+    add("--seconds", type=float, default=0.2, metavar="S", help="of a render (default: 0.2)")
+    add("--json", type=Path, metavar="FILE", help="the figures for programs")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

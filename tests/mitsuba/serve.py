@@ -1,0 +1,41 @@
+"""A peer of `glrt.lab.peer`: `python -m tests.mitsuba.serve` renders by Mitsuba."""
+
+import sys
+import time
+from dataclasses import replace
+from functools import lru_cache
+
+from glrt.errors import UsageError
+from glrt.image import Image
+from glrt.lab.peer import Request, serve
+from glrt.settings import settings_for
+from tests.mitsuba.engine import Engine, load_mitsuba, name_of
+
+
+def main() -> int:
+    """Until stdin ends; 2 if there is no Mitsuba with LLVM."""
+    try:
+        mi = load_mitsuba("llvm")
+    except UsageError as error:
+        print(error, file=sys.stderr)
+        return error.exit_code
+
+    @lru_cache(maxsize=4)
+    def engine(asked: Request) -> Engine:
+        scene = asked.parsed()
+        size = {"width": asked.width, "height": asked.height}
+        paths = {"bounces": asked.bounces, "roulette": asked.roulette}
+        return Engine(mi, scene, settings_for(scene.render, **size, **paths), asked.one_sided)
+
+    def render(request: Request) -> tuple[Image, float]:
+        ready = engine(replace(request, samples=1, seed=0, batches=1))
+        start = time.perf_counter()
+        image = ready.image(request.samples, request.seed, request.batches)
+        return image, time.perf_counter() - start
+
+    serve(name_of(mi), render)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
