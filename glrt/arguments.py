@@ -65,7 +65,8 @@ def make_parser() -> Parser:
     _add_inspect(commands.add_parser("inspect", help="what a scene needs", **_HELP["inspect"]))
     _add_chart(commands.add_parser("chart", help="speed against accuracy", **_HELP["chart"]))
     _add_stress(commands.add_parser("stress", help="where methods fail", **_HELP["stress"]))
-    commands.add_parser("doctor", help="which OpenGL routes work here", **_HELP["doctor"])
+    doctor = commands.add_parser("doctor", help="which OpenGL routes work", **_HELP["doctor"])
+    doctor.add_argument("--json", action="store_true", help="one line of findings on stdout")
     commands.add_parser("schema", help="the scene format as JSON Schema", **_HELP["schema"])
     return parser
 
@@ -104,7 +105,10 @@ _HELP: dict[str, dict[str, Any]] = {
         "epilog": "Exit codes: 0 all guarantees hold, 1 one is broken, 2 bad usage, 3 no usable "
         "OpenGL, 4 the render failed.",
     },
-    "doctor": {"description": "Try every OpenGL route and say which one is used."},
+    "doctor": {
+        "description": "Try every OpenGL route, each in a process of its own, and say which one is "
+        "used. Exit codes: 0, 3 if none works."
+    },
     "schema": {"description": "Print the JSON Schema of scene files, for editors."},
 }
 

@@ -112,11 +112,11 @@ def stress(arguments: argparse.Namespace) -> int:
     return run_cases(arguments)
 
 
-def doctor(_arguments: argparse.Namespace) -> int:
+def doctor(arguments: argparse.Namespace) -> int:
     """`glrt doctor`: exit code 3 when no route works."""
     from glrt.doctor import report
 
-    text, works = report()
+    text, works = report(arguments.json)
     print(text)
     return 0 if works else 3
 

@@ -76,12 +76,12 @@ def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Contex
     raise ContextError(f"no usable OpenGL {required / 100}: {'; '.join(failures)}. {ADVICE}")
 
 
-def open_route(route: str) -> Context:
-    """Open the first context of one route; ContextError says why it cannot be."""
-    failures: list[str] = []
-    for context in _try_route(route, failures):
-        return context
-    raise ContextError("; ".join(failures))
+def open_device(route: str, device: int = 0) -> Context:
+    """Open one device of a route; ContextError says why it cannot be. Only EGL has several."""
+    try:
+        return Context(_create_newest(route, device, FRAGMENT), route)
+    except Exception as error:  # as in _try_route
+        raise ContextError(f"{route}: {error}") from error
 
 
 def _prefer(chosen: Context, other: Context | None) -> Context:

@@ -1,30 +1,114 @@
-"""Which OpenGL routes work on this machine, what the driver does, and what to do if none works."""
+"""Which OpenGL routes work on this machine, what the drivers do, and what to do if none works.
 
+Each route is tried in a process of its own: a driver that crashes or hangs is a finding, not the
+end of the doctor.
+"""
+
+import json
 import platform
-import time
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
+from typing import Any
 
-from glrt.context import ADVICE, ROUTES, open_context, open_route
-from glrt.errors import ContextError, GlrtError
-from glrt.selftest import MOST_ROUNDS, SelfTest, self_test
+from glrt.context import ROUTES
+from glrt.remedies import remedies
+from glrt.selftest import MOST_ROUNDS
 from glrt.version import VERSION
 
-_HINTS = {
-    "egl": "Debian: libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri",
-    "window": "needs a display, or `xvfb-run`",
-    "osmesa": "Debian: libosmesa6; Mesa 25.1 and later have none",
-}
+PATIENCE = 120  # seconds for one route: a cold software driver compiles for some of them
+MOST_DEVICES = 16
+PIPELINES = ("compute", "fragment")
+EXACT = 1e-5  # the relative error of a furnace that is right on any driver
+
+Finding = dict[str, Any]
 
 
-def report() -> tuple[str, bool]:
-    """What works here, as text, and whether anything does."""
-    chosen = _chosen()
+@dataclass(frozen=True)
+class Examination:
+    """What was found of one device of a route."""
+
+    route: str
+    device: int
+    found: dict[str, Finding]  # by step, in order: open, self_test, compute, fragment, end
+    end: str  # how the process ended, if not of itself
+
+    @property
+    def opens(self) -> bool:
+        """Whether there is a context."""
+        return "renderer" in self.found.get("open", {})
+
+    @property
+    def works(self) -> bool:
+        """Whether a pipeline renders the furnace right."""
+        return any(self.found.get(step, {}).get("furnace", 1.0) < EXACT for step in PIPELINES)
+
+
+def examine(route: str, device: int = 0, command: Sequence[str] = ()) -> Examination:
+    """Try a device of a route in a process; `command` stands in for that process in tests."""
+    arguments = command or (sys.executable, "-m", "glrt.examination", route, str(device))
+    try:
+        done = subprocess.run(arguments, capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired as error:
+        return Examination(route, device, _read(_text(error.stdout)), "no answer; it was stopped")
+    found = _read(done.stdout)
+    return Examination(route, device, found, "" if "end" in found else _death(done))
+
+
+def examine_all() -> list[Examination]:
+    """Every route, and every device of EGL."""
+    examinations = []
+    for route in ROUTES:
+        for device in range(MOST_DEVICES if route == "egl" else 1):
+            examination = examine(route, device)
+            if device and not examination.opens and not examination.end:
+                break  # EGL has no more
+            examinations.append(examination)
+    return examinations
+
+
+def report(as_json: bool = False) -> tuple[str, bool]:
+    """What works here, as text or as one line of JSON, and whether anything does."""
+    examinations = examine_all()
+    used = examine("auto").found.get("open", {}).get("route", "")
+    works = any(examination.works for examination in examinations)
+    if as_json:
+        return json.dumps(_table(examinations, used)), works
     lines = [_versions(), ""]
-    lines += [line for route in ROUTES for line in _route_lines(route, chosen)]
-    lines += ["", _verdict(chosen)]
-    if chosen:
-        lines += ["", *_self_test_lines()]
-    return "\n".join(lines), bool(chosen)
+    for examination in examinations:
+        lines += [*_lines(examination, used), ""]
+    return "\n".join([*lines, *_verdict(used, works)]), works
+
+
+def _table(examinations: list[Examination], used: str) -> Finding:
+    routes = [
+        {"route": e.route, "device": e.device, "works": e.works, **e.found, "end": e.end or None}
+        for e in examinations
+    ]
+    return {"version": VERSION, "used": used or None, "routes": routes}
+
+
+def _read(text: str) -> dict[str, Finding]:
+    found = {}
+    for line in text.splitlines():
+        if line.startswith("{"):
+            finding = json.loads(line)
+            found[finding.pop("step")] = finding
+    return found
+
+
+def _text(output: bytes | str | None) -> str:
+    return output.decode(errors="replace") if isinstance(output, bytes) else output or ""
+
+
+def _death(done: "subprocess.CompletedProcess[str]") -> str:
+    last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+    if done.returncode < 0:
+        return f"the driver crashed ({signal.Signals(-done.returncode).name}): {last}"
+    return f"the process ended with code {done.returncode}: {last}"
 
 
 def _versions() -> str:
@@ -33,67 +117,64 @@ def _versions() -> str:
     return f"glrt {VERSION}, Python {platform.python_version()}, {packages}, {system}"
 
 
-def _chosen() -> str:
-    try:
-        context = open_context("auto")
-    except ContextError:
-        return ""
-    context.gl.release()
-    return context.route
+def _lines(examination: Examination, used: str) -> list[str]:
+    name = examination.route + (f" {examination.device}" if examination.device else "")
+    if not examination.opens:
+        opening = examination.found.get("open", {})
+        reason = opening.get("error", "").removeprefix(f"{examination.route}: ") or examination.end
+        return [f"{name:<8}does not work: {reason} ({_hint(examination.route)})"]
+    opening = examination.found["open"]
+    kind = "software" if opening["is_software"] else "hardware"
+    is_used = " <- used" if examination.route == used and not examination.device else ""
+    lines = [
+        f"{name:<8}{'works' if examination.works else 'does not work'}: {opening['renderer']}, "
+        f"{kind}, OpenGL {opening['version']}, opened in {opening['seconds']:.2f} s{is_used}"
+    ]
+    lines += [f"  {step:<14}{_furnace(examination.found.get(step))}" for step in PIPELINES]
+    lines += findings(examination.found.get("self_test"))
+    return lines + ([f"  {examination.end}"] if examination.end else [])
 
 
-def _route_lines(route: str, chosen: str) -> list[str]:
-    start = time.perf_counter()
-    try:
-        context = open_route(route)
-    except ContextError as error:
-        reason = " ".join(str(error).split()).removeprefix(f"{route}: ")
-        return [f"{route:<8}does not work: {reason} ({_HINTS[route]})"]
-    kind = "software" if context.is_software else "hardware"
-    text = f"{route:<8}works: {context.renderer}, {kind}, OpenGL {context.version}"
-    text += "" if context.has_compute else ", fragment pipeline"
-    seconds = time.perf_counter() - start
-    context.gl.release()
-    used = " <- used" if route == chosen else ""
-    return [f"{text}, opened in {seconds:.2f} s{used}"]
+def _hint(route: str) -> str:
+    return "needs a display, or `xvfb-run`" if route == "window" else "; ".join(remedies())
 
 
-def _verdict(chosen: str) -> str:
-    if chosen:
-        return f"`glrt render` uses {chosen}; --context chooses another."
-    return f"No route gives OpenGL 4.1. {ADVICE}"
+def _furnace(finding: Finding | None) -> str:
+    if finding is None:
+        return "not there"
+    if "error" in finding:
+        return f"fails: {finding['error']}"
+    error = finding["furnace"]
+    exactness = "exact to the last bit" if error == 0 else f"off by {error:.1e}"
+    return f"a furnace is {exactness} (with compiling {finding['seconds']:.2f} s)"
 
 
-def _self_test_lines() -> list[str]:
-    context = open_context("auto")
-    if not context.has_compute:
-        context.gl.release()
-        return ["The self-test needs compute shaders, which OpenGL 4.3 brings."]
-    try:
-        lines = findings(self_test(context))
-    except GlrtError as error:
-        lines = [f"  the self-test failed: {error}"]
-    finally:
-        context.gl.release()
-    return [f"What {context.renderer} does:", *lines]
+def _verdict(used: str, works: bool) -> list[str]:
+    if works:
+        return [f"`glrt render` uses {used}; --context chooses another, --pipeline the pipeline."]
+    return ["No route renders: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:", *remedies()]
 
 
-def findings(found: SelfTest) -> list[str]:
+def findings(found: Finding | None) -> list[str]:
     """One line for each thing that the driver was tried for."""
-    endless = found.loop_limit >= MOST_ROUNDS
+    if found is None:
+        return ["  the self-test needs compute shaders, which OpenGL 4.3 brings"]
+    if "error" in found:
+        return [f"  the self-test failed: {found['error']}"]
+    endless = found["loop_limit"] >= MOST_ROUNDS
     loops = (
         f"run for {MOST_ROUNDS:,} rounds and more"
         if endless
-        else f"end silently after {found.loop_limit:,} rounds; dispatches stay below"
+        else f"end silently after {found['loop_limit']:,} rounds; dispatches stay below"
     )
-    ulps = ", ".join(f"{name} {error:.2g}" for name, error in found.ulps.items())
-    kept = "kept" if found.precise_kept else "NOT KEPT: the bits of pictures may vary"
-    free = "fused or reordered" if found.fuses_without else "computed as written, too"
-    equal = "those of Python's integers" if found.hashes_equal else "WRONG: pictures are too"
+    ulps = ", ".join(f"{name} {error:.2g}" for name, error in found["ulps"].items())
+    kept = "kept" if found["precise_kept"] else "NOT KEPT: the bits of pictures may vary"
+    free = "fused or reordered" if found["fuses_without"] else "computed as written, too"
+    equal = "those of Python's integers" if found["hashes_equal"] else "WRONG: pictures are too"
     return [
-        f"  loops           {loops}",
-        f"  random numbers  {equal}",
-        f"  precise         {kept}; without it, sums and products are {free}",
-        f"  largest error   {ulps} units in the last place",
-        f"                  sin and cos {found.trig_error:.2g} x 2^-24",
+        f"  loops         {loops}",
+        f"  random        {equal}",
+        f"  precise       {kept}; without it, sums and products are {free}",
+        f"  largest error {ulps} units in the last place",
+        f"                sin and cos {found['trig_error']:.2g} x 2^-24",
     ]

@@ -36,6 +36,8 @@ ORDER = [
         "__init__",
         "job",
         "progress",
+        "examination",
+        "remedies",
         "doctor",
         "lab",
         "ui",

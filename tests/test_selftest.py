@@ -1,6 +1,6 @@
 """What the driver is tried for, that failures would show, and what the scheduler makes of it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import moderngl
 import numpy as np
@@ -21,6 +21,8 @@ class Driver:
 
     renderer: str
     version: str = "4.6"
+    has_compute: bool = True
+    is_software: bool = True
 
 
 def driver(monkeypatch: pytest.MonkeyPatch, renderer: str, limit: int) -> Context:
@@ -109,6 +111,16 @@ def test_other_drivers_are_taken_as_they_are(monkeypatch: pytest.MonkeyPatch) ->
     assert most_samples(10**9, None) == 1024
 
 
+def test_without_compute_nothing_is_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A software driver is taken for llvmpipe, a GPU for one without a limit."""
+    monkeypatch.setattr(selftest, "_count_rounds", lambda _: pytest.fail("measured"))
+    known = usable_rounds(Driver("llvmpipe (LLVM 15)"), 1)  # type: ignore[arg-type]
+    for name in ("llvmpipe (LLVM 99)", "softpipe"):
+        old = Driver(name, has_compute=False)
+        assert usable_rounds(old, 10**6) == known  # type: ignore[arg-type]
+    assert usable_rounds(Driver("Apple M1", "4.1", False, False), 10**6) is None  # type: ignore[arg-type]
+
+
 def test_a_loop_limit_is_measured_once_a_process(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -119,11 +131,11 @@ def test_a_loop_limit_is_measured_once_a_process(
 
 def test_the_doctor_names_what_is_wrong() -> None:
     good = SelfTest(MOST_ROUNDS, True, True, True, {"sqrt(x)": 0.5}, 1.2)
-    text = "\n".join(findings(good))
+    text = "\n".join(findings(asdict(good)))
     assert "run for 131,072 rounds and more" in text
     assert "fused or reordered" in text
     bad = replace(good, loop_limit=1000, hashes_equal=False, precise_kept=False)
-    text = "\n".join(findings(bad))
+    text = "\n".join(findings(asdict(bad)))
     assert "end silently after 1,000 rounds" in text
     assert "WRONG" in text
     assert "NOT KEPT" in text
