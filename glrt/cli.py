@@ -79,7 +79,7 @@ def compare(arguments: argparse.Namespace) -> int:
 def inspect(arguments: argparse.Namespace) -> int:
     """`glrt inspect`: what the kernel contains and leaves out."""
     from glrt.cautions import cautions
-    from glrt.needs import explain
+    from glrt.needs import explain, has_tree
     from glrt.schedule import iterations_per_sample
     from glrt.selftest import LLVMPIPE_ROUNDS
 
@@ -90,8 +90,8 @@ def inspect(arguments: argparse.Namespace) -> int:
         print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
     rounds = iterations_per_sample(scene, settings)
     print(
-        f"\nA sample takes up to {rounds:,} rounds of loops; llvmpipe ends those of a dispatch "
-        f"after {LLVMPIPE_ROUNDS:,}."
+        f"\nA sample takes {'about' if has_tree(scene) else 'up to'} {rounds:,} rounds of loops; "
+        f"llvmpipe ends those of a dispatch after {LLVMPIPE_ROUNDS:,}."
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")
@@ -214,6 +214,12 @@ def _tell(
             f"{seconds['render']:.1f} s ({rate / 1e6:.2f} million samples/s){known}.",
             file=sys.stderr,
         )
+        if dropped := renderer.nonfinite():
+            print(
+                f"{dropped:,} samples were dropped: they were not finite, or longer than the "
+                "driver runs loops. Where they are many the picture is biased: use fewer bounces.",
+                file=sys.stderr,
+            )
 
 
 def _figures(

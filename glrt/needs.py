@@ -8,6 +8,7 @@ from glrt.scene import Material, Scene
 from glrt.settings import Settings
 
 ROULETTE_START = 3  # bounces before the first game
+TREE_FROM = 64  # spheres: from here on a tree over them pays (docs/speed.md)
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,7 @@ class Needs:
     has_sphere: bool
     has_plane: bool
     has_quad: bool
+    has_tree: bool
     has_mirror: bool
     has_rough_metal: bool
     has_dielectric: bool
@@ -53,6 +55,7 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         has_sphere="sphere" in shapes,
         has_plane="plane" in shapes,
         has_quad="quad" in shapes,
+        has_tree=has_tree(scene),
         has_mirror=any(m.type == "metal" and m.alpha == 0 for m in used),
         has_rough_metal=any(m.type == "metal" and m.alpha > 0 for m in used),
         has_dielectric=any(m.type == "dielectric" for m in used),
@@ -65,6 +68,11 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         roulette=settings.roulette,
         block=settings.block,
     )
+
+
+def has_tree(scene: Scene) -> bool:
+    """Whether rays are to find spheres by a tree."""
+    return sum(shape.shape == "sphere" for shape in scene.objects) >= TREE_FROM
 
 
 def is_light(material: Material) -> bool:
@@ -94,6 +102,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
     lamps = _lamps(scene)
     return [
         Feature("spheres", needs.has_sphere, shapes("sphere")),
+        Feature("tree", needs.has_tree, f"{shapes('sphere')}; it pays from {TREE_FROM} on"),
         Feature("planes", needs.has_plane, shapes("plane")),
         Feature("quads", needs.has_quad, shapes("quad")),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),

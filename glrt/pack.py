@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt import bvh
 from glrt.layout import read_constants, read_structs, record
-from glrt.needs import is_light, used_materials
+from glrt.needs import has_tree, is_light, used_materials
 from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere
 from glrt.settings import Settings
 from glrt.shader import read
@@ -20,6 +21,7 @@ Array = np.ndarray[Any, Any]
 _TEXT = read("scene.glsl")
 STRUCTS = read_structs(_TEXT)
 CONSTANTS = read_constants(_TEXT)
+SLACK = 2.0**-18  # of boxes, as of rays in bvh.glsl: the float32 rounding of a box is far below
 
 
 class Shapes(NamedTuple):
@@ -50,12 +52,14 @@ def pack_scene(scene: Scene) -> dict[str, Array]:
     names = {name: index for index, name in enumerate(used_materials(scene))}
     lamps = _lamp_shapes(scene, shapes)
     light_of = {shape: light for light, shape in enumerate(lamps)}
+    spheres = _pack_spheres(shapes.spheres, eye, names, light_of)
     return {
-        "Spheres": _pack_spheres(shapes.spheres, eye, names, light_of),
+        "Spheres": spheres,
         "Planes": _pack_planes(shapes.planes, eye, names),
         "Quads": _pack_quads(
             shapes.quads, eye, names, light_of, len(shapes.spheres) + len(shapes.planes)
         ),
+        "Nodes": _pack_nodes(spheres if has_tree(scene) else spheres[:0]),
         "Materials": _pack_materials(scene),
         "Lights": _pack_lights(scene, shapes, lamps),
     }
@@ -108,6 +112,7 @@ def pack_frame(
         "light_count": counts["Lights"],
         "first_tile": first_tile,
         "tile_stride": tile_stride,
+        "node_count": counts["Nodes"],
     }
     return record(STRUCTS["Frame"], frame).tobytes()
 
@@ -145,6 +150,22 @@ def _pack_spheres(
         rows["radius"] = [s.radius for s in spheres]
         rows["material"] = [names[s.material] for s in spheres]
         rows["light"] = [light_of.get(i, CONSTANTS["NO_LIGHT"]) for i in range(len(spheres))]
+    return rows
+
+
+def _pack_nodes(spheres: Array) -> Array:
+    """A tree over packed spheres, its boxes wide enough for float32."""
+    if not len(spheres):
+        return np.zeros(0, STRUCTS["Node"])
+    center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
+    slack = SLACK * (np.abs(center).max(axis=1, keepdims=True) + radius)
+    tree = bvh.build(center - radius - slack, center + radius + slack)
+    rows = np.zeros(len(tree.skip), STRUCTS["Node"])
+    rows["lower"], rows["upper"] = tree.lower, tree.upper
+    rows["skip"], rows["sphere"] = tree.skip, tree.item
+    leaf = tree.item >= 0
+    rows["lower"][leaf] = spheres["center"][tree.item[leaf]]
+    rows["upper"][leaf, 0] = spheres["radius"][tree.item[leaf]]
     return rows
 
 

@@ -101,7 +101,7 @@ def scene_blocks(scene: Scene | None = None) -> dict[str, bytes]:
     """
     if not scene:
         blocks = {"Spheres": "Sphere", "Planes": "Plane", "Quads": "Quad", "Lights": "Light"}
-        blocks |= {"Materials": "Material", "FrameBlock": "Frame"}
+        blocks |= {"Materials": "Material", "Nodes": "Node", "FrameBlock": "Frame"}
         return {name: bytes(STRUCTS[row].itemsize) for name, row in blocks.items()}
     arrays = pack_scene(scene)
     counts = {name: len(rows) for name, rows in arrays.items()}

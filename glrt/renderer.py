@@ -14,7 +14,7 @@ from glrt.errors import UsageError
 from glrt.film import Film, standard_error
 from glrt.image import Image
 from glrt.kernel import Resource, tile_count
-from glrt.needs import needs_of
+from glrt.needs import has_tree, needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.pipelines import Arrays, compiled, resolve, scene_text, sources, upload
 from glrt.recipe import Recipe
@@ -95,6 +95,7 @@ class Renderer:
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
+        self._schedule.drop()
         with self.context.gl:
             self._film.restart(*self.size, self.settings.block)
 
@@ -122,17 +123,16 @@ class Renderer:
             return Cost.RECOMPILE
 
     def step(self, samples: int) -> None:
-        """Add `samples` samples to every pixel at once, within the driver's loop limit."""
+        """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
         if not 1 <= samples <= self.most_samples:
             raise UsageError(
                 f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
             )
         self._schedule.drop()
+        target = self.samples + samples
         with self.context.gl:
-            for portion in whole_frame(samples, self._tiles):
-                self._dispatch(portion)
-            self._film.advance(samples)
-            self.context.gl.finish()
+            while self.samples < target:
+                self._at_once(min(self.most_samples, target - self.samples))
 
     def advance(self, seconds: float, samples: int | None = None) -> bool:
         """Work for about `seconds`, up to `samples` samples a pixel (default: the settings').
@@ -202,7 +202,9 @@ class Renderer:
     def _most_samples(self, scene: Scene, settings: Settings) -> int:
         """How many samples a dispatch may take; SceneError if not one."""
         iterations = iterations_per_sample(scene, settings)
-        return most_samples(iterations, usable_rounds(self.context, iterations))
+        self._rounds = usable_rounds(self.context, iterations)
+        least = iterations_per_sample(scene, settings, tree_rounds=0)
+        return most_samples(iterations, self._rounds, least)
 
     def _upload(self, most_samples: int) -> None:
         """Give the driver the scene, and write the kernel for it."""
@@ -213,7 +215,9 @@ class Renderer:
             resource.release()
         self._frame = self.context.gl.buffer(reserve=STRUCTS["Frame"].itemsize)
         shapes = upload(self.context.gl, self.pipeline, arrays, self.tier)
-        self._resources = {**shapes, "FrameBlock": self._frame}
+        self._lost = self.context.gl.buffer(bytes(4))
+        self._resources = {**shapes, "FrameBlock": self._frame, "Lost": self._lost}
+        self._may_lose = has_tree(self.scene) and self._rounds is not None
         constants = needs_of(self.scene, self.settings).constants()
         self._shaders = sources(self.pipeline, constants, self._parts(arrays))
         self._tiles = tile_count(*self.size)
@@ -235,6 +239,29 @@ class Renderer:
         self.compile_seconds = time.perf_counter() - start
         self.longest_dispatch = 0.0  # seconds, apart from this first one
 
+    def _at_once(self, samples: int) -> None:
+        """Samples of every pixel at once; none if they prove too many."""
+        for portion in whole_frame(samples, self._tiles):
+            self._dispatch(portion)
+        self.context.gl.finish()
+        if self._fits(samples):
+            self._film.advance(samples)
+
+    def _fits(self, samples: int) -> bool:
+        """Whether no sample of this frame was lost to the loop limit, or fewer would not help.
+
+        Rays through a tree take as many rounds as they take. A frame that lost some is done again
+        with fewer samples at once; what is lost then is counted on the film.
+        """
+        if not self._may_lose or not any(self._lost.read()):
+            return True
+        self._lost.clear()
+        if samples == 1:
+            return True
+        self.most_samples = samples // 2
+        self._schedule.limit(self.most_samples)
+        return False
+
     def _work(self, remaining: int, seconds: float) -> None:
         """One dispatch that the schedule plans; all those of a frame read the same source."""
         portion = self._schedule.next_portion(remaining, seconds)
@@ -244,7 +271,7 @@ class Renderer:
             self.context.gl.finish()
             taken = time.perf_counter() - start
             self.longest_dispatch = max(self.longest_dispatch, taken)
-            if self._schedule.record(portion, taken):
+            if self._fits(portion.samples) and self._schedule.record(portion, taken):
                 self._film.advance(portion.samples)
 
     def _dispatch(self, portion: Portion) -> None:

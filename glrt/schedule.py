@@ -10,6 +10,7 @@ from itertools import count
 from typing import NamedTuple
 
 from glrt.errors import SceneError
+from glrt.needs import has_tree
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 
@@ -18,35 +19,45 @@ from glrt.settings import RenderSettings
 HEADLESS_LIMIT, INTERACTIVE_LIMIT = 0.5, 0.1
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
+TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
 GROWTH = 4  # of the work from one dispatch to the next, at most
 _GOLDEN = 0.618
 
 
-def iterations_per_sample(scene: Scene, settings: RenderSettings) -> int:
+def iterations_per_sample(
+    scene: Scene, settings: RenderSettings, tree_rounds: float = TREE_ROUNDS
+) -> int:
     """Rounds of all loops for one sample: each segment runs over the shapes, once or twice.
 
+    At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
     it finds that there are no more.
     """
     rays = 1 if settings.method == "naive" else 2
     kinds = len({shape.shape for shape in scene.objects})
-    return 1 + (settings.bounces + 1) * (1 + rays * (len(scene.objects) + kinds))
+    rounds = len(scene.objects) + kinds
+    if has_tree(scene):
+        spheres = sum(shape.shape == "sphere" for shape in scene.objects)
+        rounds += round(tree_rounds * math.log2(spheres)) - spheres
+    return 1 + (settings.bounces + 1) * (1 + rays * rounds)
 
 
-def most_samples(iterations: int, rounds: int | None) -> int:
+def most_samples(iterations: int, rounds: int | None, least: int | None = None) -> int:
     """How many samples fit into a dispatch of so many rounds; SceneError when not even one does.
 
-    `rounds`: None for a driver that does not limit loops.
+    `rounds`: None for a driver that does not limit loops. `least`: the iterations of a sample that
+    are certain, if `iterations` is a guess.
     """
     if rounds is None:
         return 1 << 10
-    if iterations > rounds:
+    certain = iterations if least is None else least
+    if certain > rounds:
         raise SceneError(
             f"the scene is beyond this driver's loop limit: one sample takes up to "
-            f"{iterations} rounds of its loops (shapes x bounces), and it stops silently after "
+            f"{certain} rounds of its loops (shapes x bounces), and it stops silently after "
             f"{rounds}, with a wrong image. Use fewer objects, fewer bounces or a GPU."
         )
-    return rounds // iterations
+    return max(1, rounds // iterations)
 
 
 def stride_of(tiles: int) -> int:
@@ -92,6 +103,11 @@ class Schedule:
     def drop(self) -> None:
         """Forget the frame that has begun: the next portion starts another."""
         self._samples = self._done = 0
+
+    def limit(self, most_samples: int) -> None:
+        """Begin the frame again: no dispatch may take more samples than these."""
+        self._most = most_samples
+        self.drop()
 
     def next_portion(self, remaining: int, seconds: float) -> Portion:
         """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds."""

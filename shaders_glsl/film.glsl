@@ -61,3 +61,9 @@ void add_sample(inout Pixel pixel, vec3 x, int index) {
     }
     if ((index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
 }
+
+// The samples from number `index` to before `end` are lost.
+void drop_samples(inout Pixel pixel, int index, int end) {
+    pixel.dropped += float(end - index);
+    if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
+}

@@ -39,6 +39,14 @@ struct Quad {
     vec3 dual_v;
 };
 
+// Of the tree over the spheres: a box, or a leaf, which is a sphere.
+struct Node {
+    vec3 lower;  // corner of the box; the centre of a leaf
+    int skip;    // the next node for a ray that misses the box
+    vec3 upper;  // the other corner; x: the radius of a leaf
+    int sphere;  // of a leaf; of a box NO_SHAPE
+};
+
 struct Material {
     vec3 color;      // albedo or reflectance
     int kind;        // MATTE, METAL or DIELECTRIC
@@ -80,4 +88,5 @@ struct Frame {
     int light_count;
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;
+    int node_count;
 };

@@ -57,21 +57,36 @@ float quad_distance(Ray ray, Quad quad) {
     return inside ? t : 0.0;
 }
 
+// Some drivers end loops early, silently (glrt/selftest.py); see add_samples.
+bool loop_was_cut = false;
+
+void note_end(int reached, int end) {
+    if (reached < end) loop_was_cut = true;
+}
+
+Hit find_sphere(Ray ray, Hit hit, int ignored, bool any);  // in bvh.glsl
+
 // The nearest shape nearer than `limit`, apart from the shape `ignored`; of two at the same
 // distance the one with the lower number. With `any`, the first that is found.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     Hit hit = Hit(limit, NO_SHAPE);
-    if (HAS_SPHERE) {
-        for (int i = 0; i < sphere_count(); ++i) {
+    if (HAS_TREE) {
+        hit = find_sphere(ray, hit, ignored, any);
+        if (any && hit.shape != NO_SHAPE) return hit;
+    } else if (HAS_SPHERE) {
+        int i = 0;
+        for (; i < sphere_count(); ++i) {
             float t = sphere_distance(ray, sphere_at(i), i);
             if (t > 0.0 && t < hit.distance && i != ignored) {
                 hit = Hit(t, i);
                 if (any) return hit;
             }
         }
+        note_end(i, sphere_count());
     }
     if (HAS_PLANE) {
-        for (int i = 0; i < plane_count(); ++i) {
+        int i = 0;
+        for (; i < plane_count(); ++i) {
             int shape = sphere_count() + i;
             Plane plane = plane_at(i);
             float t = plane_distance(ray, plane.point, plane.normal);
@@ -80,9 +95,11 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
                 if (any) return hit;
             }
         }
+        note_end(i, plane_count());
     }
     if (HAS_QUAD) {
-        for (int i = 0; i < quad_count(); ++i) {
+        int i = 0;
+        for (; i < quad_count(); ++i) {
             int shape = sphere_count() + plane_count() + i;
             float t = quad_distance(ray, quad_at(i));
             if (t > 0.0 && t < hit.distance && shape != ray.leaves && shape != ignored) {
@@ -90,6 +107,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
                 if (any) return hit;
             }
         }
+        note_end(i, quad_count());
     }
     return hit;
 }

@@ -12,6 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "warp.glsl"
 #include "camera.glsl"
 #include "shape.glsl"
+#include "bvh.glsl"
 #include "material.glsl"
 #include "strips.glsl"
 #include "light.glsl"
@@ -26,6 +27,8 @@ layout(rgba32f) uniform readonly image2D source_block;     // a: its samples
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_block;
+
+layout(std430) buffer Lost { uint lost_samples; };
 
 Pixel load_pixel(ivec2 texel) {
     if (frame.first_sample == 0) return empty_pixel();  // whatever the source holds
@@ -42,7 +45,8 @@ void main() {
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
     Pixel pixel = load_pixel(texel);
-    add_samples(pixel, frame.origin + texel);
+    int lost = add_samples(pixel, frame.origin + texel);
+    if (HAS_TREE && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));

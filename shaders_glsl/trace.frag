@@ -9,6 +9,7 @@
 #include "warp.glsl"
 #include "camera.glsl"
 #include "shape.glsl"
+#include "bvh.glsl"
 #include "material.glsl"
 #include "strips.glsl"
 #include "light.glsl"

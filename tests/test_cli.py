@@ -192,14 +192,15 @@ def test_full_disk_exits_4_and_leaves_nothing(tmp_path: Path) -> None:
 
 def test_scene_beyond_the_loop_limit_is_refused(tmp_path: Path) -> None:
     """On a software driver; a GPU has no such limit."""
-    balls = "\n".join(
-        f'[[objects]]\nshape = "sphere"\ncenter = [{i}, 0, -9]\nradius = 0.4\nmaterial = "m"'
+    tiles = "\n".join(
+        f'[[objects]]\nshape = "quad"\ncorner = [{i}, 0, -9]\nedge_u = [1, 0, 0]\n'
+        'edge_v = [0, 1, 0]\nmaterial = "m"'
         for i in range(400)
     )
     scene = tmp_path / "many.toml"
     scene.write_text(
         "[camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, -1]\n[background]\ncolor = [1, 1, 1]\n"
-        f'[materials.m]\ntype = "lambertian"\ncolor = [0.5, 0.5, 0.5]\n{balls}\n'
+        f'[materials.m]\ntype = "lambertian"\ncolor = [0.5, 0.5, 0.5]\n{tiles}\n'
     )
     picture = tmp_path / "a.png"
     done = glrt("render", scene, "-o", picture, *SMALL, "--bounces", "900", "--context", "egl")

@@ -13,7 +13,7 @@ import pytest
 
 from glrt import shader
 from glrt.kernel import Kernel
-from glrt.needs import Needs, needs_of
+from glrt.needs import TREE_FROM, Needs, needs_of
 from glrt.resources import folder
 from glrt.settings import settings_for
 from glrt.shader import Source
@@ -25,6 +25,7 @@ PROBES = {
     "HAS_SPHERE": ("shape.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
     "HAS_PLANE": ("shape.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
     "HAS_QUAD": ("shape.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
+    "HAS_TREE": ("bvh.glsl", "min(last.z, limit)", "min(last.z, {} * limit)"),
     "HAS_MIRROR": ("material.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("material.glsl", "2.0 * PI * u.x", "{} * u.x"),
     "HAS_DIELECTRIC": ("material.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
@@ -38,6 +39,7 @@ PROBES = {
 }
 ALWAYS = ("film.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
+    "HAS_TREE": {"HAS_SPHERE"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
@@ -45,7 +47,7 @@ NEEDED_TOO = {
 }
 
 GONE_TOO = {
-    "HAS_SPHERE": {"HAS_SPHERE_LIGHT"},
+    "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH"},
 }
@@ -86,6 +88,7 @@ def needs_with(flags: set[str]) -> Needs:
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []
+    objects += [sphere([9, 9, 9], 1, "matte")] * (TREE_FROM if "HAS_TREE" in flags else 0)
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
     objects += [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []

@@ -173,7 +173,7 @@ def step(ctx: moderngl.Context) -> Iterator[Step]:
     arrays = pack_scene(ROOM)
     counts = {name: len(rows) for name, rows in arrays.items()}
     data = {name: rows.tobytes() or bytes(rows.itemsize) for name, rows in arrays.items()}
-    buffers = {name: ctx.buffer(rows) for name, rows in data.items()}
+    buffers = {name: ctx.buffer(rows) for name, rows in {**data, "Lost": bytes(4)}.items()}
 
     def dispatch(film: Film, samples: int) -> None:
         frame = pack_frame(ROOM, settings, counts, film.samples, samples)

@@ -8,7 +8,7 @@ from glrt.context import Context
 from glrt.errors import SceneError, UsageError
 from glrt.scene import Scene
 from glrt.settings import Cost, Settings
-from tests.builders import glass, lamp, sphere
+from tests.builders import glass, lamp, quad, sphere
 from tests.mixture import EYE, MATERIALS, OBJECTS, everything
 from tests.renders import rendered, rendering, same
 
@@ -113,8 +113,9 @@ def test_first_glass_compiles_another_kernel(context: Context) -> None:
 
 
 def too_large() -> Scene:
-    balls = [sphere([i % 40 - 20, i // 40 - 20, -50], 0.4, "white") for i in range(1600)]
-    return everything([*OBJECTS, *balls])
+    corners = [[i % 40 - 20, i // 40 - 20, -50] for i in range(1600)]
+    tiles = [quad(corner, [1, 0, 0], [0, 1, 0], "white") for corner in corners]
+    return everything([*OBJECTS, *tiles])
 
 
 def test_scene_beyond_the_loop_limit_is_refused(context: Context) -> None:

@@ -1,0 +1,120 @@
+"""Boxes -> a bounding volume hierarchy, level by level in numpy.
+
+Binned surface area heuristic (Wald, "On Fast Construction of SAH-Based Bounding Volume
+Hierarchies", 2007): a node is split between two of BINS slices of its boxes' centres, along the
+axis and at the place that let a ray meet the fewest boxes.
+
+Nodes lie in depth-first order, and know where to go on when a ray misses them: a ray then needs no
+stack. A node over m boxes has 2 m - 1 nodes below it, itself included, so every place is known
+from above.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+BINS = 16
+
+
+class Tree(NamedTuple):
+    """A binary tree over n boxes: 2 n - 1 nodes in depth-first order."""
+
+    lower: Floats  # (2 n - 1, 3): corners of the node's box
+    upper: Floats
+    skip: Ints  # the next node for a ray that misses this one; 2 n - 1 at the end
+    item: Ints  # the box that is a leaf, -1 for an inner node
+
+
+class _Level(NamedTuple):
+    """Nodes of one depth: `items` of all of them in a row."""
+
+    place: Ints  # of each node in the tree
+    size: Ints  # items of each
+    items: Ints
+
+    @property
+    def start(self) -> Ints:
+        return np.cumsum(self.size) - self.size
+
+
+def build(lower: Floats, upper: Floats) -> Tree:
+    """The tree over boxes given by their corners, (n, 3) each, n > 0."""
+    nodes = 2 * len(lower) - 1
+    tree = Tree(
+        np.empty((nodes, 3)), np.empty((nodes, 3)), np.empty(nodes, int), np.full(nodes, -1)
+    )
+    level = _Level(np.zeros(1, int), np.array([len(lower)]), np.arange(len(lower)))
+    while len(level.place):
+        tree.lower[level.place] = np.minimum.reduceat(lower[level.items], level.start)
+        tree.upper[level.place] = np.maximum.reduceat(upper[level.items], level.start)
+        tree.skip[level.place] = level.place + 2 * level.size - 1
+        is_leaf = level.size == 1
+        tree.item[level.place[is_leaf]] = level.items[level.start[is_leaf]]
+        level = _below(_inner(level), lower, upper)
+    return tree
+
+
+def _inner(level: _Level) -> _Level:
+    """The nodes that are not leaves."""
+    keep = level.size > 1
+    return _Level(level.place[keep], level.size[keep], level.items[np.repeat(keep, level.size)])
+
+
+def _below(level: _Level, lower: Floats, upper: Floats) -> _Level:
+    """The children of all nodes of a level."""
+    if not len(level.place):
+        return level
+    node = np.repeat(np.arange(len(level.size)), level.size)
+    is_right = _sides(level, node, lower[level.items], upper[level.items])
+    order = np.argsort(2 * node + is_right, kind="stable")
+    right = np.bincount(node, is_right).astype(int)
+    left = level.size - right
+    place = np.column_stack([level.place + 1, level.place + 2 * left]).ravel()
+    return _Level(place, np.column_stack([left, right]).ravel(), level.items[order])
+
+
+def _sides(level: _Level, node: Ints, lower: Floats, upper: Floats) -> Any:
+    """Of each item whether it goes to the second child; both children get some."""
+    centre = lower + upper
+    low = np.minimum.reduceat(centre, level.start)
+    extent = np.maximum.reduceat(centre, level.start) - low
+    scale = np.divide(BINS, extent, out=np.zeros_like(extent), where=extent > 0)
+    slices = np.minimum(((centre - low[node]) * scale[node]).astype(int), BINS - 1)
+    costs = np.stack(
+        [_costs(len(level.size), node, slices[:, axis], lower, upper) for axis in range(3)], 1
+    ).reshape(len(level.size), -1)
+    best = costs.argmin(axis=1)
+    axis, place = np.divmod(best, BINS - 1)
+    rank = np.arange(len(node)) - level.start[node]
+    in_half = 2 * rank >= level.size[node]
+    has_split = np.isfinite(costs.min(axis=1))
+    chosen = np.take_along_axis(slices, axis[node][:, None], 1)[:, 0] > place[node]
+    return np.where(has_split[node], chosen, in_half)
+
+
+def _costs(nodes: int, node: Ints, slices: Ints, lower: Floats, upper: Floats) -> Floats:
+    """(nodes, BINS - 1): surface times boxes of both sides, for each place between slices."""
+    key = node * BINS + slices
+    count = np.bincount(key, minlength=nodes * BINS).reshape(nodes, BINS)
+    low = np.full((3, nodes, BINS), np.inf)
+    high = np.full((3, nodes, BINS), -np.inf)
+    for axis in range(3):
+        np.minimum.at(low[axis].ravel(), key, lower[:, axis])
+        np.maximum.at(high[axis].ravel(), key, upper[:, axis])
+    left = _swept(count, low, high)[:, :-1]
+    right = _swept(count[:, ::-1], low[..., ::-1], high[..., ::-1])[:, -2::-1]
+    cost: Floats = left + right
+    return cost
+
+
+def _swept(count: Ints, low: Floats, high: Floats) -> Floats:
+    """Surface times boxes of slices up to each one, infinite where there is no box."""
+    total = np.cumsum(count, axis=1)
+    size = np.maximum.accumulate(high, axis=2) - np.minimum.accumulate(low, axis=2)
+    with np.errstate(invalid="ignore"):  # where there is no box yet, its size is -inf
+        area = size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
+        return np.where(total > 0, area * total, np.inf)
