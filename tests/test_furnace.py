@@ -219,8 +219,9 @@ def test_camera_in_glass_sees_the_square_of_the_index(context: Context, roulette
     assert np.allclose(image.radiance, 2.25, rtol=1e-6, atol=0)
 
 
+@pytest.mark.parametrize("sampler", ["independent", "sobol"])
 @pytest.mark.parametrize("method", METHODS)
-def test_lamp_in_the_centre_of_a_matte_ball(context: Context, method: str) -> None:
+def test_lamp_in_the_centre_of_a_matte_ball(context: Context, method: str, sampler: str) -> None:
     """Radii 0.7 and 2: after 1, 2, 3 and 6 scatterings, and without end."""
     materials = {
         "wall": {"type": "lambertian", "color": [0.6] * 3},
@@ -229,7 +230,7 @@ def test_lamp_in_the_centre_of_a_matte_ball(context: Context, method: str) -> No
     objects = [sphere([0, 0, 0], 2, "wall"), sphere([0, 0, 0], 0.7, "lamp")]
     eye = {"position": [0.2, 0.1, 1.2], "look_at": [0.5, 1, 3], "fov": 60}
     truths = {1: 0.22050, 2: 0.33659, 3: 0.40582, 6: 0.48464, 60: 0.50487}
-    settings = {"method": method, "width": 32, "height": 32}
+    settings = {"method": method, "sampler": sampler, "width": 32, "height": 32}
     with rendering(scene_of(objects, materials, eye), context, **settings) as renderer:
         for bounces, truth in truths.items():
             renderer.update(bounces=bounces)

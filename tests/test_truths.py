@@ -21,15 +21,17 @@ FLOOR = plane([0, 0, 0], [0, 1, 0], "floor")
 BLACK = {"type": "lambertian", "color": [0.0, 0.0, 0.0]}
 MATERIALS = {"floor": MATTE, "black": BLACK, "lamp": lamp(2.0), "glass": glass(1.5)}
 ASIDE = {"position": [-2, 1, 0], "look_at": [0, 0, 0], "fov": 0.01}  # all pixels see one point
+SAMPLERS = ("independent", "sobol")
 TURN = np.linalg.qr([[0.3, -0.7, 0.5], [0.8, 0.2, -0.4], [-0.1, 0.6, 0.9]])[0]
 
 
 # --- shade ---------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize(("s2", "cosine"), [(0.25, 1.0), (0.25, 0.1), (0.25, -0.3), (0.81, 0.5)])
 def test_black_ball_over_a_floor_takes_its_share_of_the_sky(
-    context: Context, s2: float, cosine: float
+    context: Context, s2: float, cosine: float, sampler: str
 ) -> None:
     """A white sky brings a; the ball hides its form factor F of it: a (1 - F)."""
     place = [math.sqrt(1 - cosine**2), cosine, 0]
@@ -39,17 +41,21 @@ def test_black_ball_over_a_floor_takes_its_share_of_the_sky(
         ASIDE,
         background={"color": [1, 1, 1]},
     )
-    image = rendered(scene, context, 1024, bounces=1, width=32, height=32)
+    image = rendered(scene, context, 1024, bounces=1, width=32, height=32, sampler=sampler)
     assert_mean(whole(image), 0.5 * (1 - sphere_form_factor(s2, cosine)), within=0.006)
 
 
+@pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize("method", METHODS)
-def test_ball_before_a_lamp_takes_its_share_of_the_light(context: Context, method: str) -> None:
+def test_ball_before_a_lamp_takes_its_share_of_the_light(
+    context: Context, method: str, sampler: str
+) -> None:
     """On the normal a ball's form factor is (r/d)^2, so a ring of the lamp is left: s2 - t2."""
     lamp_ball, shade = sphere([0, 2, 0], 1.0, "lamp"), sphere([0, 0.5, 0], 0.15, "black")
     scene = scene_of([FLOOR, lamp_ball, shade], MATERIALS, {**ASIDE, "position": [-2, 0.2, 0]})
     samples = 1024 if method == "naive" else 256
-    image = rendered(scene, context, samples, method=method, bounces=1, width=32, height=32)
+    settings = {"method": method, "sampler": sampler, "width": 32, "height": 32}
+    image = rendered(scene, context, samples, bounces=1, **settings)
     assert_mean(whole(image), 1 / 4 - 0.09, within=0.02)
 
 
@@ -195,9 +201,10 @@ def test_pixel_shows_how_much_of_it_is_covered(context: Context) -> None:
     assert_mean(Estimate(column, np.full(3, spread)), 0.5, within=0.07)
 
 
+@pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize(("angle", "width"), [(25.0, 64), (40.0, 32)])
 def test_lamp_beside_the_axis_is_seen_as_an_ellipse(
-    context: Context, angle: float, width: int
+    context: Context, angle: float, width: int, sampler: str
 ) -> None:
     """The cone of half angle s about an axis tilted by p cuts the plane at distance 1 in an
     ellipse of half axes sin s cos s / (cos^2 p - sin^2 s) and sin s / sqrt(cos^2 p - sin^2 s).
@@ -205,7 +212,7 @@ def test_lamp_beside_the_axis_is_seen_as_an_ellipse(
     tilt, sine = math.radians(angle), 0.2
     place = [5 * math.sin(tilt) * 0.6, 5 * math.sin(tilt) * 0.8, -5 * math.cos(tilt)]
     scene = scene_of([sphere(place, 1.0, "lamp")], MATERIALS, {"fov": 120})
-    image = rendered(scene, context, 256, width=width, height=64)
+    image = rendered(scene, context, 256, width=width, height=64, sampler=sampler)
     rest = math.cos(tilt) ** 2 - sine**2
     ellipse = math.pi * sine * math.sqrt(1 - sine**2) / rest * sine / math.sqrt(rest)
     half = math.tan(math.radians(60))
