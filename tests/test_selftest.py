@@ -62,6 +62,22 @@ def test_llvmpipe_counts_loops_as_the_scheduler_believes(
     assert counts.tolist() == np.minimum(mine, selftest.LLVMPIPE_ROUNDS).tolist()
 
 
+def test_llvmpipe_counts_the_rounds_of_any_lane(context: Context, call_glsl: CallGlsl) -> None:
+    """Four lanes take turns: each runs 30,000 rounds, and one of them in 96,000 together."""
+    if "llvmpipe" not in context.renderer:
+        pytest.skip("of llvmpipe alone")
+    turns = """
+        uint count = 0u;
+        for (uint k = 0u; k < outer; ++k) {
+            if (k / 1000u % 4u != lane % 4u) continue;
+            for (uint j = 0u; j < inner; ++j) if (++count == never) break;
+        }"""
+    lanes = np.arange(64, dtype=np.uint32)
+    counts = call_glsl("count", "uint", setup=turns, lane=lanes, **rounds(outer=8000, inner=10))
+    assert counts.max() == 20_000
+    assert counts.min() < 20_000
+
+
 def rounds(**more: int) -> dict[str, np.ndarray[tuple[int], np.dtype[np.uint32]]]:
     given = {"rounds": MOST_ROUNDS, "never": 1 << 30, **more}
     return {name: np.array([value], np.uint32) for name, value in given.items()}

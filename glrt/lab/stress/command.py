@@ -27,7 +27,7 @@ def stress(arguments: argparse.Namespace) -> int:
         print("\n".join(f"{case.name:<10} {case.title}" for case in cases))
         return 0
     folder = _prepared(arguments.folder, cases)
-    context = open_context(arguments.context)
+    context = open_context(arguments.context, "compute")
     lab = Lab(context, QUICK if arguments.quick else 1.0)
     findings = [_run(case, lab) for case in cases]
     report.save(findings, folder, context.renderer)
@@ -67,5 +67,6 @@ def _prepared(folder: Path | None, cases: Sequence[Case]) -> Path:
 def _run(case: Case, lab: Lab) -> Finding:
     start = time.perf_counter()
     finding = Finding(case, case.run(lab), time.perf_counter() - start)
-    print(f"{case.name}: {finding.verdict}, {finding.seconds:.1f} s", file=sys.stderr, flush=True)
+    if sys.stderr.isatty():
+        print(f"{case.name}: {finding.verdict}, {finding.seconds:.1f} s", file=sys.stderr)
     return finding

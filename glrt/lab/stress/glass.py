@@ -188,7 +188,10 @@ def fireflies(lab: Lab) -> Sweep:
 
 
 def _samples(lab: Lab, case: NoisyCase) -> Array:
-    """The mean radiance of each of many samples of the picture, one a pixel and seed."""
+    """The mean radiance of each of many samples of the picture, one a pixel and seed.
+
+    NaN where one was dropped.
+    """
     frames = []
     size: dict[str, Any] = {
         "width": 48,
@@ -199,9 +202,8 @@ def _samples(lab: Lab, case: NoisyCase) -> Array:
     with lab.rendering(case.scene, **size) as renderer:
         for seed in range(lab.count(256)):
             renderer.update(seed=seed)
-            frames.append(renderer.render(1).image().radiance.mean(axis=-1, dtype=np.float64))
-        if renderer.nonfinite():
-            frames.append(np.full((48, 48), np.nan))
+            light = renderer.render(1).image().radiance.mean(axis=-1, dtype=np.float64)
+            frames.append(np.full_like(light, np.nan) if renderer.nonfinite() else light)
     return np.concatenate(frames).ravel()
 
 
