@@ -13,6 +13,7 @@ from glrt.arguments import make_parser, refuse_later, settings_given
 from glrt.errors import GlrtError, RenderError, UsageError
 from glrt.job import Interruption, Limits, peak_bytes, run, samples_limit, since_start
 from glrt.library import load_recipe
+from glrt.omissions import omissions
 from glrt.scene import Scene, with_lights
 from glrt.settings import Settings, settings_for
 
@@ -88,6 +89,8 @@ def inspect(arguments: argparse.Namespace) -> int:
     print(f"method {settings.method}, {settings.bounces} bounces, {len(scene.objects)} objects\n")
     for feature in explain(scene, settings):
         print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
+    if missing := omissions(scene, settings):
+        print(f"\n{_left_out(settings, missing)}")
     rounds = iterations_per_sample(scene, settings)
     print(
         f"\nA sample takes {'about' if has_tree(scene) else 'up to'} {rounds:,} rounds of loops; "
@@ -220,6 +223,15 @@ def _tell(
                 "driver runs loops. Where they are many the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
+        if missing := omissions(renderer.scene, renderer.settings):
+            print(_left_out(renderer.settings, missing), file=sys.stderr)
+
+
+def _left_out(settings: Settings, missing: list[str]) -> str:
+    return (
+        f"Method {settings.method} leaves light out, which no estimated error contains: "
+        f"{'; '.join(missing)}."
+    )
 
 
 def _figures(

@@ -9,6 +9,7 @@ from glrt.settings import Settings
 
 ROULETTE_START = 3  # bounces before the first game
 TREE_FROM = 64  # spheres: from here on a tree over them pays (docs/speed.md)
+LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,7 @@ class Needs:
     sample_lights: bool
     weight_both: bool
     roulette: bool
+    model: int  # of the ladder; 0: paths are traced
     block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
 
     def constants(self) -> dict[str, bool | int]:
@@ -50,22 +52,26 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
     shapes = {shape.shape for shape in scene.objects}
     used = list(used_materials(scene).values())
     lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
-    sample_lights = settings.method != "naive" and bool(lamps & {"sphere", "quad"})
+    method = settings.method
+    is_lit = method != "naive" and bool(lamps & {"sphere", "quad"})
+    follows = method not in ("phong", "blinn")  # mirrors and glass
+    metals = [m for m in used if m.type == "metal"]
     return Needs(
         has_sphere="sphere" in shapes,
         has_plane="plane" in shapes,
         has_quad="quad" in shapes,
         has_tree=has_tree(scene),
-        has_mirror=any(m.type == "metal" and m.alpha == 0 for m in used),
-        has_rough_metal=any(m.type == "metal" and m.alpha > 0 for m in used),
-        has_dielectric=any(m.type == "dielectric" for m in used),
-        has_lens=scene.camera.defocus_angle > 0,
+        has_mirror=follows and any(m.alpha == 0 or method == "whitted" for m in metals),
+        has_rough_metal=method != "whitted" and any(m.alpha > 0 for m in metals),
+        has_dielectric=follows and any(m.type == "dielectric" for m in used),
+        has_lens=method not in ("phong", "blinn", "whitted") and scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
-        has_sphere_light=sample_lights and "sphere" in lamps,
-        has_quad_light=sample_lights and "quad" in lamps,
-        sample_lights=sample_lights,
-        weight_both=sample_lights and settings.method == "mis",
-        roulette=settings.roulette,
+        has_sphere_light=is_lit and "sphere" in lamps,
+        has_quad_light=is_lit and "quad" in lamps,
+        sample_lights=is_lit and method in ("nee", "mis"),
+        weight_both=is_lit and method == "mis",
+        roulette=settings.roulette and follows,
+        model=LADDER.get(method, 0),
         block=settings.block,
     )
 
@@ -114,6 +120,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("sphere lamps", needs.has_sphere_light, f"method {method}, {lamps}"),
         Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
+        Feature("lighting model", needs.model > 0, _model(settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]
@@ -135,6 +142,11 @@ def _made_of(names: Iterable[str], kind: str) -> str:
 
 def _background(scene: Scene) -> str:
     return "its light is not black" if any(map(any, scene.background_colors)) else "black"
+
+
+def _model(settings: Settings) -> str:
+    traces = settings.method not in LADDER
+    return f"method {settings.method}{' traces paths' if traces else ', which leaves light out'}"
 
 
 def _roulette(settings: Settings) -> str:

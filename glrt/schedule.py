@@ -10,7 +10,7 @@ from itertools import count
 from typing import NamedTuple
 
 from glrt.errors import SceneError
-from glrt.needs import has_tree
+from glrt.needs import has_tree, is_light
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 
@@ -21,6 +21,7 @@ MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
 TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
 GROWTH = 4  # of the work from one dispatch to the next, at most
+HIGHLIGHT_ROUNDS = 52  # of the powers of a highlight, whose exponents stay below 2^24
 _GOLDEN = 0.618
 
 
@@ -33,13 +34,23 @@ def iterations_per_sample(
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
     it finds that there are no more.
     """
-    rays = 1 if settings.method == "naive" else 2
     kinds = len({shape.shape for shape in scene.objects})
-    rounds = len(scene.objects) + kinds
+    search = len(scene.objects) + kinds
     if has_tree(scene):
         spheres = sum(shape.shape == "sphere" for shape in scene.objects)
-        rounds += round(tree_rounds * math.log2(spheres)) - spheres
-    return 1 + (settings.bounces + 1) * (1 + rays * rounds)
+        search += round(tree_rounds * math.log2(spheres)) - spheres
+    if settings.method in ("phong", "blinn", "whitted"):
+        return 1 + _rounds_of_shading(scene, settings, search)
+    rays = 1 if settings.method == "naive" else 2
+    return 1 + (settings.bounces + 1) * (1 + rays * search)
+
+
+def _rounds_of_shading(scene: Scene, settings: RenderSettings, search: int) -> int:
+    """Segments over mirrors and glass, then all lamps, each with a shadow ray or a highlight."""
+    lamps = sum(1 for shape in scene.objects if is_light(scene.materials[shape.material]))
+    if settings.method == "whitted":
+        return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
+    return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
 
 
 def most_samples(iterations: int, rounds: int | None, least: int | None = None) -> int:

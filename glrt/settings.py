@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from glrt.errors import UsageError
 
-Method = Literal["naive", "nee", "mis"]
+Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
 Sampler = Literal["independent", "sobol"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 
@@ -69,7 +69,8 @@ class RenderSettings(Frozen):
     )
     method: Method = _setting(
         "mis",
-        "naive: scattering alone finds the lamps; nee: light sampling; mis: both, weighted",
+        "naive: scattering alone finds the lamps; nee: light sampling; mis: both, weighted; phong, "
+        "blinn, whitted, cook: older models, which leave light out",
         Cost.RECOMPILE,
     )
 

@@ -131,7 +131,7 @@ Scattering sample_matte(Vertex vertex, vec2 u) {
 
 Scattering sample_metal(Vertex vertex, vec2 u) {
     float alpha = vertex.material.alpha;
-    bool mirror = HAS_MIRROR && alpha == 0.0;
+    bool mirror = HAS_MIRROR && (!HAS_ROUGH_METAL || alpha == 0.0);
     vec3 h = vec3(0.0, 0.0, 1.0);
     if (HAS_ROUGH_METAL && !mirror) h = sample_ggx_normal(alpha, vertex.wo, u);
     vec3 wi = 2.0 * dot(vertex.wo, h) * h - vertex.wo;

@@ -2,7 +2,8 @@
 //
 // Emission found by scattering and emission sampled on lamps are the same light; METHOD says how
 // they share it. naive: scattering alone. nee: sampling, where its density is not 0. mis: both,
-// weighted by the power heuristic (Veach 1997, eq. 9.14).
+// weighted by the power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not
+// followed (ladder.glsl).
 
 vec3 background(vec3 direction) {
     float t = 0.5 * (direction.y + 1.0);
@@ -60,12 +61,34 @@ Path start_path(Ray ray) {
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0);
 }
 
+// Where a model of the ladder ends: the light of the lamps and of an unhidden sky, whose irradiance
+// over PI is its radiance two thirds of the way up along the normal.
+void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
+    vec3 weight = path.scale * path.throughput;
+    if (HAS_BACKGROUND) {
+        vec3 sky = background(2.0 / 3.0 * vertex.frame[2]);
+        path.radiance += weight * vertex.material.color * sky;
+    }
+    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
+    if (MODEL == COOK) {
+        path.radiance += weight * direct_light(vertex, from, rng);
+        return;
+    }
+    for (int i = 0; i < light_count(); ++i) {
+        path.radiance += weight * point_light(vertex, from, light_at(i).shape);
+    }
+}
+
 // Scatters at a surface, after gathering direct light there; false when the path ends.
 bool scatter_path(inout Path path, Surface surface, Material material, inout Sampler rng) {
     float side = dot(path.ray.direction, surface.normal) < 0.0 ? 1.0 : -1.0;  // 1: outer
     mat3 around = frame_around(side * surface.normal);
     Vertex vertex = Vertex(around, to_local(around, -path.ray.direction), material);
     Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
+    if (!is_followed(material)) {
+        shade(path, vertex, ray, rng);
+        return false;
+    }
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         path.radiance += path.scale * path.throughput * direct_light(vertex, ray, rng);
     }

@@ -16,6 +16,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "material.glsl"
 #include "strips.glsl"
 #include "light.glsl"
+#include "ladder.glsl"
 #include "path.glsl"
 #include "film.glsl"
 #include "samples.glsl"

@@ -11,6 +11,7 @@ EVERYTHING: dict[str, bool | int] = {
     **{field.name.upper(): True for field in fields(Needs)},
     "ROULETTE_START": ROULETTE_START,
     "BLOCK": 1,
+    "MODEL": 0,
 }
 
 MATTE = {"type": "lambertian", "color": [0.5, 0.5, 0.5]}

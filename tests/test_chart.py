@@ -222,7 +222,7 @@ def test_slopes_are_a_half_and_the_floor_is_the_bias(
         if bounces:
             assert curve.bias.value == pytest.approx(0.5 ** (bounces + 1) / 1.01**0.5, abs=0.002)
             assert curve.points[-1].error.value == pytest.approx(curve.bias.value, rel=0.05)
-        elif curve.name != "nee":
+        elif "sobol" not in curve.name and not curve.is_biased:
             assert curve.points[-1].samples >= 1024
             assert curve.slope is not None
             assert curve.slope.value == pytest.approx(-0.5, abs=0.03), curve.name

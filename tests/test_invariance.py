@@ -7,6 +7,7 @@ import pytest
 
 from glrt.context import Context
 from glrt.library import load
+from glrt.needs import LADDER
 from glrt.scene import Scene, with_lights
 from tests.builders import lamp, plane, quad, scene_of, sphere
 from tests.images import same_bits
@@ -38,7 +39,7 @@ def mixture(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) 
     return scene_of(objects, MATERIALS, {**eye, **lens}, background=SKY)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", [*METHODS, *LADDER])
 def test_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, method: str) -> None:
     expected = rendered(mixture(), context, 4, method=method, **SMALL)
     for power in range(-10, 11):
