@@ -12,8 +12,10 @@ from glrt.version import VERSION
 
 LATER = {
     "--resume": "adding samples to an older picture",
-    "inspect --error": "the choice of the cheapest method",
 }
+
+
+AUTO = "auto"  # as --method: chosen by a measurement
 
 
 class Parser(argparse.ArgumentParser):
@@ -91,7 +93,10 @@ _HELP: dict[str, dict[str, Any]] = {
         "epilog": "At most a share ALPHA of equal pictures is called different. Exit codes: 0 same "
         "or undecided, 1 different (with --strict, undecided too), 2 bad usage or files.",
     },
-    "inspect": {"description": "Say what the kernel for a scene contains and leaves out, and why."},
+    "inspect": {
+        "description": "Say what the kernel for a scene contains and leaves out, and why; with "
+        "--error, the cheapest method and the fewest bounces that suffice."
+    },
     "chart": {
         "description": "Measure the error of every method against its time on some scenes; draw it "
         "(SVG, PNG), list it (CSV, JSON) and tell what it shows (chart.md).",
@@ -125,7 +130,7 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="the picture: .exr (radiance and its error), .png or .npy; may be repeated",
     )
-    _add_settings(parser)
+    _render_settings(parser)
     parser.add_argument("--time", type=float, metavar="SECONDS", help="stop then; from the start")
     parser.add_argument(
         "--error", type=float, metavar="E", help="stop at this relative RMS error: 0.02 is 2 %%"
@@ -173,7 +178,13 @@ def _add_compare(parser: argparse.ArgumentParser) -> None:
 def _add_inspect(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=_SCENE)
     _add_settings(parser)
-    parser.add_argument("--error", metavar="E", help=argparse.SUPPRESS)
+    parser.add_argument(
+        "--error",
+        type=float,
+        metavar="E",
+        help="measure which method and how many bounces suffice for this relative RMS error",
+    )
+    _add_context(parser)
 
 
 def _add_chart(parser: argparse.ArgumentParser) -> None:
@@ -228,6 +239,15 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _render_settings(parser: argparse.ArgumentParser) -> None:
+    """The settings, and one more value of the method."""
+    _add_settings(parser)
+    for action in parser._actions:
+        if action.dest == "method":
+            action.choices = [*(action.choices or ()), AUTO]
+            action.help = f"{action.help}; {AUTO}: the cheapest that reaches --error"
+
+
 def _options(name: str, annotation: Any) -> dict[str, Any]:
     if name == "crop":
         return {"nargs": 4, "type": int, "metavar": ("X", "Y", "W", "H")}
@@ -252,14 +272,19 @@ def _refuse_light(text: str) -> NoReturn:
 
 def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:
     """The settings that stand on the command line."""
-    return {name: value for name, value in vars(arguments).items() if name in Settings.model_fields}
+    given = {name: v for name, v in vars(arguments).items() if name in Settings.model_fields}
+    return {name: value for name, value in given.items() if value != AUTO}
+
+
+def is_automatic(arguments: argparse.Namespace) -> bool:
+    """Whether the method is to be chosen by what the error asks for."""
+    return getattr(arguments, "method", None) == AUTO
 
 
 def refuse_later(arguments: argparse.Namespace) -> None:
     """UsageError for what the format of the command line knows and this version does not do."""
     given = {
         "--resume": getattr(arguments, "resume", None) is not None,
-        "inspect --error": arguments.command == "inspect" and arguments.error is not None,
     }
     for option, is_given in given.items():
         if is_given:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from glrt.arguments import make_parser, refuse_later, settings_given
+from glrt.arguments import is_automatic, make_parser, refuse_later, settings_given
 from glrt.errors import GlrtError, RenderError, UsageError
 from glrt.job import Interruption, Limits, peak_bytes, run, samples_limit, since_start
 from glrt.library import load_recipe
@@ -59,6 +59,10 @@ def render(arguments: argparse.Namespace) -> int:
         check_writable(output)
     for text in [] if arguments.quiet else cautions(scene, settings):
         print(f"glrt: caution: {text}", file=sys.stderr)
+    if is_automatic(arguments):
+        from glrt.lab.advice import choose
+
+        settings, limits = choose(arguments, scene, settings, limits)
     with Interruption().watched() as interruption:
         return _render(arguments, scene, settings, limits, interruption)
 
@@ -98,6 +102,11 @@ def inspect(arguments: argparse.Namespace) -> int:
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")
+    if arguments.error is not None:
+        from glrt.lab.advice import advise
+
+        _check_limit("error", arguments.error)
+        advise(arguments, scene, settings)
     return 0
 
 
@@ -133,13 +142,16 @@ def schema(_arguments: argparse.Namespace) -> int:
 def _job(arguments: argparse.Namespace) -> tuple[Scene, Settings, Limits]:
     scene, settings = _scene_and_settings(arguments)
     for name in ("time", "error"):
-        value = getattr(arguments, name)
-        if value is not None and not 0 < value < float("inf"):
-            raise UsageError(f"--{name} must be a number above 0, got {value:g}.")
+        _check_limit(name, getattr(arguments, name))
     open_ended = arguments.time is not None or arguments.error is not None
     samples = samples_limit(getattr(arguments, "samples", None), settings.samples, open_ended)
     settings = settings_for(settings, samples=samples)
     return scene, settings, Limits(samples, arguments.time, arguments.error)
+
+
+def _check_limit(name: str, value: float | None) -> None:
+    if value is not None and not 0 < value < float("inf"):
+        raise UsageError(f"--{name} must be a number above 0, got {value:g}.")
 
 
 def _scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:

@@ -11,16 +11,20 @@ from pathlib import Path
 from glrt.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
 
-FIRST_LOOK = 64  # samples; the error is judged there and at each doubling
+FIRST_LOOK = 64  # samples
 
 
 @dataclass(frozen=True)
 class Limits:
-    """When to stop: `deadline` in seconds since the process started, `error` as a fraction."""
+    """When to stop: `deadline` in seconds since the process started, `error` as a fraction.
+
+    The error is judged at `first_look` samples and at each doubling.
+    """
 
     samples: int
     deadline: float | None = None
     error: float | None = None
+    first_look: int = FIRST_LOOK
 
 
 class Interruption:
@@ -77,7 +81,7 @@ def run(
 
 def _looks(limits: Limits) -> Iterator[int]:
     """The sample counts at which to look at the error, and the last one."""
-    look = FIRST_LOOK
+    look = limits.first_look
     while limits.error is not None and look < limits.samples:
         yield look
         look *= 2

@@ -15,6 +15,8 @@ PICTURES = (".exr", ".png")
 def load(source: str | Path) -> Scene:
     """The scene of a TOML file, of a name in the folder `scenes`, or of a rendered picture.
 
+    Names may lead into its folders, as `methods/glass` does.
+
     A path comes first, then a name with or without `.toml`. Raises `SceneError` with one
     paragraph if there is no such scene or it is wrong, `UsageError` for a picture without recipe.
     """
@@ -43,8 +45,8 @@ def _find(source: str | Path) -> Path:
     path = Path(source)
     if _is_file(path):
         return path
-    named = folder("scenes") / f"{path.name.removesuffix('.toml')}.toml"
-    if str(path) == path.name and _is_file(named):
+    named = folder("scenes") / f"{str(path).removesuffix('.toml')}.toml"
+    if not (path.is_absolute() or ".." in path.parts) and _is_file(named):
         return named
     if str(path) != path.name or path.suffix.lower() in PICTURES:
         return path  # meant as a path: its reader says what is wrong with it

@@ -1,10 +1,10 @@
 """What the kernel must be able to do for a scene and its settings, and nothing else."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from typing import NamedTuple
 
-from glrt.scene import Material, Scene
+from glrt.scene import Material, Metal, Scene
 from glrt.settings import Settings
 
 ROULETTE_START = 3  # bounces before the first game
@@ -71,7 +71,7 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         sample_lights=is_lit and method in ("nee", "mis"),
         weight_both=is_lit and method == "mis",
         roulette=settings.roulette and follows,
-        model=LADDER.get(method, 0),
+        model=_number_of(method, metals),
         block=settings.block,
     )
 
@@ -79,6 +79,13 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
 def has_tree(scene: Scene) -> bool:
     """Whether rays are to find spheres by a tree."""
     return sum(shape.shape == "sphere" for shape in scene.objects) >= TREE_FROM
+
+
+def _number_of(method: str, metals: Sequence[Metal]) -> int:
+    """Of the model; without highlights, the two that differ in their form are one."""
+    if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
+        return LADDER["phong"]
+    return LADDER.get(method, 0)
 
 
 def is_light(material: Material) -> bool:

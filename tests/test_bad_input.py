@@ -125,7 +125,6 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
     ),
     "compare misspelt": ("compare {tmp}/a.exr {tmp}/b.exr --strickt", ["--strickt", "--strict"]),
     "inspect nothing": ("inspect", ["SCENE"]),
-    "inspect with error": ("inspect {scene} --error 0.1", ["--error"]),
     "inspect a bad scene": ("inspect {tmp}/broken.toml", ["broken.toml", "camera"]),
     "doctor with argument": ("doctor please", ["please"]),
 }

@@ -53,6 +53,17 @@ def test_a_folder_with_the_name_of_a_scene_does_not_hide_it() -> None:
     assert load("cornell").title == "the library's cornell"
 
 
+def test_a_name_leads_into_folders_of_the_library_but_not_out_of_it(scenes: Path) -> None:
+    (scenes / "more").mkdir()
+    (scenes / "more" / "glass.toml").write_text(TOML.format(title="deeper"))
+    assert load("more/glass").title == "deeper"
+    assert load("more/glass.toml").title == "deeper"
+    with pytest.raises(SceneError):
+        load("more/../cornell")
+    with pytest.raises(SceneError):
+        load("more/cornell")
+
+
 def test_a_path_leads_anywhere(scenes: Path) -> None:
     assert load(scenes / "furnace.toml").title == "the library's furnace"
     assert load("../scenes/furnace.toml").title == "the library's furnace"

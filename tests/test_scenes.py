@@ -97,6 +97,28 @@ def test_the_weekend_has_some_480_small_balls_and_three_large_ones() -> None:
     assert len(radii) == radii.count(1.0) + radii.count(0.2)
 
 
+METHOD_SCENES = sorted((folder("scenes") / "methods").glob("*.toml"))
+
+
+def test_six_scenes_separate_the_methods_before_one_camera() -> None:
+    scenes = [load(f"methods/{file.stem}") for file in METHOD_SCENES]
+    assert len(scenes) == 6
+    assert len({scene.title for scene in scenes} - {None}) == 6
+    assert len({scene.camera for scene in scenes}) == 1
+    assert not {file.stem for file in METHOD_SCENES} & set(scene_names()), "out of the gallery"
+    for scene in scenes:
+        assert set(scene.materials) == {thing.material for thing in scene.objects}
+
+
+@pytest.mark.parametrize("file", METHOD_SCENES, ids=lambda file: file.stem)
+def test_a_scene_that_separates_methods_suits_exposure_0(file: Path, context: Context) -> None:
+    renderer = Renderer(load(file), context=context, samples=32, width=24, height=24)
+    radiance = renderer.render().image().radiance
+    assert renderer.nonfinite() == 0
+    assert 0.2 < radiance.mean() < 2
+    renderer.release()
+
+
 # --- the gallery ---------------------------------------------------------------------------
 
 

@@ -13,13 +13,14 @@ from pathlib import Path
 from glrt import files
 from glrt.context import Choice, open_context
 from glrt.errors import UsageError
+from glrt.job import Interruption
 from glrt.lab.chart_files import save_chart, save_page
 from glrt.lab.experiment import Plan, Tell, measure_scene
 from glrt.lab.plot import check_matplotlib
 from glrt.library import load
 from glrt.scene import Scene
 
-INTERRUPTED = 130
+INTERRUPTED = 128  # plus the number of the signal
 _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 
 
@@ -29,19 +30,32 @@ def chart_scenes(arguments: argparse.Namespace) -> int:
     plan = _plan(arguments)
     scenes = _scenes(arguments.scenes)
     folder = _folder(arguments.output)
-    try:
-        with _progress(arguments.quiet) as tell:
-            page = _chart(scenes, plan, folder, arguments.context, tell)
-    except KeyboardInterrupt:
-        print(
-            f"glrt: interrupted; the rounds that are done are kept in {folder}, and the same "
-            "command goes on from there.",
-            file=sys.stderr,
-        )
-        return INTERRUPTED
+    with Interruption().watched() as interruption:
+        try:
+            with _progress(arguments.quiet) as tell:
+                tell_or_stop = _stopping(tell, interruption)
+                page = _chart(scenes, plan, folder, arguments.context, tell_or_stop)
+        except KeyboardInterrupt:
+            print(
+                f"glrt: interrupted; the rounds that are done are kept in {folder}, and the same "
+                "command goes on from there.",
+                file=sys.stderr,
+            )
+            return INTERRUPTED + (interruption.signal or 0)
     if not arguments.quiet:
         print(f"Wrote {page} and the charts of {', '.join(scenes)}.", file=sys.stderr)
     return 0
+
+
+def _stopping(tell: Tell, interruption: Interruption) -> Tell:
+    """Between two runs, an interruption ends the work."""
+
+    def tell_or_stop(text: str, share: float) -> None:
+        if interruption.signal is not None:
+            raise KeyboardInterrupt
+        tell(text, share)
+
+    return tell_or_stop
 
 
 def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell) -> Path:

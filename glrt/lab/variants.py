@@ -22,14 +22,14 @@ class Variant:
 
 
 def variants_of(
-    scene: Scene, settings: Settings, methods: Sequence[str] = METHODS
+    scene: Scene, settings: Settings, methods: Sequence[str] = METHODS, leads: bool = True
 ) -> list[Variant]:
-    """Every method; then the first choice with few bounces, without roulette, by other samplers.
+    """Every method; with `leads`, LEAD with few bounces, without roulette and by other samplers.
 
     Those that one kernel renders, such as all methods where there is no lamp, are one variant.
     """
     named = [(method, {"method": method}) for method in methods]
-    if LEAD in methods:
+    if leads:
         named += _variants_of_lead(settings)
     found: dict[Any, Variant] = {}
     for name, changes in named:

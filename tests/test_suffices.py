@@ -1,0 +1,277 @@
+"""`glrt inspect --error`: the method and the bounces that it names suffice, and no cheaper do."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.cli import main
+from glrt.context import Context
+from glrt.lab import reference as references
+from glrt.lab import suffices
+from glrt.lab.advice import advice, conclusion
+from glrt.lab.reference import reference_for
+from glrt.lab.suffices import Bias, Candidate, Verdict, what_suffices
+from glrt.library import load
+from glrt.needs import LADDER
+from glrt.resources import folder
+from glrt.scene import Scene
+from glrt.settings import settings_for
+from tests.builders import MATTE, box_of_quads, lamp, quad, scene_of, sphere
+from tests.processes import glrt
+from tests.renders import rendered
+
+SIZE = 24  # pixels of a frame
+SCENES = sorted(file.stem for file in (folder("scenes") / "methods").glob("*.toml"))
+
+
+@pytest.fixture(autouse=True)
+def small_and_cached(
+    tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Frames of 24 pixels, and a cache for all tests of this file."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "suffices"))
+    monkeypatch.setattr(suffices, "HEIGHT", SIZE)
+    monkeypatch.setattr(suffices, "REFERENCE_SECONDS", 1.0)
+
+
+def verdict_on(scene: Scene, error: float, context: Context, **more: Any) -> Verdict:
+    settings = settings_for(scene.render, width=SIZE, height=SIZE)
+    return what_suffices(scene, settings, error, context, **more)
+
+
+def candidate(verdict: Verdict, method: str) -> Candidate:
+    return next(c for c in verdict.candidates if method in c.name.split(" = "))
+
+
+def furnace(albedo: float = 0.5, bounces: int = 10) -> Scene:
+    """A closed box that glows: paths longer than B carry albedo^(B+1) of the light."""
+    box = scene_of(box_of_quads("wall", 2.0), {"wall": lamp(1 - albedo, albedo)})
+    return box.model_copy(update={"render": box.render.model_copy(update={"bounces": bounces})})
+
+
+# --- bounces -------------------------------------------------------------------------------
+
+
+def test_the_light_of_longer_paths_is_the_closed_form(context: Context) -> None:
+    verdict = verdict_on(furnace(), 0.02, context)
+    for limit, bias in verdict.beyond.items():
+        if limit <= 6:
+            truth = 0.25 ** (limit + 1) / 1.01
+            assert bias.squared == pytest.approx(truth, rel=0.03, abs=4 * bias.stderr), limit
+            assert bias.stderr < 0.2 * truth
+    assert verdict.least_bounces == 5  # 0.5^6 = 1.6 %
+
+
+def test_a_limit_that_is_given_is_kept(context: Context) -> None:
+    verdict = verdict_on(furnace(), 0.3, context, bounces=2)
+    assert list(verdict.beyond) == [2]
+    assert verdict.best is not None
+    assert {candidate.settings.bounces for candidate in verdict.candidates} == {2}
+    assert verdict_on(furnace(), 0.02, context, bounces=2).best is None
+
+
+def test_a_scene_that_reflects_nothing_needs_one_bounce_and_the_cheapest_method(
+    context: Context,
+) -> None:
+    """Black surfaces: every method shows the truth."""
+    black = {"black": {"type": "lambertian", "color": [0, 0, 0]}, "lamp": lamp()}
+    scene = scene_of([sphere([0, 0, -3], 1, "lamp"), sphere([1, 0, -2], 0.5, "black")], black)
+    verdict = verdict_on(scene, 0.2, context)
+    assert verdict.least_bounces == 1
+    assert all(c.bias.value == 0 for c in verdict.candidates)
+    assert verdict.best is not None
+
+
+# --- biases --------------------------------------------------------------------------------
+
+
+def test_the_bias_of_a_model_is_what_an_independent_measurement_finds(context: Context) -> None:
+    """Direct light alone in a diffuse room: against 2048 samples of other random numbers."""
+    scene = load("methods/diffuse")
+    verdict = verdict_on(scene, 0.1, context)
+    found = candidate(verdict, "cook").bias
+    size = {"width": SIZE, "height": SIZE}
+    truth = rendered(scene, context, 2048, seed=77, bounces=64, **size).radiance.astype(float)
+    model = rendered(scene, context, 2048, seed=78, method="cook", **size).radiance.astype(float)
+    scale = np.square(truth) + 0.01 * truth.mean() ** 2
+    measured = math.sqrt(np.mean(np.square(model - truth) / scale))
+    assert found.value == pytest.approx(measured, rel=0.05)
+    assert 0.2 < found.value < 0.8
+
+
+def test_noise_is_no_bias(context: Context) -> None:
+    """A ball alone under the sky: the models are exact, and their few samples noisy at its rim."""
+    scene = scene_of(
+        [sphere([0, 0, -3], 1, "matte")],
+        {"matte": MATTE},
+        {"fov": 30},
+        background={"color": [1, 1, 1]},
+    )
+    verdict = verdict_on(scene, 0.05, context)
+    for method in LADDER:
+        bias = candidate(verdict, method).bias
+        assert bias.squared == pytest.approx(0, abs=4 * bias.stderr + 1e-12)
+        assert bias.most < 0.01
+
+
+def of_bias(bias: float, variance: float = 1.0, seconds: float = 1.0) -> Candidate:
+    settings = settings_for(furnace().render)
+    return Candidate("mis", settings, Bias(bias**2, 0.0), variance, seconds)
+
+
+def test_samples_make_up_for_the_bias() -> None:
+    assert of_bias(0.0).samples_to(0.1) == pytest.approx(100, abs=1)
+    assert of_bias(0.06).samples_to(0.1) == pytest.approx(1 / 0.0064, abs=1)
+    assert of_bias(0.1).samples_to(0.1) is None
+    assert of_bias(0.0, variance=1e-9).samples_to(0.1) == 1
+    assert of_bias(0.2).seconds_to(0.1) == math.inf
+
+
+# --- the choice ----------------------------------------------------------------------------
+
+
+def reaches(scene: Scene, verdict: Verdict, context: Context, slack: float) -> bool:
+    """Whether renders with the choice have that error, by a reference of other random numbers."""
+    best = verdict.best
+    assert best is not None
+    samples = best.samples_to(verdict.error)
+    truth = reference_for(scene, best.settings, context, 0.25 * verdict.error, 3.0)
+    chosen = best.settings.model_dump(include={"width", "height", "bounces", "method"})
+    squares = [
+        truth.squared_error(rendered(scene, context, samples or 1, seed=seed, **chosen).radiance)
+        for seed in range(90, 94)
+    ]
+    return math.sqrt(np.mean(squares)) <= slack * verdict.error
+
+
+def no_cheaper_one_would(verdict: Verdict) -> bool:
+    """Whether all that are faster a sample, by more than chance, are known to miss the error."""
+    best = verdict.best
+    assert best is not None
+    faster = [
+        c
+        for c in verdict.candidates
+        if 1.5 * c.seconds_to(verdict.error) < best.seconds_to(verdict.error)
+    ]
+    return not faster
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_choice_reaches_the_error_on_scenes_that_separate_methods(
+    context: Context, name: str
+) -> None:
+    """25 %; the variance is known to a quarter or so, half of that in the error: 1.25."""
+    scene = load(f"methods/{name}")
+    verdict = verdict_on(scene, 0.25, context)
+    assert reaches(scene, verdict, context, slack=1.25)
+    assert no_cheaper_one_would(verdict)
+
+
+# --- words ---------------------------------------------------------------------------------
+
+
+def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
+    context: Context,
+) -> None:
+    scene = load("methods/glass")
+    verdict = verdict_on(scene, 0.2, context)
+    text = "\n".join(advice(scene, verdict))
+    assert text.startswith("For an error of 20 % (relative RMS), measured on 24 x 24 pixels")
+    assert text.count("the fewest that keep it below") == 1
+    for words in ("whitted", "no indirect light", "glass is black", "light beyond"):
+        assert words in text
+    assert text.endswith(conclusion(verdict))
+    assert conclusion(verdict).startswith("Enough: `")
+
+
+def test_an_error_beyond_reach_is_told(context: Context) -> None:
+    verdict = verdict_on(furnace(), 1e-4, context, bounces=1)
+    assert conclusion(verdict).startswith("Nothing is known to reach 0.01 %")
+
+
+def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
+    size = ("--width", "16", "--height", "16")
+    said = glrt("inspect", "methods/open", *size, "--error", "0.5").stdout.splitlines()
+    assert said[-1].startswith("Enough: `")
+    picture = tmp_path / "a.png"
+    done = glrt(
+        "render", "methods/open", "-o", picture, *size, "--method", "auto", "--error", "0.5"
+    )
+    assert done.returncode == 0
+    assert done.stderr.startswith("Enough: `")
+    chosen = done.stderr.split("`")[1]
+    again = glrt("inspect", picture)
+    assert f"method {chosen}," in again.stdout, "the recipe names the method that was chosen"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["render", "sky", "-o", "a.png", "--method", "auto"], "give --error E"),
+        (["inspect", "sky", "--error", "0"], "--error must be a number above 0"),
+        (["inspect", "sky", "--error", "nan"], "--error must be a number above 0"),
+        (["inspect", "sky", "--method", "auto"], "invalid choice"),
+    ],
+)
+def test_a_bad_command_is_refused_in_a_paragraph(
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    assert message in capsys.readouterr().err
+
+
+# --- twenty random scenes ------------------------------------------------------------------
+
+
+def random_scene(seed: int) -> Scene:
+    """A floor or a room, some balls of any material, a lamp of any size, at times a sky."""
+    draw = np.random.default_rng(seed)
+
+    def color(low: float, high: float) -> list[float]:
+        return [round(float(x), 3) for x in draw.uniform(low, high, 3)]
+
+    kinds: list[dict[str, Any]] = [
+        {"type": "lambertian", "color": color(0.1, 0.9)},
+        {"type": "metal", "color": color(0.5, 0.95)},
+        {"type": "metal", "color": color(0.5, 0.95), "roughness": float(draw.uniform(0.3, 0.8))},
+        {"type": "dielectric", "ior": 1.5},
+    ]
+    materials = {"floor": {"type": "lambertian", "color": color(0.1, 0.8)}}
+    materials |= {f"ball {i}": kinds[draw.choice(4, p=[0.55, 0.15, 0.15, 0.15])] for i in range(3)}
+    objects = [quad([-3, -1, -8], [0, 0, 8], [6, 0, 0], "floor")]
+    objects += [
+        sphere([x, -0.5, -4 + draw.uniform(-0.5, 0.5)], 0.5, f"ball {i}")
+        for i, x in enumerate((-1.2, 0.0, 1.2))
+    ]
+    if draw.random() < 0.5:
+        objects.append(quad([-3, -1, -6], [6, 0, 0], [0, 4, 0], "floor"))
+    size = float(draw.choice([0.3, 0.8, 1.5]))
+    materials["lamp"] = lamp(6 / size**2)
+    objects.append(quad([-size / 2, 2.5, -4], [size, 0, 0], [0, 0, size], "lamp"))
+    sky = {"color": color(0.2, 0.6)} if draw.random() < 0.4 else {"color": [0.02, 0.02, 0.02]}
+    used = {name: m for name, m in materials.items() if any(o["material"] == name for o in objects)}
+    return scene_of(objects, used, {"fov": 50}, background=sky)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+def test_the_choice_is_right_in_nineteen_of_twenty_random_scenes(context: Context) -> None:
+    right = 0
+    for seed in range(20):
+        scene = random_scene(seed)
+        error = (0.1, 0.2, 0.4)[seed % 3]
+        verdict = verdict_on(scene, error, context)
+        right += reaches(scene, verdict, context, slack=1.25) and no_cheaper_one_would(verdict)
+    assert right >= 19
+
+
+def test_the_reference_is_another_than_the_one_that_the_choice_was_made_by() -> None:
+    assert not set(references.SEEDS) & set(suffices.SEEDS)
