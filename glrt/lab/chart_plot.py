@@ -9,33 +9,26 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from glrt import files
 from glrt.lab.chart_words import ending, percent, speed_up
 from glrt.lab.curves import LEVELS, Curve, front
 from glrt.lab.experiment import Experiment
+from glrt.lab.plot import FORMATS, open_figure, save_figure
 
 MARKERS = "os^Dv<>ph*XPd"
 BLACK, GREY, PALE = "black", "0.62", "0.85"
-SIZE = (13.0, 7.0)  # inches, of 100 pixels
+SIZE = (12.0, 6.5)  # inches
 FONT = 13  # points
 
 
 def save_plots(experiment: Experiment, stem: Path) -> None:
     """Write STEM.svg and STEM.png."""
-    from matplotlib import rc_context
-
-    style: Any = {"font.size": FONT, "svg.hashsalt": "glrt", "svg.fonttype": "none"}
-    with rc_context(style):
-        figure = _figure(experiment)
-        for suffix in (".svg", ".png"):
-            path = stem.with_name(stem.name + suffix)
-            files.write_whole(path, lambda file: figure.savefig(file, dpi=100))
+    with open_figure(SIZE, FONT) as figure:
+        _fill(figure, experiment)
+        for suffix in FORMATS:
+            save_figure(figure, stem.with_name(stem.name + suffix))
 
 
-def _figure(experiment: Experiment) -> Any:
-    from matplotlib.figure import Figure
-
-    figure = Figure(SIZE, layout="constrained")
+def _fill(figure: Any, experiment: Experiment) -> None:
     times, rays = figure.subplots(1, 2, sharey=True, width_ratios=[3, 2])
     width, height = experiment.size
     figure.suptitle(f"{experiment.title}: {width} x {height} pixels", weight="bold")
@@ -47,7 +40,6 @@ def _figure(experiment: Experiment) -> Any:
     _mark_levels(rays, [])
     _name_curves(times, experiment.curves)
     figure.supxlabel(experiment.place, x=0.99, ha="right", size=FONT - 4)
-    return figure
 
 
 def _milliseconds(experiment: Experiment) -> list[list[float]]:
@@ -90,12 +82,13 @@ def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
         if not bottom < level < top:
             continue
         axes.axhline(level, color=GREY, ls=":", lw=1.2, zorder=0)
-        if gain := speed_up(curves, level):
-            label = {"size": FONT - 3, "va": "bottom", "zorder": 6}
-            axes.text(left * 1.05, level, f"{percent(level)}: {gain.text}", **label)
-            if gain.fast < right:
-                ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
-                axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})
+        gain = speed_up(curves, level)
+        text = f"{percent(level)}: {gain.text}" if gain else percent(level)
+        if curves:
+            axes.text(left * 1.05, level, text, size=FONT - 3, va="bottom", zorder=6)
+        if gain and gain.fast < right:
+            ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
+            axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})
 
 
 def _name_curves(axes: Any, curves: Sequence[Curve]) -> None:

@@ -80,18 +80,18 @@ def check_matplotlib() -> None:
 
 def save_chart(chart: Chart, path: Path) -> None:
     """Write one chart, in the format that the suffix names: .svg or .png."""
-    with _figure((7.2, 5.0)) as figure:
+    with open_figure((7.2, 5.0)) as figure:
         axes = figure.subplots()
         _draw(axes, chart)
         figure.legend(loc="outside lower left", ncols=1)
-        _save(figure, path)
+        save_figure(figure, path)
 
 
 def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4) -> None:
     """Write all charts side by side, each with its own legend."""
     rows = -(-len(charts) // columns)
     columns = min(columns, len(charts))
-    with _figure((4.1 * columns, 3.7 * rows + 0.4)) as figure:
+    with open_figure((4.1 * columns, 3.7 * rows + 0.4)) as figure:
         figure.suptitle(title, x=0.01, ha="left", fontsize=14)
         grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
         for axes, chart in zip(grid, charts, strict=False):
@@ -100,17 +100,17 @@ def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4
             axes.yaxis.label.set_size(8.5)
         for axes in grid[len(charts) :]:
             axes.set_axis_off()
-        _save(figure, path)
+        save_figure(figure, path)
 
 
 @contextmanager
-def _figure(size: tuple[float, float]) -> "Iterator[Figure]":
-    """An empty figure, `size` in inches, in the house style."""
+def open_figure(size: tuple[float, float], font: float = 10.0) -> "Iterator[Figure]":
+    """An empty figure, `size` in inches, in the house style; `font` in points."""
     check_matplotlib()
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    with rc_context(_LOOK):
+    with rc_context({**_LOOK, "font.size": font}):
         yield Figure(size, layout="constrained")
 
 
@@ -152,7 +152,8 @@ def _bottom(curves: Sequence[Curve]) -> float:
     return float(10 ** (np.floor(np.log10(min(positive))) - 1)) if positive else 1.0
 
 
-def _save(figure: "Figure", path: Path) -> None:
+def save_figure(figure: "Figure", path: Path) -> None:
+    """Write a figure whole, in the format that the suffix names: .svg or .png."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         raise UsageError(f"Cannot write {path}: the name of a chart ends in .svg or .png.")
