@@ -8,7 +8,7 @@ SCENE ?= cornell
 BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
 IN_ENVIRONMENT = .venv/bin/python -m
 
-.PHONY: help render view test check gallery bench mutants clean
+.PHONY: help render view test check gallery bench charts mutants clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
@@ -39,6 +39,10 @@ bench: ## measure how fast the kernel and its variants are, and other renderers
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.bench
 	$(IN_ENVIRONMENT) glrt.lab.rivals
+
+charts: ## measure error against time on six scenes that separate the methods, into docs/chart/
+	@$(BOOTSTRAP) test
+	.venv/bin/glrt chart scenes/methods/*.toml -o docs/chart
 
 mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
 	@$(BOOTSTRAP) test

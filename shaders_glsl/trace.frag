@@ -13,6 +13,7 @@
 #include "material.glsl"
 #include "strips.glsl"
 #include "light.glsl"
+#include "ladder.glsl"
 #include "path.glsl"
 #include "film.glsl"
 #include "samples.glsl"

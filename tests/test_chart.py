@@ -13,7 +13,7 @@ from PIL import Image
 
 from glrt.cli import main
 from glrt.context import Context
-from glrt.lab import plot
+from glrt.lab import chart_plot, experiment, plot
 from glrt.lab.experiment import Plan, measure_scene
 from glrt.lab.measure import Bench, of_variant
 from glrt.lab.rays import rays_per_sample
@@ -164,6 +164,25 @@ def test_progress_has_a_share_that_grows_to_one(
     assert shares[-1] == pytest.approx(1)
     assert told[0][0] == "sky: reference"
     assert told[-1][0] == "sky: round 2 of 2"
+
+
+def test_labels_move_apart_as_little_as_it_takes() -> None:
+    assert chart_plot._spread([0.1, 0.5, 0.9], 0.1) == pytest.approx([0.1, 0.5, 0.9])
+    assert chart_plot._spread([0.5, 0.5, 0.5], 0.1) == pytest.approx([0.4, 0.5, 0.6])
+    spread = chart_plot._spread([0.0, 0.3, 0.31, 0.32, 0.9], 0.1)
+    assert spread == pytest.approx([0.0, 0.21, 0.31, 0.41, 0.9])
+
+
+def test_variants_beyond_the_loop_limit_are_left_out(
+    context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(experiment, "usable_rounds", lambda _context, _rounds: 300)
+    scene = load("cornell")
+    result = measure_scene("c", scene, Plan(8, 2, 0.1), context, tmp_path / "r", lambda *_: None)
+    names = [curve.name for curve in result.curves]
+    assert "mis" in names
+    assert "mis, 80 bounces" not in names
 
 
 # --- what is measured ----------------------------------------------------------------------

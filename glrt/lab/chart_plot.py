@@ -7,6 +7,7 @@ at the end of their curve, what is on the Pareto front is black, and everything 
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from statistics import fmean
 from typing import Any
 
 from glrt.lab.chart_words import ending, percent, speed_up
@@ -115,12 +116,15 @@ def _name_curves(axes: Any, curves: Sequence[Curve]) -> None:
 
 
 def _spread(heights: Sequence[float], gap: float = 0.055) -> list[float]:
-    """Ascending heights moved apart to `gap`, as little as that takes, within 0 to 1."""
-    placed: list[float] = []
-    for height in heights:
-        placed.append(max(height, placed[-1] + gap) if placed else max(height, 0.0))
-    limit = 1.0
-    for index in range(len(placed) - 1, -1, -1):
-        placed[index] = min(placed[index], limit)
-        limit = placed[index] - gap
-    return placed
+    """Ascending heights moved apart to `gap`, as little as that takes: clusters keep their middle.
+
+    Less their share of gaps, the heights must not fall: pools of neighbours that do take their
+    mean (isotonic regression).
+    """
+    pools: list[list[float]] = []
+    for place, height in enumerate(heights):
+        pools.append([height - place * gap])
+        while len(pools) > 1 and fmean(pools[-2]) >= fmean(pools[-1]):
+            pools[-2:] = [pools[-2] + pools[-1]]
+    level = [fmean(pool) for pool in pools for _ in pool]
+    return [value + place * gap for place, value in enumerate(level)]

@@ -69,7 +69,7 @@ def sentences(experiment: Experiment) -> Iterator[str]:
     yield from (_winner(experiment.curves, level) for level in LEVELS)
     yield from _biases(experiment.curves)
     yield _front(experiment.curves)
-    yield _slopes(experiment.curves)
+    yield from _slopes(experiment.curves)
     yield _reference(experiment)
 
 
@@ -95,9 +95,9 @@ def _introduction(experiment: Experiment) -> Iterator[str]:
         f"Measured by {experiment.place}. The error is the relative RMS error over pixels and "
         "channels against a reference; a time is that of all dispatches of a picture, without "
         "compiling. Every round runs each variant once, in another order and with other random "
-        "numbers: times are medians, errors and slopes have 95 % intervals over the rounds. A time "
-        "after `~` lies beyond what was measured. Black in the charts is what nothing else beats "
-        "in both time and error."
+        "numbers: times are medians; errors and slopes have 95 % intervals over the rounds, of "
+        "which one in twenty misses the truth by chance. A time after `~` lies beyond what was "
+        "measured. Black in the charts is what nothing else beats in both time and error."
     )
     yield ""
 
@@ -108,8 +108,8 @@ def _winner(curves: Sequence[Curve], level: float) -> str:
         return f"Nothing reaches {percent(level)}."
     time, name, measured = known[0]
     text = f"{percent(level)} is reached first by `{name}`, after {_time((time, measured))} ms"
-    others = [f"`{who}` takes {number(other / time)} times that" for other, who, _ in known[1:]]
-    return f"{text}; {', '.join(others)}." if others else f"{text}, and by nothing else."
+    others = [f"`{who}` ({number(other / time)} x)" for other, who, _ in known[1:]]
+    return f"{text}; then by {', '.join(others)}." if others else f"{text}, and by nothing else."
 
 
 def _times_to(curves: Sequence[Curve], level: float) -> list[tuple[float, str, bool]]:
@@ -131,9 +131,10 @@ def _front(curves: Sequence[Curve]) -> str:
     return f"The best for its time is, from quick to slow, {ordered}."
 
 
-def _slopes(curves: Sequence[Curve]) -> str:
+def _slopes(curves: Sequence[Curve]) -> Iterator[str]:
     fitted = [f"`{c.name}` {_slope(c.slope)}" for c in curves if c.slope and not c.is_biased]
-    return f"Slopes of error over samples (-0.5: independent): {', '.join(fitted)}."
+    if fitted:
+        yield f"Slopes of error over samples (-0.5: independent): {', '.join(fitted)}."
 
 
 def _reference(experiment: Experiment) -> str:

@@ -13,6 +13,8 @@ from glrt.lab.reference import Reference, reference_for
 from glrt.lab.rounds import key_of, load_rounds, save_rounds
 from glrt.lab.variants import Variant, variants_of
 from glrt.scene import Scene
+from glrt.schedule import iterations_per_sample
+from glrt.selftest import usable_rounds
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
 
@@ -56,7 +58,11 @@ def measure_scene(
 ) -> Experiment:
     """Measure a scene, going on from the rounds that the file holds already."""
     settings = frame_of(scene, plan.height)
-    variants = variants_of(scene, settings)
+    variants = [
+        variant
+        for variant in variants_of(scene, settings)
+        if _is_possible(scene, variant.settings, context)
+    ]
     place = f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors"
     allowed = REFERENCE_SHARE * plan.seconds
     whole = allowed + plan.seconds
@@ -87,6 +93,13 @@ def frame_of(scene: Scene, height: int) -> Settings:
     wish = scene.render
     width = max(1, round(height * wish.width / wish.height))
     return settings_for(wish, width=width, height=height)
+
+
+def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
+    """Whether one sample fits into the driver's loop limit."""
+    rounds = iterations_per_sample(scene, settings)
+    usable = usable_rounds(context, rounds)
+    return usable is None or rounds <= usable
 
 
 def _rounds_to_come(

@@ -10,7 +10,7 @@ from glrt.settings import Method, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
-FEW_BOUNCES = (1, 2, 5)
+FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Variant:
 def variants_of(
     scene: Scene, settings: Settings, methods: Sequence[str] = METHODS, leads: bool = True
 ) -> list[Variant]:
-    """Every method; with `leads`, LEAD with few bounces, without roulette and by other samplers.
+    """Every method; with `leads`, LEAD with few and many bounces, without roulette, by samplers.
 
     Those that one kernel renders, such as all methods where there is no lamp, are one variant.
     """
@@ -43,10 +43,10 @@ def variants_of(
 
 
 def _variants_of_lead(settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
-    for bounces in FEW_BOUNCES:
-        if bounces < settings.bounces:
-            plural = "" if bounces == 1 else "s"
-            yield f"{LEAD}, {bounces} bounce{plural}", {"method": LEAD, "bounces": bounces}
+    few = [bounces for bounces in FEW_BOUNCES if bounces < settings.bounces]
+    for bounces in [*few, min(MANY_TIMES * settings.bounces, MOST_BOUNCES)]:
+        plural = "" if bounces == 1 else "s"
+        yield f"{LEAD}, {bounces} bounce{plural}", {"method": LEAD, "bounces": bounces}
     if settings.roulette:
         yield f"{LEAD}, no roulette", {"method": LEAD, "roulette": False}
     for sampler in get_args(Settings.model_fields["sampler"].annotation):
