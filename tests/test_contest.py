@@ -10,6 +10,7 @@ import pytest
 from glrt.lab import rivals
 from glrt.lab.contest import Factor, Runs, lead_of, seconds_to
 from glrt.lab.rivals import Contender, interleaved, main, scene_named
+from glrt.lab.starts import starts
 from glrt.scene import Dielectric
 from tests.alarms import book
 
@@ -105,6 +106,29 @@ serve("Painter 2", render)
 """
 
 
+PAINTER = """
+import sys, time
+assert sys.argv[1] == "cornell"
+hoard = bytearray(200 << 20)
+time.sleep(0.1)
+open(sys.argv[-1], "w").close()
+"""
+
+
+def test_a_start_is_timed_whole_with_its_memory() -> None:
+    mine = np.ones(400 << 20, np.uint8)  # memory of the process that starts it does not count
+    programs = {
+        "painter": [sys.executable, "-c", PAINTER],
+        "broken": [sys.executable, "-c", "raise SystemExit(3)"],
+        "idle": [sys.executable, "-c", ""],
+    }
+    found = starts(programs, 2)
+    assert list(found) == ["painter"]
+    assert mine.all()
+    assert found["painter"].seconds > 0.1
+    assert 200 << 20 < found["painter"].peak < 300 << 20
+
+
 def test_figures_are_printed_and_saved_and_absent_peers_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -112,13 +136,16 @@ def test_figures_are_printed_and_saved_and_absent_peers_named(
     absent = [sys.executable, "-c", "raise SystemExit('no adapter')"]
     peers = {"Mitsuba": [sys.executable, "-c", FLAT_AND_SLOW], "WGSL": absent}
     monkeypatch.setattr(rivals, "PEERS", peers)
+    monkeypatch.setattr(rivals, "PROGRAMS", {"glrt": [sys.executable, "-c", PAINTER]})
     file = tmp_path / "rivals.json"
     line = "--scenes sky --size 16 --rounds 3 --seconds 0.005 --json"
     assert main([*line.split(), str(file)]) == 0
     printed = capsys.readouterr()
     assert "Without WGSL: no adapter" in printed.err
     assert "Painter 2" in printed.out
-    rows = json.loads(file.read_text())["rows"]
+    saved = json.loads(file.read_text())
+    rows = saved["rows"]
+    assert f"| glrt | {saved['first pictures']['glrt']['seconds']:.2f} s |" in printed.out
     names = ["glrt mis, independent", "glrt mis, sobol", "Mitsuba", "glrt naive"]
     assert [
         row["renderer"].partition(", no roul")[0].partition(", roul")[0] for row in rows

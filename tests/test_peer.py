@@ -7,9 +7,12 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
+from glrt.context import Context
 from glrt.errors import RenderError
 from glrt.lab.peer import Peer, Request
 from tests.builders import MATTE, scene_of, sphere
+from tests.renders import rendered
+from tests.wgsl.device import Device
 
 SERVER = """
 import os, sys
@@ -31,7 +34,8 @@ def render(request):
 
 serve("Painter 2", render)
 """
-SCENE = scene_of([sphere([0, 0, -3], 1, "matte")], {"matte": MATTE}, {"fov": 30.0})
+SKY = {"color": [1.0, 2.0, 3.0]}
+SCENE = scene_of([sphere([0, 0, -3], 1, "matte")], {"matte": MATTE}, {"fov": 30.0}, background=SKY)
 
 
 def request(seed: int) -> Request:
@@ -82,3 +86,18 @@ def test_the_end_of_a_peer_is_told_by_its_last_words() -> None:
 def test_a_peer_that_does_not_start_says_why(program: str, reason: str) -> None:
     with pytest.raises(RenderError, match=f"^{reason}$"):
         Peer([sys.executable, "-c", program])
+
+
+def test_the_wgsl_version_is_a_peer(context: Context, webgpu: Device) -> None:
+    assert webgpu
+    peer = Peer([sys.executable, "-m", "tests.wgsl.serve"])
+    try:
+        image, seconds = peer.render(request(5))
+    finally:
+        peer.close()
+    settings = {"method": "naive", "roulette": False, "bounces": 1, "seed": 5}
+    ours = rendered(SCENE, context, 8, width=4, height=3, **settings)
+    assert peer.name.startswith("WGSL, ")
+    assert seconds > 0
+    assert image.radiance.std() > 0.1
+    assert np.allclose(image.radiance, ours.radiance, rtol=1e-5)

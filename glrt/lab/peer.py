@@ -32,6 +32,7 @@ class Request:
     seed: int
     roulette: bool = True
     one_sided: bool = False  # quads that emit light do so along their normal alone
+    finite: bool = False  # planes may end far away
     batches: int = 1  # the picture knows its errors from so many parts: of 1, it does not
 
     @classmethod

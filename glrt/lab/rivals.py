@@ -1,9 +1,9 @@
 """glrt against other renderers, in time to an error of 2 %, at 128 x 128 pixels on this machine.
 
 Mitsuba 3, on the CPU by LLVM, gets every advantage that its users would give it: light sampling,
-roulette or none, whichever is better, and lamps of one side where nobody sees the other. The WGSL
-version is what glrt is the OpenGL fallback of: both scatter alone. A renderer that is not installed
-is left out, and named.
+roulette or none, whichever is better, lamps of one side where nobody sees the other, and planes of
+two triangles. The WGSL version is what glrt is the OpenGL fallback of: both scatter alone. A
+renderer that is not installed is left out, and named.
 """
 
 import argparse
@@ -24,6 +24,8 @@ from glrt.context import Context, open_context
 from glrt.errors import GlrtError, RenderError
 from glrt.lab.contest import Array, Lead, Runs, lead_of, seconds_to
 from glrt.lab.peer import Peer, Request
+from glrt.lab.starts import PROGRAMS, starts
+from glrt.lab.starts import table as starts_table
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Dielectric, Lambertian, Scene
@@ -31,7 +33,8 @@ from glrt.version import VERSION
 
 TARGET_ERROR = 0.02
 ROUNDS_OF_TRIAL = 6  # in which Mitsuba's roulette is chosen
-LEVEL_SECONDS = 4.0  # for a picture with little noise
+ROUNDS_OF_STARTS = 5
+LEVEL_SECONDS = 2.0  # for a picture with little noise
 MITSUBA, WGSL = "Mitsuba", "WGSL"
 PEERS = {
     MITSUBA: [sys.executable, "-m", "tests.mitsuba.serve"],
@@ -99,32 +102,13 @@ class Contest:
             rivals = []
             if MITSUBA in self._peers:
                 rivals = [self._mitsuba(name, scene, level, seconds)]
-            yield from self._duel(name, ours, rivals, level, seconds)
+            runs = interleaved([*ours, *rivals], self._rounds, seconds)
+            yield from _rows(name, runs, bool(rivals), level)
             ours = [stack.enter_context(self._glrt(scene, "naive", roulette=False))]
             rivals = [self._peer(WGSL, scene, WGSL)] if WGSL in self._peers else []
-            yield from self._duel(name, ours, rivals, level, seconds)
-
-    def _duel(
-        self,
-        name: str,
-        ours: list[Contender],
-        rivals: list[Contender],
-        level: Array,
-        seconds: float,
-    ) -> Iterator[Row]:
-        runs = interleaved([*ours, *rivals], self._rounds, seconds)
-        rival = runs[-1] if rivals else None
-        for each in runs:
-            ahead = rival if each is not rival else None
-            yield Row(
-                scene=name,
-                renderer=each.renderer,
-                samples_per_second=float(np.median(each.rates)),
-                relative_variance=float(each.variances(level).mean()),
-                seconds_to_target=seconds_to(TARGET_ERROR, each, level),
-                rival=ahead.renderer if ahead else None,
-                lead=lead_of(each, ahead, level) if ahead else None,
-            )
+            rounds = max(self._rounds // 3, 2)  # they differ in speed alone
+            runs = interleaved([*ours, *rivals], rounds, seconds)
+            yield from _rows(name, runs, bool(rivals), level)
 
     @contextmanager
     def _glrt(self, scene: Scene, method: str, **settings: Any) -> Iterator[Contender]:
@@ -146,7 +130,7 @@ class Contest:
 
     def _mitsuba(self, name: str, scene: Scene, level: Array, seconds: float) -> Contender:
         """With or without roulette: what a first trial finds better."""
-        asked = {"one_sided": name in BACKS_UNSEEN}
+        asked = {"one_sided": name in BACKS_UNSEEN, "finite": True}
         both = [
             self._peer(MITSUBA, scene, f"Mitsuba, {text}", roulette=roulette, **asked)
             for text, roulette in (("roulette", True), ("no roulette", False))
@@ -164,6 +148,22 @@ class Contest:
             return image.radiance, seconds
 
         return Contender(name, render)
+
+
+def _rows(name: str, runs: list[Runs], has_rival: bool, level: Array) -> Iterator[Row]:
+    """The last of them is the rival, if there is one."""
+    rival = runs[-1] if has_rival else None
+    for each in runs:
+        ahead_of = rival if each is not rival else None
+        yield Row(
+            scene=name,
+            renderer=each.renderer,
+            samples_per_second=float(np.median(each.rates)),
+            relative_variance=float(each.variances(level).mean()),
+            seconds_to_target=seconds_to(TARGET_ERROR, each, level),
+            rival=ahead_of.renderer if ahead_of else None,
+            lead=lead_of(each, ahead_of, level) if ahead_of else None,
+        )
 
 
 def interleaved(contenders: list[Contender], rounds: int, seconds: float) -> list[Runs]:
@@ -226,8 +226,15 @@ def main(arguments: list[str] | None = None) -> int:
                 print(f"{name} ...", file=sys.stderr)
                 rows += contest.rows(name, parsed.seconds)
         print("\n".join(table(rows)))
+        first = starts(PROGRAMS, ROUNDS_OF_STARTS)
+        print("\n" + "\n".join(starts_table(first)))
         if parsed.json:
-            figures = {"place": place, "work": work, "rows": [_plain(row) for row in rows]}
+            figures = {
+                "place": place,
+                "work": work,
+                "rows": [_plain(row) for row in rows],
+                "first pictures": {name: start._asdict() for name, start in first.items()},
+            }
             files.write_text(parsed.json, json.dumps(figures, indent=1) + "\n")
     except GlrtError as error:
         print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)

@@ -9,6 +9,7 @@ from glrt.errors import GlrtError
 from glrt.image import check_writable
 from glrt.library import load
 from glrt.settings import Settings, settings_for
+from tests.mitsuba.convert import Liberties
 from tests.mitsuba.engine import Engine, load_mitsuba
 
 
@@ -29,7 +30,8 @@ def render(arguments: argparse.Namespace) -> int:
     given = {name: value for name, value in given.items() if value is not None}
     settings = settings_for(scene.render, **given)
     mi = load_mitsuba(arguments.variant)
-    engine = Engine(mi, scene, settings, arguments.one_sided, arguments.roulette_depth)
+    liberties = Liberties(arguments.one_sided, arguments.finite)
+    engine = Engine(mi, scene, settings, liberties)
     start = time.perf_counter()
     image = engine.image(settings.samples, settings.seed)
     seconds = time.perf_counter() - start
@@ -62,8 +64,8 @@ def _parser() -> argparse.ArgumentParser:
             add("--roulette", action=argparse.BooleanOptionalAction, help=text)
         else:
             add(f"--{name}", type=int, metavar="N", help=text)
-    add("--roulette-depth", type=int, default=5, metavar="N", help="where it starts (default: 5)")
     add("--one-sided", action="store_true", help="quads light their front alone")
+    add("--finite", action="store_true", help="planes end far away, before the horizon")
     add("--variant", choices=["auto", "llvm", "scalar"], default="auto", help="how Mitsuba runs")
     add("--json", action="store_true", help="one line of figures on stdout")
     return parser

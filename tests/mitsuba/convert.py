@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,23 +13,31 @@ from tests.mitsuba import metal
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
 from tests.mitsuba.near import EXTENT, Near, Vector, corners, length, near, normal_of, unit
 
-NEVER = 1 << 30  # the depth at which roulette starts if it never does
+ROULETTE_DEPTH = 5  # where it starts by Mitsuba's own choice
+NEVER = 1 << 30
 
 # In lengths of Mitsuba's coordinates. A plane becomes a grid so large that the gap to the horizon
-# is a small part of a pixel. Its cells grow outwards, since Mitsuba knows a point on a triangle to
-# a part of the triangle's size.
-GRID = EXTENT * np.array([-(2**20), -(2**15), -(2**10), -32, -1, 1, 32, 2**10, 2**15, 2**20])
+# is a small part of a pixel. Its outer cells are larger, since Mitsuba knows a point on a triangle
+# to a part of the triangle's size; few, since they cost it time.
+GRID = EXTENT * np.array([-(2.0**15), -8.0, 8.0, 2.0**15])
+CELL = EXTENT * np.array([-1000.0, 1000.0])  # of a plane that may end
 GAP = 5e-6 * EXTENT  # between the two faces of a lamp
-CLIP = (1e-3, 2**20 * EXTENT)  # from the lens; Mitsuba renders nothing before it and beyond
+CLIP = (1e-3, 2.0**20 * EXTENT)  # from the lens; Mitsuba renders nothing before it and beyond
 SKY_ROWS = 512  # from pole to pole: the gradient is then right to 3e-6 of its range
 
 Words = dict[str, Any]
 
 
-def convert(mi: Any, scene: Scene, settings: Settings, roulette: int, one_sided: bool) -> Words:
+class Liberties(NamedTuple):
+    """What makes Mitsuba faster, and may hardly show."""
+
+    one_sided: bool = False  # quads light their front alone
+    finite: bool = False  # planes end far away, before the horizon
+
+
+def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> Words:
     """The scene for Mitsuba, whose variant is set.
 
-    Paths meet roulette from the depth `roulette` on. `one_sided` quads light their front alone.
     Raises SceneError for what Mitsuba cannot show: coincident faces, and lamps without end.
     """
     refuse_coincident(scene)
@@ -40,14 +48,14 @@ def convert(mi: Any, scene: Scene, settings: Settings, roulette: int, one_sided:
         "integrator": {
             "type": "path",
             "max_depth": settings.bounces + 1,  # Mitsuba counts segments
-            "rr_depth": roulette,
+            "rr_depth": ROULETTE_DEPTH if settings.roulette else NEVER,
         },
         "camera": _camera(mi, scene, settings, at),
     }
     if any(map(any, scene.background_colors)):
         words["background"] = _background(mi, *scene.background_colors)
     for index, item in enumerate(scene.objects):
-        for side, part in enumerate(_shape(mi, scene, item, at, one_sided)):
+        for side, part in enumerate(_shape(mi, scene, item, at, liberties)):
             words[f"object {index} {side}"] = part
     return words
 
@@ -91,16 +99,17 @@ def _background(mi: Any, bottom: Radiance, top: Radiance) -> Words:
     return {"type": "envmap", "bitmap": mi.Bitmap(pixels)}
 
 
-def _shape(mi: Any, scene: Scene, item: Any, at: Near, one_sided: bool) -> Iterator[Any]:
+def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> Iterator[Any]:
     """The shape, or its two faces."""
     if isinstance(item, Sphere):
         yield from _sphere(scene, item, at)
     elif isinstance(item, Plane):
         if isinstance(scene.materials[item.material], Light):
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
-        yield _mesh(mi, _surface(scene, item.material), *_grid(item, at))
+        grid = _grid(item, at, CELL if liberties.finite else GRID)
+        yield _mesh(mi, _surface(scene, item.material), *grid)
     elif any(scene.emission(item.material)):
-        for side in (1,) if one_sided else (1, -1):
+        for side in (1,) if liberties.one_sided else (1, -1):
             yield _quad(mi, _surface(scene, item.material), item, at, side * GAP / 2)
     else:
         yield _quad(mi, _surface(scene, item.material), item, at, 0.0)
@@ -114,13 +123,13 @@ def _sphere(scene: Scene, item: Sphere, at: Near) -> Iterator[Words]:
         yield {**ball, "radius": radius - GAP, "flip_normals": True}
 
 
-def _grid(item: Plane, at: Near) -> tuple[Vector, list[list[int]]]:
+def _grid(item: Plane, at: Near, lines: Vector) -> tuple[Vector, list[list[int]]]:
     """Points and triangles of a plane, around the foot of the origin."""
     normal = normal_of(item)
     u = unit(np.cross(normal, np.eye(3)[np.abs(normal).argmin()]))
     foot = np.dot(at.point(item.point), normal) * normal
-    points = [foot + x * u + y * np.cross(normal, u) for y in GRID for x in GRID]
-    side = len(GRID)
+    points = [foot + x * u + y * np.cross(normal, u) for y in lines for x in lines]
+    side = len(lines)
     cells = [y * side + x for y in range(side - 1) for x in range(side - 1)]
     first = [[cell, cell + 1, cell + side + 1] for cell in cells]
     second = [[cell, cell + side + 1, cell + side] for cell in cells]

@@ -13,12 +13,13 @@ from glrt.recipe import Recipe
 from glrt.scene import Scene
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
-from tests.mitsuba.convert import NEVER, convert
+from tests.mitsuba.convert import Liberties, convert
 
 LLVM = "libLLVM.so.19.1"  # with 15 and 16, Mitsuba ends the process; 14 it refuses
 LLVM_PACKAGE = "libllvm19"
 
 BATCHES = 64  # at most: their spread tells the error
+EXACT = Liberties()
 MOST_PATHS = 1 << 20  # at a time, which bounds memory
 
 Pixels = np.ndarray[Any, np.dtype[np.float32]]
@@ -56,26 +57,17 @@ def name_of(mi: Any) -> str:
 
 
 class Engine:
-    """A scene ready to be rendered many times; settings are those of glrt.
-
-    With `roulette` on, paths meet Mitsuba's, from the depth `roulette_depth` on.
-    """
+    """A scene ready to be rendered many times; settings are those of glrt."""
 
     def __init__(
-        self,
-        mi: Any,
-        scene: Scene,
-        settings: Settings,
-        one_sided: bool = False,
-        roulette_depth: int = 5,
+        self, mi: Any, scene: Scene, settings: Settings, liberties: Liberties = EXACT
     ) -> None:
         """Convert the scene and load it; SceneError if Mitsuba cannot show it."""
         self._mi = mi
         self.name = name_of(mi)
         self.scene = scene
         self.settings = settings_for(settings, method="mis", sampler="independent")
-        depth = roulette_depth if settings.roulette else NEVER
-        self._loaded = mi.load_dict(convert(mi, scene, settings, depth, one_sided))
+        self._loaded = mi.load_dict(convert(mi, scene, settings, liberties))
 
     def pixels(self, samples: int, seed: int) -> Pixels:
         """The mean of `samples` samples, (H, W, 3), row 0 on top. Equal seeds, equal samples."""

@@ -9,6 +9,7 @@ from glrt.errors import UsageError
 from glrt.image import Image
 from glrt.lab.peer import Request, serve
 from glrt.settings import settings_for
+from tests.mitsuba.convert import Liberties
 from tests.mitsuba.engine import Engine, load_mitsuba, name_of
 
 
@@ -25,7 +26,8 @@ def main() -> int:
         scene = asked.parsed()
         size = {"width": asked.width, "height": asked.height}
         paths = {"bounces": asked.bounces, "roulette": asked.roulette}
-        return Engine(mi, scene, settings_for(scene.render, **size, **paths), asked.one_sided)
+        liberties = Liberties(asked.one_sided, asked.finite)
+        return Engine(mi, scene, settings_for(scene.render, **size, **paths), liberties)
 
     def render(request: Request) -> tuple[Image, float]:
         ready = engine(replace(request, samples=1, seed=0, batches=1))

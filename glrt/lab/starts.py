@@ -1,0 +1,68 @@
+"""How long a cold process takes to its first picture, and how much memory.
+
+`cornell` at 512 x 512 pixels and 1 sample, from the start of Python to the written file, in turns;
+the first turn, which fills the caches of drivers, is not counted.
+"""
+
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+PROGRAMS = {
+    "glrt": [sys.executable, "-m", "glrt", "render"],
+    "Mitsuba": [sys.executable, "-m", "tests.mitsuba"],
+    "WGSL": [sys.executable, "-m", "tests.wgsl"],
+}
+WORK = ["cornell", "--width", "512", "--height", "512", "--samples", "1"]
+
+
+class Start(NamedTuple):
+    """One process."""
+
+    seconds: float
+    peak: float  # bytes resident
+
+
+def starts(programs: Mapping[str, Sequence[str]], rounds: int) -> dict[str, Start]:
+    """The median of the rounds for each program; one that fails is absent."""
+    turns = [{n: start_of(command) for n, command in programs.items()} for _ in range(rounds + 1)]
+    found = {}
+    for name in programs:
+        counted = [start for turn in turns[1:] if (start := turn[name])]
+        if len(counted) == rounds:
+            found[name] = Start(*map(statistics.median, zip(*counted, strict=True)))
+    return found
+
+
+# From a small process, since a process counts as its own the memory of the one that started it.
+LAUNCH = """
+import os, subprocess, sys, time
+begin, quiet = time.perf_counter(), subprocess.DEVNULL
+process = subprocess.Popen(sys.argv[1:], stdin=quiet, stdout=quiet, stderr=quiet)
+_, status, usage = os.wait4(process.pid, 0)
+print(time.perf_counter() - begin, usage.ru_maxrss * 1024)
+sys.exit(os.waitstatus_to_exitcode(status) != 0)
+"""
+
+
+def start_of(program: Sequence[str]) -> Start | None:
+    """Run it to its end; None if it fails."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder, "first.exr")
+        command = [sys.executable, "-S", "-c", LAUNCH, *program, *WORK, "-o", str(output)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode or not output.exists():
+            return None
+    return Start(*map(float, done.stdout.split()))
+
+
+def table(found: Mapping[str, Start]) -> Iterator[str]:
+    """As Markdown."""
+    yield "| program | first picture | peak memory |"
+    yield "|---|---|---|"
+    for name, start in found.items():
+        yield f"| {name} | {start.seconds:.2f} s | {start.peak / 2**20:.0f} MiB |"
