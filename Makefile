@@ -37,7 +37,7 @@ gallery: ## render every scene into gallery/
 
 bench: ## measure how fast the kernel and its variants are, and other renderers
 	@$(BOOTSTRAP) render
-	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.2
+	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.1
 	$(IN_ENVIRONMENT) glrt.lab.rivals
 
 charts: ## measure error against time on six scenes that separate the methods, into docs/chart/

@@ -22,10 +22,11 @@ from glrt.errors import GlrtError
 from glrt.job import peak_bytes
 from glrt.library import load
 from glrt.renderer import Renderer
-from glrt.stats import relative_error
 from glrt.version import VERSION
 
 TARGET_ERROR = 0.02
+VARIANCE_SECONDS = 1.5
+MOST_SAMPLES = 1024
 
 
 @dataclass(frozen=True)
@@ -74,9 +75,7 @@ def measure(
     for _ in range(rounds):
         for runs, renderer, variant in zip(times, renderers, VARIANTS, strict=True):
             runs.append(_run(renderer, samples, variant))
-    image = renderers[0].image()
-    error = relative_error(image.radiance, image.stderr) or float("nan")
-    variance = error**2 * samples
+    variance = _relative_variance(renderers[-1])
     rows = [
         _row(name, method, variant, renderer, times, samples * size * size, variance)
         for variant, renderer in zip(VARIANTS, renderers, strict=True)
@@ -84,6 +83,13 @@ def measure(
     for renderer in renderers:
         renderer.release()
     return rows
+
+
+def _relative_variance(renderer: Renderer) -> float:
+    """Of one sample, from many: few would make what is bright by chance look sure."""
+    end = time.perf_counter() + VARIANCE_SECONDS
+    image = renderer.render(MOST_SAMPLES, lambda _: time.perf_counter() < end).image()
+    return (image.error or float("nan")) ** 2 * image.samples
 
 
 def _row(

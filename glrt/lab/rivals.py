@@ -268,7 +268,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--scenes", nargs="+", choices=SCENES, metavar="NAME", default=SCENES)
     add("--size", type=int, default=128, metavar="N", help="pixels a side (default: 128)")
     add("--rounds", type=int, default=30, metavar="N", help="renders of each (default: 30)")
-    add("--seconds", type=float, default=0.2, metavar="S", help="of a render (default: 0.2)")
+    add("--seconds", type=float, default=0.16, metavar="S", help="of a render (default: 0.16)")
     add("--json", type=Path, metavar="FILE", help="the figures for programs")
     return parser
 
