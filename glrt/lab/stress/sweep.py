@@ -147,7 +147,10 @@ class Finding:
     def verdict(self) -> str:
         """In a few words."""
         broken = self.sweep.broken()
-        return "holds" if not broken else f"BROKEN at {', '.join(f'{x:.3g}' for x in broken)}"
+        if not broken:
+            return "holds"
+        more = f" and {len(broken) - 3} more" if len(broken) > 3 else ""
+        return f"BROKEN at {', '.join(f'{x:.3g}' for x in broken[:3])}{more}"
 
     def chart(self) -> Chart:
         """The curves, the bound where it is guaranteed, and the limit of that."""
