@@ -5,6 +5,7 @@ So on software drivers. On a GPU, OpenGL and Vulkan may round otherwise, within 
 Each fault planted into one of them shows in the stages where it must, and in no other.
 """
 
+from ctypes.util import find_library
 from functools import cache
 
 import pytest
@@ -16,6 +17,8 @@ from glrt.scene import Scene
 from glrt.settings import Settings
 from tests.builders import scene_of, sphere
 from tests.mixture import MATERIALS, everything
+from tests.packages import needs_package
+from tests.wgsl import table
 from tests.wgsl.crosscheck import (
     FRAMES,
     Array,
@@ -194,3 +197,14 @@ def test_a_fault_that_cannot_be_planted_is_an_error() -> None:
         planted("a = b; a = b;", "a = b", "a = d")
     with pytest.raises(LookupError, match="no file nowhere"):
         joined(("exact",), Fault("nowhere", "a", "b"))
+
+
+def test_the_table_of_the_cross_check_can_be_made_again(
+    webgpu: Device, capsys: pytest.CaptureFixture[str]
+) -> None:
+    needs_package(bool(find_library("EGL")), "libegl1")
+    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    assert table.main(["--size", "8", "--scenes", "lamps"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.count("| lamps | ") == 3
+    assert printed.count("| scene | draws | ray | hit | scattering | 1 sample ") == 3

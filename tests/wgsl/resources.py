@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from glrt.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl import packing
@@ -54,7 +56,11 @@ class RandomTexture:
     def refresh(self, sample: int) -> None:
         """Other seeds, for this sample."""
         width, height, _ = self._size
-        seeds = seed_texture(width, height, sample, self._seed)
+        self.write(seed_texture(width, height, sample, self._seed))
+
+    def write(self, seeds: np.ndarray[Any, Any]) -> None:
+        """These seeds, (H, W) uint32."""
+        width, height, _ = self._size
         rows = {"bytes_per_row": 4 * width, "rows_per_image": height}
         self._device.queue.write_texture({"texture": self.texture}, seeds, rows, self._size)
 

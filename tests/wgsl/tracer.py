@@ -40,7 +40,7 @@ class Tracer:
         self.scene, self.settings, self.samples = scene, settings, 0
         self._program = program
         self._buffers = SceneBuffers(program.device, scene, settings)
-        self._random = RandomTexture(program.device, settings)
+        self.random = RandomTexture(program.device, settings)
         self._pairs = [[self._color() for _ in ("mean", "variance")] for _ in range(2)]
         self._scene = program.bind(0, self._buffers.in_order)
         source, target = self._pairs
@@ -62,12 +62,16 @@ class Tracer:
         self._program.run([self._scene, self._groups[0]], width, height)
         self.samples += 1
         self._buffers.count(self.samples)
-        self._random.refresh(self.samples)
+        self.refresh()
 
     def swap(self) -> None:
         """Source and target change places."""
         self._pairs.reverse()
         self._groups.reverse()
+
+    def refresh(self) -> None:
+        """Other numbers for the next frame."""
+        self.random.refresh(self.samples)
 
     @property
     def picture(self) -> Any:
@@ -101,7 +105,7 @@ class Tracer:
         return color_texture(self._program.device, size, self._program.texel)
 
     def _bound(self, source: list[Any], target: list[Any]) -> Any:
-        textures = [self._random.texture, *source, *target]
+        textures = [self.random.texture, *source, *target]
         return self._program.bind(1, [texture.create_view() for texture in textures])
 
     def _read(self, texture: Any) -> np.ndarray[Any, Any]:
