@@ -43,13 +43,14 @@ def material_buffer(scene: Scene) -> bytes:
 def settings_buffer(scene: Scene, settings: Settings) -> bytes:
     """What stays the same from frame to frame."""
     bottom, top = scene.background_colors
+    kinds = [shape.shape for shape in scene.objects]
     values = {
         "background_bottom": bottom,
         "bounces": settings.bounces,
         "background_top": top,
         "zero": 0,
         "size": (settings.width, settings.height),
-        "object_count": len(scene.objects),
+        **{f"{kind}_count": kinds.count(kind) for kind in ("sphere", "plane", "quad")},
     }
     return record(struct("Settings"), values).tobytes()
 

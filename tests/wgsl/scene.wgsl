@@ -48,7 +48,9 @@ struct Settings {
     background_top: vec3f,
     zero: u32,                 // 0, which the compiler cannot know: see exact
     size: vec2i,               // of the frame, pixels
-    object_count: i32,
+    sphere_count: i32,
+    plane_count: i32,
+    quad_count: i32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;

@@ -51,25 +51,27 @@ fn quad_distance(ray: Ray, quad: Object) -> f32 {
     return select(0.0, t, inside);
 }
 
-fn distance_to(ray: Ray, object: Object, shape: i32) -> f32 {
-    if (object.kind == SPHERE) {
-        return sphere_distance(ray, object, shape);
-    }
-    if (shape == ray.leaves) {
-        return 0.0;
-    }
-    if (object.kind == PLANE) {
-        return plane_distance(ray, object);
-    }
-    return quad_distance(ray, object);
-}
-
 // The nearest shape; of two at the same distance the one with the lower number.
 fn closest_hit(ray: Ray) -> Hit {
     var hit = Hit(FAR, NO_SHAPE);
-    for (var shape = 0; shape < settings.object_count; shape++) {
-        let t = distance_to(ray, objects[shape], shape);
+    let first_plane = settings.sphere_count;
+    let first_quad = first_plane + settings.plane_count;
+    let end = first_quad + settings.quad_count;
+    for (var shape = 0; shape < first_plane; shape++) {
+        let t = sphere_distance(ray, objects[shape], shape);
         if (t > 0.0 && t < hit.distance) {
+            hit = Hit(t, shape);
+        }
+    }
+    for (var shape = first_plane; shape < first_quad; shape++) {
+        let t = plane_distance(ray, objects[shape]);
+        if (t > 0.0 && t < hit.distance && shape != ray.leaves) {
+            hit = Hit(t, shape);
+        }
+    }
+    for (var shape = first_quad; shape < end; shape++) {
+        let t = quad_distance(ray, objects[shape]);
+        if (t > 0.0 && t < hit.distance && shape != ray.leaves) {
             hit = Hit(t, shape);
         }
     }
