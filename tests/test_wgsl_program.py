@@ -10,6 +10,7 @@ from glrt.image import Image
 from glrt.library import load, load_recipe
 from glrt.renderer import Renderer
 from tests.renders import same
+from tests.wgsl import speed
 from tests.wgsl.__main__ import main
 from tests.wgsl.device import Device, is_software
 
@@ -73,3 +74,16 @@ def test_what_cannot_be_rendered_is_one_paragraph(
     assert "\n" not in complaint
     assert message in complaint
     assert list(tmp_path.iterdir()) == []
+
+
+def test_speed_is_told_as_ratios(webgpu: Device, capsys: pytest.CaptureFixture[str]) -> None:
+    few = ["--size", "8", "--samples", "2", "--rounds", "2", "--scenes", "lamps"]
+    assert speed.main(few) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert [line.split(maxsplit=1)[1] for line in told if line.startswith("  ")] == [
+        "WGSL",
+        "WGSL without `exact`",
+        "glrt, one sample a dispatch",
+        "glrt, uniform blocks",
+        "glrt, constants",
+    ]

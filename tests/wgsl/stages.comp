@@ -1,7 +1,5 @@
-// What one sample of each pixel comes by on its way. The path text stands in front: see
-// tests/wgsl/stages.py. The twin of stages.wgsl.
-
-layout(local_size_x = 64) in;
+// What one sample of each pixel comes by on its way. The path text and the size of a work group
+// stand in front: see tests/wgsl/stages.py. The twin of stages.wgsl.
 
 layout(std430) writeonly buffer Words { uint words[]; };
 

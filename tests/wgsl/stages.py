@@ -66,10 +66,9 @@ def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
     tier = tier_for(arrays, "generic")
     data = {name: padded(rows, tier) for name, rows in arrays.items()}
     data["FrameBlock"] = pack_frame(scene, settings, counts, 0, 1)
-    entry = (FOLDER / "stages.comp").read_text()
     data["Words"] = bytes(STAGE.itemsize * settings.width * settings.height)
     parts = {
-        "stages": "".join(f'#include "{name}"\n' for name in path_files()) + entry,
+        "stages": _glsl_entry(),
         "blocks.glsl": blocks_text(arrays, tier),
         "rng.glsl": "uint digest = 0u;\nuint draws = 0u;\n" + _recording(read("rng.glsl"), "float"),
     }
@@ -105,6 +104,13 @@ class WgslStages:
         given = self._program.bind(0, SceneBuffers(device, scene, settings).in_order)
         self._program.run([given, self._program.bind(1, [seeds, words])], width, height)
         return _shaped(device.queue.read_buffer(words), settings)
+
+
+def _glsl_entry() -> str:
+    """The whole path text in front of `stages.comp`."""
+    includes = [f'#include "{name}"' for name in path_files()]
+    entry = (FOLDER / "stages.comp").read_text()
+    return "\n".join([f"layout(local_size_x = {_GROUP}) in;", *includes, entry])
 
 
 def _recording(source: str, to_float: str) -> str:

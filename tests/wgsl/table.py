@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 
-from glrt.context import Context, open_route
+from glrt.context import Choice, Context, open_context
 from glrt.errors import GlrtError
 from glrt.library import load
 from glrt.scene import Scene
@@ -63,8 +63,8 @@ def _stages(device: Device, size: int, scenes: Sequence[str]) -> Iterator[str]:
 
 
 @contextmanager
-def _route(name: str) -> Iterator[Context]:
-    context = open_route(name)
+def _route(name: Choice) -> Iterator[Context]:
+    context = open_context(name)
     print(f"{name}: {context.renderer}, OpenGL {context.version}")
     try:
         yield context
