@@ -226,4 +226,21 @@ MUTANTS = [
         ),
         "test_robust.py::test_directions_stay_unit_over_many_reflections_in_glass",
     ),
+    Mutant(
+        "boxes of the tree leave no room for rounding",
+        (
+            Edit(
+                "shaders_glsl/bvh.glsl",
+                "const float SLACK = 3.814697265625e-6;",
+                "const float SLACK = 0.0;",
+            ),
+            Edit("glrt/pack.py", "SLACK = 2.0**-18", "SLACK = 0.0"),
+        ),
+        "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "of equal spheres the tree takes the one that it meets first",
+        _edit("bvh.glsl", "t == hit.distance && node.sphere < hit.shape", "false"),
+        "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
 ]
