@@ -10,6 +10,7 @@ from glrt.settings import Settings
 ROULETTE_START = 3  # bounces before the first game
 TREE_FROM = 64  # spheres: from here on a tree over them pays (docs/speed.md)
 LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
+MOST_NEAR = 32  # lamps that are weighed at each point; more are chosen by a table
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class Needs:
     weight_both: bool
     roulette: bool
     model: int  # of the ladder; 0: paths are traced
+    few_lights: int  # lamps to sample, up to MOST_NEAR; 0: more, or none
     block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
 
     def constants(self) -> dict[str, bool | int]:
@@ -72,6 +74,7 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         weight_both=is_lit and method == "mis",
         roulette=settings.roulette and follows,
         model=_number_of(method, metals),
+        few_lights=few_lights(scene) if is_lit else 0,
         block=settings.block,
     )
 
@@ -86,6 +89,16 @@ def _number_of(method: str, metals: Sequence[Metal]) -> int:
     if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
         return LADDER["phong"]
     return LADDER.get(method, 0)
+
+
+def few_lights(scene: Scene) -> int:
+    """How many lamps can be sampled: all but planes. 0 if they are too many to weigh each."""
+    lamps = [
+        shape
+        for shape in scene.objects
+        if shape.shape != "plane" and is_light(scene.materials[shape.material])
+    ]
+    return len(lamps) if len(lamps) <= MOST_NEAR else 0
 
 
 def is_light(material: Material) -> bool:
@@ -126,6 +139,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
         Feature("sphere lamps", needs.has_sphere_light, f"method {method}, {lamps}"),
         Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
+        Feature("lamps by nearness", needs.few_lights > 1, f"method {method}, {lamps}"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
         Feature("lighting model", needs.model > 0, _model(settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),

@@ -227,6 +227,9 @@ def _pack_lights(scene: Scene, shapes: Shapes, lamps: list[int]) -> Array:
         probability = light_probabilities([_power(scene, everything[n]) for n in lamps])
         rows["shape"], rows["probability"] = lamps, probability
         rows["keep"], rows["alias"] = alias_table(probability)
+        for row, number in zip(rows, lamps, strict=True):
+            center, row["reach2"] = _center(everything[number])
+            row["center"] = center - _vector(scene.camera.position)
     return rows
 
 
@@ -240,6 +243,15 @@ def _power(scene: Scene, shape: Shape) -> float:
     else:
         area = 0.0
     return area * sum(scene.emission(shape.material))
+
+
+def _center(lamp: Shape) -> tuple[Array, float]:
+    """The centre of a lamp, and the mean squared distance of its points from there."""
+    if isinstance(lamp, Sphere):
+        return _vector(lamp.center), lamp.radius**2
+    assert isinstance(lamp, Quad)
+    u, v = _vector(lamp.edge_u), _vector(lamp.edge_v)
+    return _vector(lamp.corner) + (u + v) / 2, float(u @ u + v @ v) / 12
 
 
 def _vector(value: Sequence[float]) -> Array:

@@ -10,7 +10,7 @@ from itertools import count
 from typing import NamedTuple
 
 from glrt.errors import SceneError
-from glrt.needs import has_tree, is_light
+from glrt.needs import few_lights, has_tree, is_light
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 
@@ -32,7 +32,8 @@ def iterations_per_sample(
 
     At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
-    it finds that there are no more.
+    it finds that there are no more. Few lamps are weighed twice: for their sum, and to
+    choose one; that loop takes a round less.
     """
     kinds = len({shape.shape for shape in scene.objects})
     search = len(scene.objects) + kinds
@@ -41,8 +42,8 @@ def iterations_per_sample(
         search += round(tree_rounds * math.log2(spheres)) - spheres
     if settings.method in ("phong", "blinn", "whitted"):
         return 1 + _rounds_of_shading(scene, settings, search)
-    rays = 1 if settings.method == "naive" else 2
-    return 1 + (settings.bounces + 1) * (1 + rays * search)
+    rays, choice = (1, 0) if settings.method == "naive" else (2, 2 * few_lights(scene))
+    return 1 + (settings.bounces + 1) * (1 + rays * search + choice)
 
 
 def _rounds_of_shading(scene: Scene, settings: RenderSettings, search: int) -> int:

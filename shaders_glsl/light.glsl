@@ -1,6 +1,5 @@
-// Light sampling. A lamp is chosen with a fixed probability; then a point on a quad, or a direction
-// in the cone that a sphere fills. Densities are per solid angle at the ray's origin
-// and contain the choice.
+// Light sampling. A lamp is chosen (light_choice.glsl); then a point on a quad, or a direction in the
+// cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
 //
 // The density is 0, and scattering alone finds the light, for planes (infinite area), for the
 // background, for the lamp just left, for a sphere that contains the point, and for a quad whose
@@ -56,27 +55,19 @@ float pdf_quad(Quad quad, Ray ray, float distance) {
     return pdf_strips(quad, view, clamp(share, 0.0, 1.0));
 }
 
-// The density of choosing this lamp and sampling this ray, which meets it at this distance.
-float pdf_light(int index, Ray ray, float distance) {
+// The density of choosing this lamp and sampling this ray, which meets it at this distance; `lamps`
+// is the total_weight at its origin.
+float pdf_light(int index, Ray ray, float distance, float lamps) {
     if (!is_sampled(index, ray)) return 0.0;
     Light light = light_at(index);
     if (is_of_sphere(light)) {
         Sphere sphere = sphere_at(light.shape);
         float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
-        float pdf = light.probability / (2.0 * PI * one_minus_cos);
+        float pdf = choice_pdf(light, ray.origin, lamps) / (2.0 * PI * one_minus_cos);
         return pdf;
     }
-    float pdf = light.probability * pdf_quad(quad_of(light), ray, distance);
+    float pdf = choice_pdf(light, ray.origin, lamps) * pdf_quad(quad_of(light), ray, distance);
     return pdf;
-}
-
-// The alias method (Vose 1991): one number chooses a lamp, however many there are.
-int choose_light(float u) {
-    float scaled = u * float(light_count());
-    int index = min(int(scaled), light_count() - 1);
-    Light light = light_at(index);
-    float rest = scaled - float(index);
-    return rest < light.keep ? index : light.alias;
 }
 
 LightSample no_light_sample(Ray ray) {
@@ -94,7 +85,8 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
     float distance = sphere_distance(ray, sphere, shape);
     if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
     vec3 radiance = material_at(sphere.material).emission;
-    return LightSample(ray, distance, pdf_light(index, ray, distance), radiance, shape);
+    float pdf = pdf_light(index, ray, distance, total_weight(ray.origin));
+    return LightSample(ray, distance, pdf, radiance, shape);
 }
 
 LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
@@ -107,14 +99,15 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
     vec3 direction = to_point / distance;
     ray.direction = direction;
     vec3 radiance = material_at(quad.material).emission;
-    return LightSample(ray, distance, pdf_light(index, ray, distance), radiance, shape);
+    float pdf = pdf_light(index, ray, distance, total_weight(ray.origin));
+    return LightSample(ray, distance, pdf, radiance, shape);
 }
 
 // From the origin of `ray`, whose direction is ignored.
 LightSample sample_light(Ray ray, inout Sampler rng) {
-    float choice = next_1d(rng);
+    float choice = FEW_LIGHTS == 1 ? 0.0 : next_1d(rng);
     vec2 u = next_2d(rng);
-    int index = choose_light(choice);
+    int index = choose_light(ray.origin, total_weight(ray.origin), choice);
     int shape = light_at(index).shape;
     if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
         return sample_sphere(ray, index, shape, u);

@@ -20,10 +20,10 @@ float power_heuristic(float p_a, float p_b) {
 
 // The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if it
 // comes from the camera or a delta.
-float emission_weight(Ray ray, Hit hit, int light, float pdf) {
+float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
     if (!is_sampled(light, ray)) return 1.0;
-    float light_pdf = pdf_light(light, ray, hit.distance);
+    float light_pdf = pdf_light(light, ray, hit.distance, lamps);
     return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
 }
 
@@ -54,11 +54,12 @@ struct Path {
     float scale;      // of radiance by refraction, which roulette ignores
     vec3 radiance;    // gathered so far
     float pdf;        // of the last scattering; 0 if it was a delta, or none yet
+    float lamps;      // weight of all that are sampled, where it scattered last
     int depth;        // scattering events so far
 };
 
 Path start_path(Ray ray) {
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0);
 }
 
 // Where a model of the ladder ends: the light of the lamps and of an unhidden sky, whose irradiance
@@ -103,6 +104,7 @@ bool scatter_path(inout Path path, Surface surface, Material material, inout Sam
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
     path.pdf = next.pdf;
+    path.lamps = total_weight(ray.origin);
     path.depth += 1;
     return true;
 }
@@ -118,7 +120,7 @@ bool extend_path(inout Path path, inout Sampler rng) {
     }
     Surface surface = surface_at(path.ray, hit);
     Material material = material_at(surface.material);
-    float emitted = emission_weight(path.ray, hit, surface.light, path.pdf);
+    float emitted = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
     path.radiance += path.scale * path.throughput * material.emission * emitted;
     if (path.depth == frame.bounces) return false;
     return scatter_path(path, surface, material, rng);

@@ -57,9 +57,11 @@ struct Material {
 
 struct Light {
     int shape;
-    float probability;  // of being chosen
+    float probability;  // of being chosen, by the table
     float keep;         // alias method: this light with probability `keep`, else `alias`
     int alias;
+    vec3 center;
+    float reach2;       // mean squared distance of its points from the center
 };
 
 struct Camera {

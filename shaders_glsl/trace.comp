@@ -15,6 +15,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "bvh.glsl"
 #include "material.glsl"
 #include "strips.glsl"
+#include "light_choice.glsl"
 #include "light.glsl"
 #include "ladder.glsl"
 #include "path.glsl"

@@ -12,6 +12,7 @@
 #include "bvh.glsl"
 #include "material.glsl"
 #include "strips.glsl"
+#include "light_choice.glsl"
 #include "light.glsl"
 #include "ladder.glsl"
 #include "path.glsl"

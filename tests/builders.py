@@ -12,6 +12,7 @@ EVERYTHING: dict[str, bool | int] = {
     "ROULETTE_START": ROULETTE_START,
     "BLOCK": 1,
     "MODEL": 0,
+    "FEW_LIGHTS": 0,
 }
 
 MATTE = {"type": "lambertian", "color": [0.5, 0.5, 0.5]}

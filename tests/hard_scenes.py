@@ -84,6 +84,14 @@ HARD: dict[str, tuple[list[Table], Samples]] = {
         Samples(),
     ),
     "forty lamps of many powers": ([FLOOR, BALL, *MANY], Samples(2048, 512, 512)),
+    "lamps along a corridor": (
+        [
+            *(plane([0, y, 0], [0, -y, 0], "white") for y in (-1, 1)),
+            *(plane([x, 0, 0], [-x, 0, 0], "white") for x in (-1, 1)),
+            *(sphere([0, 0.7, -2 - 2 * i], 0.2, "warm") for i in range(6)),
+        ],
+        Samples(naive=1024),
+    ),
     "a lamp that is off": ([FLOOR, BALL, CEILING, sphere([-0.8, 0, -3], 0.3, "off")], Samples()),
     "a closed room": ([*room_of_planes("white", 4.0), BALL, CEILING, BULB], Samples(naive=1024)),
 }

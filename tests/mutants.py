@@ -93,8 +93,8 @@ MUTANTS = [
         "the density of a sphere lamp is per area, not per solid angle",
         _edit(
             "light.glsl",
-            "light.probability / (2.0 * PI * one_minus_cos)",
-            "light.probability / (4.0 * PI * sphere.radius * sphere.radius)",
+            "lamps) / (2.0 * PI * one_minus_cos)",
+            "lamps) / (4.0 * PI * sphere.radius * sphere.radius)",
         ),
         "test_light.py::test_the_density_of_a_sphere_lamp_is_one_over_its_solid_angle",
     ),

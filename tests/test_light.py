@@ -30,7 +30,7 @@ MANY = scene_of(
 )
 SETUP = """
     Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), leaves, false);
-    int index = choose_light(u.x);
+    int index = choose_light(origin, total_weight(origin), u.x);
     int shape = light_at(index).shape;
     LightSample light = no_light_sample(from);
     if (shape < frame.sphere_count) light = sample_sphere(from, index, shape, v);
@@ -103,7 +103,7 @@ def test_a_point_in_or_on_a_sphere_lamp_samples_nothing_of_it(
 ) -> None:
     n = directions(1000)[:1000]
     origin = n * np.float32(depth) + np.array([0, 0, -3])
-    both = "vec2(light.pdf, pdf_light(0, Ray(origin, direction, leaves, false), 1.0))"
+    both = "vec2(light.pdf, pdf_light(0, Ray(origin, direction, leaves, false), 1.0, 1.0))"
     left = -1 if depth < 1 else 0  # a point on it comes from it
     args = {"origin": origin, "direction": directions(1000, 2)[:1000]}
     found = sampled(call_glsl, BALL, both, "vec2", leaves=np.array([left]), **args)
@@ -134,7 +134,7 @@ def test_the_density_of_a_quad_lamp_integrates_to_one_over_all_directions(
     setup = """Ray ray = Ray(vec3(0.3, 0.2, 0.0), direction, NO_SHAPE, false);
         float distance = quad_distance(ray, quad_at(0));"""
     pdf = call_glsl(
-        "distance > 0.0 ? pdf_light(0, ray, distance) : 0.0",
+        "distance > 0.0 ? pdf_light(0, ray, distance, total_weight(ray.origin)) : 0.0",
         setup=setup,
         scene=QUAD,
         direction=direction,
@@ -197,14 +197,15 @@ def test_a_density_contains_the_choice_and_is_0_for_the_lamp_just_left(
     for index, row in enumerate(rows["Lights"]):
         left, free = (
             call_glsl(
-                f"pdf_light({index}, Ray(vec3(0.0), direction, {shape}, false), 2.5)",
+                f"pdf_light({index}, Ray(vec3(0.0), direction, {shape}, false), 2.5, 1.0)",
                 scene=MANY,
                 direction=direction,
             )
             for shape in (row["shape"], 4)
         )
         assert np.all(left == 0)
-        exact = row["probability"] * exact_density(rows, row["shape"], direction, 2.5)
+        chance = row["probability"] / max((row["center"] ** 2).sum(), row["reach2"])
+        exact = chance * exact_density(rows, row["shape"], direction, 2.5)
         assert_allclose(free, exact, rtol=1e-5)
 
 
@@ -217,7 +218,8 @@ def test_sampling_and_density_agree_for_every_lamp(call_glsl: CallGlsl) -> None:
         "origin": random.uniform(-2, 2, (n, 3)),
     }
     setup = (
-        "Hit hit = closest_hit(light.ray); float pdf = pdf_light(index, light.ray, hit.distance);"
+        "Hit hit = closest_hit(light.ray);"
+        "float pdf = pdf_light(index, light.ray, hit.distance, total_weight(origin));"
     )
     found = call_glsl(
         "vec4(light.pdf, pdf, hit.shape == shape, light.shape == shape)",

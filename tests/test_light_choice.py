@@ -4,10 +4,16 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from glrt import needs
+from glrt.context import Context
+from glrt.needs import MOST_NEAR, needs_of
 from glrt.pack import alias_table, light_probabilities, pack_scene
-from tests.builders import scene_of, sphere
+from glrt.scene import Scene
+from glrt.settings import settings_for
+from tests.builders import plane, scene_of, sphere
 from tests.conftest import CallGlsl
 from tests.numerics import BELOW_ONE, Array
+from tests.renders import rendered
 from tests.test_light import LAMPS, MANY
 
 
@@ -61,7 +67,7 @@ def test_lamps_are_weighed_by_flux() -> None:
 def test_a_lamp_is_chosen_as_often_as_its_density_says(call_glsl: CallGlsl) -> None:
     lights = pack_scene(MANY)["Lights"]
     u = (np.arange(2**18) + 0.5) / 2**18
-    index = call_glsl("choose_light(u)", "int", scene=MANY, u=u)
+    index = call_glsl("choose_by_table(u)", "int", scene=MANY, u=u)
     frequency = np.bincount(index, minlength=len(lights)) / len(u)
     assert_allclose(frequency, lights["probability"], atol=1e-5)
 
@@ -71,6 +77,90 @@ def test_the_choice_stays_within_the_lamps_at_the_ends(call_glsl: CallGlsl) -> N
     balls = [sphere(place, 0.01, "lamp") for place in random.uniform(-9, 9, (999, 3))]
     scene = scene_of(balls, LAMPS, render={"bounces": 1})
     u = np.concatenate([np.arange(999) / 999, [BELOW_ONE, 2.0**-24], random.uniform(size=10_000)])
-    index = call_glsl("choose_light(u)", "int", scene=scene, u=np.minimum(u, BELOW_ONE))
+    index = call_glsl("choose_by_table(u)", "int", scene=scene, u=np.minimum(u, BELOW_ONE))
     assert index.min() >= 0
     assert index.max() == 998
+
+
+# --- few lamps -----------------------------------------------------------------------------
+
+
+def weights(scene: Scene, origin: Array) -> Array:
+    """Of each lamp at each point, (n, lamps) float64: flux over squared distance."""
+    lights = pack_scene(scene)["Lights"]
+    away = lights["center"].astype(np.float64) - origin[:, None]
+    nearness: Array = 1 / np.maximum((away**2).sum(axis=-1), lights["reach2"])
+    return lights["probability"] * nearness
+
+
+def balls(count: int) -> Scene:
+    random = np.random.default_rng(count)
+    return scene_of(
+        [sphere(place, 0.1, "lamp") for place in random.uniform(-2, 2, (count, 3))], LAMPS
+    )
+
+
+@pytest.mark.parametrize("count", [2, 3, 31, MOST_NEAR])
+def test_few_lamps_are_chosen_by_flux_over_squared_distance(
+    call_glsl: CallGlsl, count: int
+) -> None:
+    """Shares of the unit interval are as wide as the density says: they end where it says."""
+    scene, points = balls(count), np.random.default_rng(1).uniform(-2, 2, (8, 3))
+    share = weights(scene, points)
+    share /= share.sum(axis=1, keepdims=True)
+    u = (np.arange(2**12) + 0.5) / 2**12
+    origin, u = np.repeat(points, len(u), axis=0), np.tile(u, len(points))
+    found = call_glsl(
+        "vec2(index, choice_pdf(light_at(index), origin, total))",
+        "vec2",
+        setup="float total = total_weight(origin); int index = choose_light(origin, total, u);",
+        scene=scene,
+        origin=origin,
+        u=u,
+    ).reshape(len(points), -1, 2)
+    for exact, (index, pdf) in zip(share, np.moveaxis(found, 2, 1), strict=True):
+        chosen = index.astype(int)
+        assert_allclose(pdf, exact[chosen], rtol=1e-5)
+        assert_allclose(np.bincount(chosen, minlength=count) / 2**12, exact, atol=2.0**-11)
+
+
+def test_a_lamp_has_its_chance_at_the_very_ends(call_glsl: CallGlsl) -> None:
+    u = np.array([0.0, BELOW_ONE])
+    for count in (2, 5, MOST_NEAR):
+        setup = "int index = choose_light(origin, total_weight(origin), u);"
+        origin = np.tile([0.3, 0.1, 0.2], (2, 1))
+        args = {"setup": setup, "scene": balls(count), "origin": origin, "u": u}
+        assert call_glsl("index", "int", **args).tolist() == [0, count - 1]
+
+
+def test_more_lamps_than_that_are_chosen_by_the_table() -> None:
+    """And one lamp is not chosen at all; naive chooses none."""
+    for count, few in ((1, 1), (2, 2), (MOST_NEAR, MOST_NEAR), (MOST_NEAR + 1, 0)):
+        scene = balls(count)
+        assert needs_of(scene, settings_for(scene.render)).few_lights == few
+        assert needs_of(scene, settings_for(scene.render, method="naive")).few_lights == 0
+
+
+def test_a_dark_lamp_keeps_its_chance(call_glsl: CallGlsl) -> None:
+    """Its group may be lit again without a restart."""
+    objects = [sphere([-1, 0, 0], 0.1, "lamp"), sphere([1, 0, 0], 0.1, "dark")]
+    u = np.array([0.1, 0.9])
+    setup = "int index = choose_light(vec3(0.0), total_weight(vec3(0.0)), u);"
+    chosen = call_glsl("index", "int", setup=setup, scene=scene_of(objects, LAMPS), u=u)
+    assert chosen.tolist() == [0, 1]
+
+
+def test_a_corridor_needs_a_third_of_the_samples(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Against a choice by flux alone: measured 0.55 of the error."""
+    walls = [plane([0, y, 0], [0, -y, 0], "matte") for y in (-1, 1)]
+    walls += [plane([x, 0, 0], [-x, 0, 0], "matte") for x in (-1, 1)]
+    lamps = [sphere([0, 0.8, -1 - 2 * i], 0.1, "lamp") for i in range(8)]
+    corridor = scene_of([*walls, *lamps], LAMPS)
+    near = rendered(corridor, context, 64, bounces=2)
+    monkeypatch.setattr(needs, "MOST_NEAR", 1)
+    by_table = rendered(corridor, context, 64, bounces=2)
+    assert near.error is not None
+    assert by_table.error is not None
+    assert near.error < 0.65 * by_table.error

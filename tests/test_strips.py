@@ -170,7 +170,7 @@ def test_the_density_integrates_to_one_over_all_directions(call_glsl: CallGlsl, 
     setup = """Ray ray = Ray(vec3(0.2, -0.1, 0.05), direction, NO_SHAPE, false);
         float distance = quad_distance(ray, quad_at(0));"""
     pdf = call_glsl(
-        "distance > 0.0 ? pdf_light(0, ray, distance) : 0.0",
+        "distance > 0.0 ? pdf_light(0, ray, distance, total_weight(ray.origin)) : 0.0",
         setup=setup,
         scene=lit(name),
         constants=NEE,
@@ -185,7 +185,7 @@ def test_sampling_and_scattering_know_one_density(call_glsl: CallGlsl, name: str
     random = np.random.default_rng(1)
     u, origin = random.uniform(size=(20_000, 2)), random.uniform(-2, 2, (20_000, 3))
     found = call_glsl(
-        "vec3(light.pdf, pdf_light(0, light.ray, hit.distance), hit.shape)",
+        "vec3(light.pdf, pdf_light(0, light.ray, hit.distance, 1.0), hit.shape)",
         "vec3",
         setup="""Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), NO_SHAPE, false);
             LightSample light = sample_quad(from, 0, 0, u);
