@@ -39,6 +39,7 @@ bench: ## measure how fast the kernel and its variants are, and other renderers
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.1
 	$(IN_ENVIRONMENT) glrt.lab.rivals
+	$(IN_ENVIRONMENT) glrt.lab.efficiency
 
 charts: ## measure error against time on six scenes that separate the methods, into docs/chart/
 	@$(BOOTSTRAP) test

@@ -7,7 +7,6 @@ from typing import NamedTuple
 from glrt.scene import Material, Metal, Scene
 from glrt.settings import Settings
 
-ROULETTE_START = 3  # bounces before the first game
 TREE_FROM = 64  # spheres: from here on a tree over them pays (docs/speed.md)
 LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
 MOST_NEAR = 32  # lamps that are weighed at each point; more are chosen by a table
@@ -37,8 +36,7 @@ class Needs:
 
     def constants(self) -> dict[str, bool | int]:
         """The prelude: what the compiler may take for granted."""
-        values = {field.name.upper(): getattr(self, field.name) for field in fields(self)}
-        return {**values, "ROULETTE_START": ROULETTE_START}
+        return {field.name.upper(): getattr(self, field.name) for field in fields(self)}
 
 
 class Feature(NamedTuple):
@@ -173,7 +171,7 @@ def _model(settings: Settings) -> str:
 def _roulette(settings: Settings) -> str:
     if not settings.roulette:
         return "turned off"
-    return f"turned on; it begins after bounce {ROULETTE_START}"
+    return "turned on; for paths whose throughput is below 1/4"
 
 
 def _lamps(scene: Scene) -> str:

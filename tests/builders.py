@@ -3,13 +3,12 @@
 from dataclasses import fields
 from typing import Any
 
-from glrt.needs import ROULETTE_START, Needs
+from glrt.needs import Needs
 from glrt.scene import Scene
 from glrt.scene_file import parse_scene
 
 EVERYTHING: dict[str, bool | int] = {
     **{field.name.upper(): True for field in fields(Needs)},
-    "ROULETTE_START": ROULETTE_START,
     "BLOCK": 1,
     "MODEL": 0,
     "FEW_LIGHTS": 0,

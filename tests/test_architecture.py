@@ -56,7 +56,7 @@ MOST_LINES_OF_A_FUNCTION = 60
 
 ENTRIES = {"trace.comp", "trace.vert", "trace.frag", "blocks.glsl", "display.frag", "display.vert"}
 NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
-PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "3.14159265358979324"} | {
+PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval

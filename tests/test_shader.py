@@ -61,11 +61,11 @@ def plant(file: Path, line: str) -> int:
 
 
 def test_the_version_stands_first_and_the_prelude_follows() -> None:
-    lines = Source("trace.comp", {"HAS_LENS": False, "ROULETTE_START": 3}).text.splitlines()
+    lines = Source("trace.comp", {"HAS_LENS": False, "BLOCK": 16}).text.splitlines()
     assert lines[:3] == [
         "#version 430 core",
         "const bool HAS_LENS = false;",
-        "const int ROULETTE_START = 3;",
+        "const int BLOCK = 16;",
     ]
 
 

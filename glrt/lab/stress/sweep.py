@@ -118,7 +118,7 @@ def mean_of(image: Image) -> tuple[float, float]:
 
 
 _FLAGS: Any = {field.name: True for field in fields(Needs)}
-_EVERYTHING = Needs(**{**_FLAGS, "model": 0, "block": 1}).constants()
+_EVERYTHING = Needs(**{**_FLAGS, "model": 0, "few_lights": 0, "block": 1}).constants()
 
 
 @dataclass(frozen=True)
