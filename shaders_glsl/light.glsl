@@ -63,10 +63,10 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
     if (is_of_sphere(light)) {
         Sphere sphere = sphere_at(light.shape);
         float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
-        float pdf = choice_pdf(light, ray.origin, lamps) / (2.0 * PI * one_minus_cos);
+        float pdf = choice_pdf(light, ray, lamps) / (2.0 * PI * one_minus_cos);
         return pdf;
     }
-    float pdf = choice_pdf(light, ray.origin, lamps) * pdf_quad(quad_of(light), ray, distance);
+    float pdf = choice_pdf(light, ray, lamps) * pdf_quad(quad_of(light), ray, distance);
     return pdf;
 }
 
@@ -85,7 +85,7 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
     float distance = sphere_distance(ray, sphere, shape);
     if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
     vec3 radiance = material_at(sphere.material).emission;
-    float pdf = pdf_light(index, ray, distance, total_weight(ray.origin));
+    float pdf = pdf_light(index, ray, distance, total_weight(ray));
     return LightSample(ray, distance, pdf, radiance, shape);
 }
 
@@ -99,7 +99,7 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
     vec3 direction = to_point / distance;
     ray.direction = direction;
     vec3 radiance = material_at(quad.material).emission;
-    float pdf = pdf_light(index, ray, distance, total_weight(ray.origin));
+    float pdf = pdf_light(index, ray, distance, total_weight(ray));
     return LightSample(ray, distance, pdf, radiance, shape);
 }
 
@@ -107,7 +107,7 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
 LightSample sample_light(Ray ray, inout Sampler rng) {
     float choice = FEW_LIGHTS == 1 ? 0.0 : next_1d(rng);
     vec2 u = next_2d(rng);
-    int index = choose_light(ray.origin, total_weight(ray.origin), choice);
+    int index = choose_light(ray, total_weight(ray), choice);
     int shape = light_at(index).shape;
     if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
         return sample_sphere(ray, index, shape, u);

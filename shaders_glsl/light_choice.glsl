@@ -3,24 +3,26 @@
 // FEW_LIGHTS: how many there are; 0: many. The flux is that of the last restart, and no lamp's
 // share of it is 0: light groups can be dimmed and lit later.
 
-float light_weight(Light light, vec3 origin) {
-    vec3 away = light.center - origin;
+// From the origin of `ray`, whose direction is ignored; 0 for the lamp that it leaves.
+float light_weight(Light light, Ray ray) {
+    if (light.shape == ray.leaves) return 0.0;
+    vec3 away = light.center - ray.origin;
     float weight = light.probability / max(dot(away, away), light.reach2);
     return weight;
 }
 
-// Of all lamps at a point.
-float total_weight(vec3 origin) {
+// Of all lamps together.
+float total_weight(Ray ray) {
     float total = 0.0;
-    for (int i = 0; i < FEW_LIGHTS; ++i) total += light_weight(light_at(i), origin);
+    for (int i = 0; i < FEW_LIGHTS; ++i) total += light_weight(light_at(i), ray);
     return total;
 }
 
-// How likely a lamp is chosen at a point where all together have the weight `total`.
-float choice_pdf(Light light, vec3 origin, float total) {
+// How likely a lamp is chosen where all together have the weight `total`.
+float choice_pdf(Light light, Ray ray, float total) {
     if (FEW_LIGHTS == 1) return 1.0;
     if (FEW_LIGHTS == 0) return light.probability;
-    float pdf = light_weight(light, origin) / total;
+    float pdf = light_weight(light, ray) / total;
     return pdf;
 }
 
@@ -33,13 +35,13 @@ int choose_by_table(float u) {
     return rest < light.keep ? index : light.alias;
 }
 
-int choose_light(vec3 origin, float total, float u) {
+int choose_light(Ray ray, float total, float u) {
     if (FEW_LIGHTS == 0) return choose_by_table(u);
     float target = u * total;
     float sum = 0.0;
     int chosen = 0;
     for (int i = 1; i < FEW_LIGHTS; ++i) {
-        sum += light_weight(light_at(i - 1), origin);
+        sum += light_weight(light_at(i - 1), ray);
         if (sum <= target) chosen = i;
     }
     return chosen;

@@ -107,7 +107,7 @@ bool scatter_path(inout Path path, Surface surface, Material material, inout Sam
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
     path.pdf = next.pdf;
-    path.lamps = total_weight(ray.origin);
+    path.lamps = total_weight(ray);
     path.depth += 1;
     return true;
 }

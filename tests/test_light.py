@@ -30,7 +30,7 @@ MANY = scene_of(
 )
 SETUP = """
     Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), leaves, false);
-    int index = choose_light(origin, total_weight(origin), u.x);
+    int index = choose_light(from, total_weight(from), u.x);
     int shape = light_at(index).shape;
     LightSample light = no_light_sample(from);
     if (shape < frame.sphere_count) light = sample_sphere(from, index, shape, v);
@@ -134,7 +134,7 @@ def test_the_density_of_a_quad_lamp_integrates_to_one_over_all_directions(
     setup = """Ray ray = Ray(vec3(0.3, 0.2, 0.0), direction, NO_SHAPE, false);
         float distance = quad_distance(ray, quad_at(0));"""
     pdf = call_glsl(
-        "distance > 0.0 ? pdf_light(0, ray, distance, total_weight(ray.origin)) : 0.0",
+        "distance > 0.0 ? pdf_light(0, ray, distance, total_weight(ray)) : 0.0",
         setup=setup,
         scene=QUAD,
         direction=direction,
@@ -219,7 +219,7 @@ def test_sampling_and_density_agree_for_every_lamp(call_glsl: CallGlsl) -> None:
     }
     setup = (
         "Hit hit = closest_hit(light.ray);"
-        "float pdf = pdf_light(index, light.ray, hit.distance, total_weight(origin));"
+        "float pdf = pdf_light(index, light.ray, hit.distance, total_weight(from));"
     )
     found = call_glsl(
         "vec4(light.pdf, pdf, hit.shape == shape, light.shape == shape)",

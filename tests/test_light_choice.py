@@ -85,6 +85,9 @@ def test_the_choice_stays_within_the_lamps_at_the_ends(call_glsl: CallGlsl) -> N
 # --- few lamps -----------------------------------------------------------------------------
 
 
+FROM = "Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), NO_SHAPE, false);"
+
+
 def weights(scene: Scene, origin: Array) -> Array:
     """Of each lamp at each point, (n, lamps) float64: flux over squared distance."""
     lights = pack_scene(scene)["Lights"]
@@ -111,9 +114,9 @@ def test_few_lamps_are_chosen_by_flux_over_squared_distance(
     u = (np.arange(2**12) + 0.5) / 2**12
     origin, u = np.repeat(points, len(u), axis=0), np.tile(u, len(points))
     found = call_glsl(
-        "vec2(index, choice_pdf(light_at(index), origin, total))",
+        "vec2(index, choice_pdf(light_at(index), from, total))",
         "vec2",
-        setup="float total = total_weight(origin); int index = choose_light(origin, total, u);",
+        setup=f"{FROM} float total = total_weight(from); int index = choose_light(from, total, u);",
         scene=scene,
         origin=origin,
         u=u,
@@ -127,7 +130,7 @@ def test_few_lamps_are_chosen_by_flux_over_squared_distance(
 def test_a_lamp_has_its_chance_at_the_very_ends(call_glsl: CallGlsl) -> None:
     u = np.array([0.0, BELOW_ONE])
     for count in (2, 5, MOST_NEAR):
-        setup = "int index = choose_light(origin, total_weight(origin), u);"
+        setup = f"{FROM} int index = choose_light(from, total_weight(from), u);"
         origin = np.tile([0.3, 0.1, 0.2], (2, 1))
         args = {"setup": setup, "scene": balls(count), "origin": origin, "u": u}
         assert call_glsl("index", "int", **args).tolist() == [0, count - 1]
@@ -141,12 +144,24 @@ def test_more_lamps_than_that_are_chosen_by_the_table() -> None:
         assert needs_of(scene, settings_for(scene.render, method="naive")).few_lights == 0
 
 
+def test_the_lamp_just_left_is_not_chosen(call_glsl: CallGlsl) -> None:
+    scene, u = balls(3), (np.arange(64) + 0.5) / 64
+    for left in range(3):
+        setup = (
+            f"{FROM} from.leaves = {left}; int index = choose_light(from, total_weight(from), u);"
+        )
+        args = {"setup": setup, "origin": np.zeros((64, 3)), "u": u}
+        chosen = call_glsl("index", "int", scene=scene, **args)
+        assert set(chosen.tolist()) == {0, 1, 2} - {left}
+
+
 def test_a_dark_lamp_keeps_its_chance(call_glsl: CallGlsl) -> None:
     """Its group may be lit again without a restart."""
     objects = [sphere([-1, 0, 0], 0.1, "lamp"), sphere([1, 0, 0], 0.1, "dark")]
     u = np.array([0.1, 0.9])
-    setup = "int index = choose_light(vec3(0.0), total_weight(vec3(0.0)), u);"
-    chosen = call_glsl("index", "int", setup=setup, scene=scene_of(objects, LAMPS), u=u)
+    setup = f"{FROM} int index = choose_light(from, total_weight(from), u);"
+    args = {"setup": setup, "origin": np.zeros((2, 3)), "u": u}
+    chosen = call_glsl("index", "int", scene=scene_of(objects, LAMPS), **args)
     assert chosen.tolist() == [0, 1]
 
 

@@ -131,7 +131,7 @@ ALL_LAMPS = """float density(vec3 origin, vec3 wi) {
         float t = 0.0;
         if (flat_index < 0) t = sphere_distance(ray, sphere_at(shape), shape);
         else t = quad_distance(ray, quad_at(flat_index));
-        if (t > 0.0) sum += pdf_light(k, ray, t, total_weight(ray.origin));
+        if (t > 0.0) sum += pdf_light(k, ray, t, total_weight(ray));
     }
     return sum;
 }"""
@@ -163,7 +163,7 @@ def test_each_of_a_thousand_lamps_is_chosen_by_its_probability(call_glsl: CallGl
     radii = 10.0 ** random.uniform(-3, 0, 999)  # powers over six orders
     balls = [sphere(random.uniform(-99, 99, 3), radius, "lamp") for radius in radii]
     scene = scene_of(balls, LAMPS)
-    setup = f"{RNG} int index = choose_light(vec3(0.0), 1.0, next_1d(rng) + 0.0 * unused);"
+    setup = f"{RNG} int index = choose_by_table(next_1d(rng) + 0.0 * unused);"
     index = call_glsl("index", "int", setup=setup, scene=scene, unused=np.zeros(DRAWS))
     counts = np.bincount(index, minlength=len(radii))
     assert_fits(counts, DRAWS * pack_scene(scene)["Lights"]["probability"].astype(float))

@@ -170,7 +170,7 @@ def test_the_density_integrates_to_one_over_all_directions(call_glsl: CallGlsl, 
     setup = """Ray ray = Ray(vec3(0.2, -0.1, 0.05), direction, NO_SHAPE, false);
         float distance = quad_distance(ray, quad_at(0));"""
     pdf = call_glsl(
-        "distance > 0.0 ? pdf_light(0, ray, distance, total_weight(ray.origin)) : 0.0",
+        "distance > 0.0 ? pdf_light(0, ray, distance, total_weight(ray)) : 0.0",
         setup=setup,
         scene=lit(name),
         constants=NEE,
