@@ -72,7 +72,7 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         weight_both=is_lit and method == "mis",
         roulette=settings.roulette and follows,
         model=_number_of(method, metals),
-        few_lights=few_lights(scene) if is_lit else 0,
+        few_lights=few_lights(scene) if is_lit and method in ("nee", "mis", "cook") else 0,
         block=settings.block,
     )
 

@@ -100,9 +100,7 @@ bool scatter_path(inout Path path, Surface surface, Material material, inout Sam
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return false;
     if (HAS_DIELECTRIC) path.scale *= next.scale;
-    if (ROULETTE && roulette_ends(path.throughput, rng)) {
-        return false;
-    }
+    if (ROULETTE && roulette_ends(path.throughput, rng)) return false;
     ray.direction = next.direction;
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
