@@ -7,6 +7,7 @@ Each fault planted into one of them shows in the stages where it must, and in no
 
 from ctypes.util import find_library
 from functools import cache
+from typing import get_args
 
 import pytest
 
@@ -14,7 +15,7 @@ from glrt.context import Context
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Scene
-from glrt.settings import Settings
+from glrt.settings import Settings, ToneMap
 from tests.builders import scene_of, sphere
 from tests.mixture import MATERIALS, everything
 from tests.packages import needs_package
@@ -30,6 +31,8 @@ from tests.wgsl.crosscheck import (
     relative_rms,
 )
 from tests.wgsl.device import Device, is_software
+from tests.wgsl.display import DisplayPass
+from tests.wgsl.program import RayTracer
 from tests.wgsl.text import Fault, joined, planted
 from tests.wgsl.tracer import Tracer, naive
 
@@ -197,6 +200,22 @@ def test_a_fault_that_cannot_be_planted_is_an_error() -> None:
         planted("a = b; a = b;", "a = b", "a = d")
     with pytest.raises(LookupError, match="no file nowhere"):
         joined(("exact",), Fault("nowhere", "a", "b"))
+
+
+@pytest.mark.parametrize("tonemap", get_args(ToneMap))
+@pytest.mark.parametrize("exposure", [-2.0, 1.5])
+def test_every_tone_curve_shows_the_same_colours(
+    webgpu: Device, context: Context, tonemap: ToneMap, exposure: float
+) -> None:
+    scene = scene_named("mixture")
+    settings = naive(scene, settings_of(scene), tonemap=tonemap, exposure=exposure)
+    tracer = Tracer(RayTracer(webgpu), scene, settings).render(4)
+    renderer = Renderer(scene, settings, context)
+    shown = renderer.render(4).display().astype(int)
+    renderer.release()
+    apart = abs(DisplayPass(webgpu).codes(tracer.picture, settings).astype(int) - shown)
+    assert apart.max() <= (0 if context.is_software and is_software(webgpu) else 1)
+    assert len({tuple(pixel) for pixel in shown.reshape(-1, 3)}) > 100
 
 
 def test_the_table_of_the_cross_check_can_be_made_again(
