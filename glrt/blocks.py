@@ -29,11 +29,15 @@ def tier_for(arrays: Mapping[str, Array], wanted: Tier) -> Tier:
 
 
 def blocks_text(
-    arrays: Mapping[str, Array], tier: Tier = "generic", has_storage: bool = True
+    arrays: Mapping[str, Array],
+    tier: Tier = "generic",
+    has_storage: bool = True,
+    uniform_bytes: int = UNIFORM_BYTES,
 ) -> str:
     """The text of `blocks.glsl` for these arrays, keyed by block name.
 
-    Without storage blocks, as in OpenGL 4.1, textures take their place.
+    Uniform blocks are at most `uniform_bytes` large. Without storage blocks, as in OpenGL 4.1,
+    textures take their place.
     """
     text = read("blocks.glsl")
     for block, rows in arrays.items():
@@ -45,7 +49,7 @@ def blocks_text(
         if tier == "baked" and block in BAKED:
             text = text.replace(storage, _constants(struct, f"{name}s", rows))
             text = text.replace(f"frame.{name}_count", str(len(rows)))
-        elif is_uniform(rows, tier):
+        elif is_uniform(rows, tier, uniform_bytes):
             uniform = f"layout(std140) uniform {block} {{ {struct} {name}s[{_capacity(rows)}]; }};"
             text = text.replace(storage, uniform)
         elif not has_storage:
@@ -54,15 +58,15 @@ def blocks_text(
     return text
 
 
-def padded(rows: Array, tier: Tier) -> bytes:
+def padded(rows: Array, tier: Tier, uniform_bytes: int = UNIFORM_BYTES) -> bytes:
     """The content of a block's buffer: as large as the uniform block, and never empty."""
-    least = _capacity(rows) if is_uniform(rows, tier) else 1
+    least = _capacity(rows) if is_uniform(rows, tier, uniform_bytes) else 1
     return rows.tobytes().ljust(least * rows.itemsize, b"\0")
 
 
-def is_uniform(rows: Array, tier: Tier) -> bool:
+def is_uniform(rows: Array, tier: Tier, uniform_bytes: int = UNIFORM_BYTES) -> bool:
     """Whether an array that is not baked lies in a uniform block."""
-    return tier != "storage" and _capacity(rows) * rows.itemsize <= UNIFORM_BYTES
+    return tier != "storage" and _capacity(rows) * rows.itemsize <= uniform_bytes
 
 
 def _capacity(rows: Array) -> int:

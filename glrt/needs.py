@@ -7,7 +7,7 @@ from typing import NamedTuple
 from glrt.scene import Material, Metal, Scene
 from glrt.settings import Settings
 
-TREE_FROM = 64  # spheres: from here on a tree over them pays (docs/speed.md)
+TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/speed.md)
 LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
 MOST_NEAR = 32  # lamps that are weighed at each point; more are chosen by a table
 

@@ -14,6 +14,7 @@ from glrt.shader import Source
 from glrt.texels import texels
 
 Arrays = Mapping[str, np.ndarray[Any, Any]]
+MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit: 1.4-1.5 times as fast as storage up to there
 Resolved = Literal["compute", "fragment"]
 
 
@@ -39,9 +40,9 @@ def sources(
     return [Source(entry, constants, "410 core", parts) for entry in entries]
 
 
-def scene_text(pipeline: Resolved, arrays: Arrays, tier: Tier) -> str:
+def scene_text(gl: moderngl.Context, pipeline: Resolved, arrays: Arrays, tier: Tier) -> str:
     """How the kernel reads the arrays: in place of `blocks.glsl`."""
-    return blocks_text(arrays, tier, has_storage=pipeline == "compute")
+    return blocks_text(arrays, tier, pipeline == "compute", _uniform_bytes(gl))
 
 
 def compiled(gl: moderngl.Context, shaders: list[Source]) -> Kernel | FragmentKernel:
@@ -55,11 +56,16 @@ def upload(
     """The arrays as the kernel reads them: buffers, or textures where blocks are too small."""
     return {
         name: _texture(gl, rows)
-        if pipeline == "fragment" and not is_uniform(rows, tier)
-        else gl.buffer(padded(rows, tier))
+        if pipeline == "fragment" and not is_uniform(rows, tier, _uniform_bytes(gl))
+        else gl.buffer(padded(rows, tier, _uniform_bytes(gl)))
         for name, rows in arrays.items()
         if not (tier == "baked" and name in BAKED)
     }
+
+
+def _uniform_bytes(gl: moderngl.Context) -> int:
+    """How large a uniform block may be."""
+    return min(MOST_UNIFORM_BYTES, int(gl.info["GL_MAX_UNIFORM_BLOCK_SIZE"]))
 
 
 def _texture(gl: moderngl.Context, rows: np.ndarray[Any, Any]) -> moderngl.Texture:

@@ -226,7 +226,7 @@ class Renderer:
 
     def _parts(self, arrays: Arrays) -> dict[str, str]:
         """Texts that stand in for shader files."""
-        return {"blocks.glsl": scene_text(self.pipeline, arrays, self.tier)}
+        return {"blocks.glsl": scene_text(self.context.gl, self.pipeline, arrays, self.tier)}
 
     def _texts(self) -> list[str]:
         return [shader.text for shader in self._shaders]
