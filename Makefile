@@ -38,6 +38,7 @@ gallery: ## render every scene into gallery/
 bench: ## measure how fast the kernel and its variants are, and other renderers
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.1
+	$(IN_ENVIRONMENT) glrt.lab.crowds
 	$(IN_ENVIRONMENT) glrt.lab.rivals
 	$(IN_ENVIRONMENT) glrt.lab.efficiency
 
