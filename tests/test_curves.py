@@ -69,6 +69,13 @@ def test_a_biased_method_never_reaches_less_than_its_bias() -> None:
     assert curve.milliseconds_to(0.1) == near(1 / (0.1**2 - 0.05**2), measured=True)
 
 
+def test_a_bias_that_the_reference_may_have_made_is_not_seen() -> None:
+    assert curve_of("method", runs(1.0, 0.05), least_bias=0.04).seen_bias > 0.045
+    doubtful = curve_of("method", runs(1.0, 0.05), least_bias=0.06)
+    assert doubtful.seen_bias == 0
+    assert doubtful.bias.high == 0.06
+
+
 def test_points_are_medians_with_quartiles() -> None:
     looks = [Run("m", [Look(1, seconds, 0.01)], 0.0) for seconds in (1.0, 2.0, 3.0, 4.0, 50.0)]
     [point] = curve_of("m", looks).points

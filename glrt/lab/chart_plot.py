@@ -86,7 +86,8 @@ def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
         gain = speed_up(curves, level)
         text = f"{percent(level)}: {gain.text}" if gain else percent(level)
         if curves:
-            axes.text(left * 1.05, level, text, size=FONT - 3, va="bottom", zorder=6)
+            box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85}
+            axes.text(left * 1.05, level, text, size=FONT - 3, va="bottom", zorder=6, bbox=box)
         if gain and gain.fast < right:
             ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
             axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})

@@ -71,15 +71,21 @@ class Curve:
         return last.milliseconds.value * max(noise, 0.0) / room, False
 
 
-def curves_of(rounds: Sequence[Round]) -> list[Curve]:
+def curves_of(rounds: Sequence[Round], least_bias: float = 0.0) -> list[Curve]:
     """A curve for each variant, in the order of their names in the first round."""
-    return [curve_of(run.variant, of_variant(rounds, run.variant)) for run in rounds[0]]
+    names = [run.variant for run in rounds[0]]
+    return [curve_of(name, of_variant(rounds, name), least_bias) for name in names]
 
 
-def curve_of(name: str, runs: Sequence[Run]) -> Curve:
-    """The curve of one variant over the samples that all its runs reached."""
+def curve_of(name: str, runs: Sequence[Run], least_bias: float = 0.0) -> Curve:
+    """The curve of one variant over the samples that all its runs reached.
+
+    A bias below `least_bias` may be the reference's: its noise is in what errors are relative to.
+    """
     shared = min(len(run.looks) for run in runs)
     bias = squared_interval([run.squared_bias for run in runs])
+    if bias.value < least_bias:
+        bias = Interval(bias.value, 0.0, max(bias.high, least_bias))
     columns = zip(*(run.looks[:shared] for run in runs), strict=True)
     points = [_point(looks) for looks in columns]
     seen = tuple(point for point in points if point.error.value > 0)

@@ -83,7 +83,7 @@ def measure_scene(
     for done in _rounds_to_come(bench, plan, rounds, len(variants), tell_round):
         save_rounds(rounds_file, key, done)
     bench.release()
-    curves = tuple(curves_of(_in_order(rounds, variants)))
+    curves = tuple(curves_of(_in_order(rounds, variants), reference.error))
     title = scene.title or name
     return Experiment(name, title, len(rounds), reference, tuple(variants), curves, rays, place)
 
