@@ -1,10 +1,12 @@
 """glrt: a physically based path tracer in OpenGL compute shaders."""
 
+from typing import Any
+
 from glrt.compare import compare
 from glrt.comparison import Comparison
 from glrt.image import Image
 from glrt.library import load
-from glrt.renderer import Renderer, render
+from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import Settings
 from glrt.version import VERSION
@@ -22,3 +24,12 @@ __all__ = [
 ]
 
 __version__ = VERSION
+
+
+def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:
+    """Render a scene; `settings` are fields of Settings, and `context`."""
+    renderer = Renderer(scene, tier="baked", samples=samples, **settings)
+    try:
+        return renderer.render().image()
+    finally:
+        renderer.release()

@@ -17,31 +17,35 @@ class Exposure(NamedTuple):
     variance: Array  # of one observation
     dropped: Array  # (H, W): samples that were not finite
     observations: Array  # (H, W): whole ones
+    layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
 
 
 class Film:
     """RGBA32F textures for mean and variance, each twice: one is read, one written.
 
-    A third pair holds the observation that has begun, if one takes more than a sample.
+    A third pair holds the observation that has begun, if one takes more than a sample; a fourth
+    the layers, if there are any, each over two halves of the observations.
     """
 
-    def __init__(self, gl: moderngl.Context, width: int, height: int, block: int = 1) -> None:
+    def __init__(
+        self, gl: moderngl.Context, width: int, height: int, block: int = 1, layers: int = 0
+    ) -> None:
         """Allocate for observations of `block` samples.
 
         RenderError if the driver has no room for this size.
         """
         self._gl = gl
-        self._allocate(width, height, block)
+        self._allocate(width, height, block, layers)
 
-    def restart(self, width: int, height: int, block: int = 1) -> None:
-        """Forget everything; with another size or block, allocate anew.
+    def restart(self, width: int, height: int, block: int = 1, layers: int = 0) -> None:
+        """Forget everything; with another size, block or number of layers, allocate anew.
 
         The textures keep what they hold: the first dispatch ignores it.
         """
         self.samples = 0
-        if (*self.size, self.block) != (width, height, block):
+        if (*self.size, self.block, self.layer_count) != (width, height, block, layers):
             self.release()
-            self._allocate(width, height, block)
+            self._allocate(width, height, block, layers)
 
     def images(self) -> dict[str, moderngl.Texture]:
         """The textures under the names of the kernel's images."""
@@ -62,13 +66,18 @@ class Film:
         """The texture that holds the picture so far."""
         return self._pairs[0]["mean"]
 
+    @property
+    def layers(self) -> moderngl.Texture | None:
+        """The layers so far, side by side: over one half of the observations, below the other."""
+        return self._pairs[0].get("layers")
+
     def read(self) -> Exposure:
         """Copy the film into memory."""
         if not self.samples:
             raise RenderError("the film is empty: render a sample first")
         mean, variance = (self._read(self._pairs[0][name]) for name in ("mean", "variance"))
         parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
-        return Exposure(*(part.copy() for part in parts))
+        return Exposure(*(part.copy() for part in (*parts, self._read_layers())))
 
     def release(self) -> None:
         """Free the textures."""
@@ -76,22 +85,29 @@ class Film:
             for texture in pair.values():
                 texture.release()
 
-    def _allocate(self, width: int, height: int, block: int) -> None:
-        self.size, self.block = (width, height), block
+    def _allocate(self, width: int, height: int, block: int, layers: int) -> None:
+        self.size, self.block, self.layer_count = (width, height), block, layers
         self.samples = 0
-        names = ("mean", "variance", "block") if block > 1 else ("mean", "variance")
-        self._pairs = [{name: self._texture() for name in names} for _ in range(2)]
+        sizes = dict.fromkeys(("mean", "variance"), self.size)
+        sizes |= {"block": self.size} if block > 1 else {}
+        sizes |= {"layers": (layers * width, 2 * height)} if layers else {}
+        self._pairs = [{name: self._texture(*size) for name, size in sizes.items()} for _ in "ab"]
 
-    def _texture(self) -> moderngl.Texture:
+    def _texture(self, across: int, down: int) -> moderngl.Texture:
         width, height = self.size
         problem = f"no room on the driver for a film of {width} x {height} pixels; render a --crop"
         try:
-            texture = self._gl.texture(self.size, 4, dtype="f4")
+            texture = self._gl.texture((across, down), 4, dtype="f4")
         except moderngl.Error as error:
             raise RenderError(f"{problem} ({error})") from error
         if (state := self._gl.error) != "GL_NO_ERROR":
             raise RenderError(f"{problem} ({state})")
         return texture
+
+    def _read_layers(self) -> Array:
+        (width, height), count = self.size, self.layer_count
+        whole = np.frombuffer(self.layers.read() if self.layers else b"", np.float32)
+        return whole.reshape(2, height, count, width, 4).swapaxes(1, 2)
 
     def _read(self, texture: moderngl.Texture) -> Array:
         width, height = self.size

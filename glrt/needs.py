@@ -10,6 +10,7 @@ from glrt.settings import Settings
 TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/speed.md)
 LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
 MOST_NEAR = 32  # lamps that are weighed at each point; more are chosen by a table
+NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0}
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,8 @@ class Needs:
 
     def constants(self) -> dict[str, bool | int]:
         """The prelude: what the compiler may take for granted."""
-        return {field.name.upper(): getattr(self, field.name) for field in fields(self)}
+        values = {field.name.upper(): getattr(self, field.name) for field in fields(self)}
+        return {**values, **NO_LAYERS}
 
 
 class Feature(NamedTuple):

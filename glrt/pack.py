@@ -12,6 +12,7 @@ import numpy as np
 from glrt import bvh
 from glrt.layout import read_constants, read_structs, record
 from glrt.needs import has_tree, is_light, used_materials
+from glrt.relight import layer_of_group
 from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere
 from glrt.settings import Settings
 from glrt.shader import read
@@ -200,13 +201,14 @@ def _pack_quads(
 
 def _pack_materials(scene: Scene) -> Array:
     kinds = {"metal": "METAL", "dielectric": "DIELECTRIC"}
-    used = used_materials(scene)
+    used, layers = used_materials(scene), layer_of_group(scene)
     rows = np.zeros(len(used), STRUCTS["Material"])
     for row, (name, material) in zip(rows, used.items(), strict=True):
         row["kind"] = CONSTANTS[kinds.get(material.type, "MATTE")]
         row["color"] = getattr(material, "color", 0.0)
         row["alpha"] = getattr(material, "alpha", 0.0)
         row["ior"] = getattr(material, "ior", 1.0)
+        row["layer"] = layers.get(getattr(material, "group", None) or name, 0)
         row["emission"] = scene.emission(name) if is_light(material) else 0.0
     return rows
 

@@ -11,13 +11,15 @@ from glrt.blocks import Tier, tier_for
 from glrt.context import Choice, Context, Pipeline, open_context
 from glrt.display import Display
 from glrt.errors import UsageError
-from glrt.film import Film, standard_error
+from glrt.film import Film
 from glrt.image import Image
 from glrt.kernel import Resource, tile_count
+from glrt.mix import Mixer, mixed
 from glrt.needs import has_tree, needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.pipelines import Arrays, compiled, resolve, scene_text, sources, upload
 from glrt.recipe import Recipe
+from glrt.relight import Layering, Weights, are_trivial, plan_for
 from glrt.scene import Scene
 from glrt.schedule import (
     HEADLESS_LIMIT,
@@ -30,7 +32,7 @@ from glrt.schedule import (
     whole_frame,
 )
 from glrt.selftest import usable_rounds
-from glrt.settings import Cost, Settings, cost_of_change, settings_for
+from glrt.settings import Cost, Settings, settings_for
 from glrt.version import VERSION
 
 ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
@@ -49,6 +51,7 @@ class Renderer:
         context: Context | Choice = "auto",
         tier: Tier = "generic",
         pipeline: Pipeline = "auto",
+        layering: Layering = "none",
         **overrides: Any,
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
@@ -56,19 +59,23 @@ class Renderer:
         `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
         "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
         The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
+        With `layering` by "groups", lamps change without a restart; by "lengths", the bounces
+        below those traced do; both need compute shaders.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
-        self.pipeline = resolve(pipeline, self.context)
+        self.pipeline = resolve("compute" if layering != "none" else pipeline, self.context)
         self._wanted_tier = tier
         self._resources: dict[str, Resource] = {}
+        self._mixer = Mixer(self.context.gl)
+        self.plan = plan_for(self.scene, self.settings, layering)
         most_samples = self._most_samples(self.scene, self.settings)
         with self.context.gl:
             self._upload(most_samples)
-            self._film = Film(self.context.gl, *self.size, self.settings.block)
+            self._film = Film(self.context.gl, *self.size, self.settings.block, self.plan.layers)
             self._compile()
 
     @property
@@ -88,34 +95,37 @@ class Renderer:
             return self.settings.crop[2], self.settings.crop[3]
         return self.settings.width, self.settings.height
 
-    @property
-    def picture(self) -> moderngl.Texture:
-        """The mean so far, for the display pass; without a sample it holds what came before."""
-        return self._film.mean
+    def weighed(self, weights: Weights) -> moderngl.Texture:
+        """The film under weights, for the display pass: until the next call, in this context."""
+        return self._film.mean if are_trivial(weights) else self._mixer.draw(self._film, weights)
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
         self._schedule.drop()
         with self.context.gl:
-            self._film.restart(*self.size, self.settings.block)
+            self._film.restart(*self.size, self.settings.block, self.plan.layers)
 
-    def update(self, scene: Scene | None = None, **changes: Any) -> Cost | None:
+    def update(
+        self, scene: Scene | None = None, layering: Layering | None = None, **changes: Any
+    ) -> Cost | None:
         """Go on with another scene or other settings; returns what that cost, None for nothing.
 
         The one place where accumulation starts again. What is refused changes nothing.
         """
-        before = self.scene, self.settings
+        layering = layering or self.plan.layering
         after = scene or self.scene, settings_for(self.settings, **changes)
-        if after == before:
+        if (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
+        if relit := self.plan.relit(*after, layering):
+            cost = Cost.FREE if relit == self.plan else Cost.RELIGHT
+            (self.scene, self.settings), self.plan = after, relit
+            return cost
         most_samples = self._most_samples(*after)
-        self.scene, self.settings = after
-        if self.scene == before[0] and cost_of_change(before[1], self.settings) is Cost.FREE:
-            return Cost.FREE
+        (self.scene, self.settings), self.plan = after, plan_for(*after, layering)
         before_texts = self._texts()
         with self.context.gl:
             self._upload(most_samples)
-            self._film.restart(*self.size, self.settings.block)
+            self._film.restart(*self.size, self.settings.block, self.plan.layers)
             if self._texts() == before_texts:
                 return Cost.RESTART
             self._kernel.release()
@@ -174,13 +184,13 @@ class Renderer:
             tier=self.tier,
             pipeline=self.pipeline,
         )
-        return Image(film.mean, standard_error(film), self.samples, recipe)
+        return Image(*mixed(film, self.plan.weights), self.samples, recipe)
 
     def display(self) -> np.ndarray[Any, Any]:
         """The picture so far through the display pass: (H, W, 3) uint8 sRGB, row 0 on top."""
         with self.context.gl:
             display = Display(self.context.gl)
-            codes = display.read(self._film.mean, self.settings)
+            codes = display.read(self.weighed(self.plan.weights), self.settings)
             display.release()
         return codes
 
@@ -194,6 +204,7 @@ class Renderer:
         with self.context.gl:
             self._film.release()
             self._kernel.release()
+            self._mixer.release()
             for resource in self._resources.values():
                 resource.release()
         if self._owns_context:
@@ -208,7 +219,7 @@ class Renderer:
 
     def _upload(self, most_samples: int) -> None:
         """Give the driver the scene, and write the kernel for it."""
-        arrays = pack_scene(self.scene)
+        arrays = pack_scene(self.plan.scene)
         self._counts = {name: len(rows) for name, rows in arrays.items()}
         self.tier = tier_for(arrays, self._wanted_tier)
         for resource in self._resources.values():
@@ -217,8 +228,9 @@ class Renderer:
         shapes = upload(self.context.gl, self.pipeline, arrays, self.tier)
         self._lost = self.context.gl.buffer(bytes(4))
         self._resources = {**shapes, "FrameBlock": self._frame, "Lost": self._lost}
-        self._may_lose = has_tree(self.scene) and self._rounds is not None
-        constants = needs_of(self.scene, self.settings).constants()
+        self._may_lose = has_tree(self.plan.scene) and self._rounds is not None
+        constants = needs_of(self.plan.scene, self.plan.settings).constants()
+        constants |= self.plan.constants()
         self._shaders = sources(self.pipeline, constants, self._parts(arrays))
         self._tiles = tile_count(*self.size)
         self.most_samples = most_samples
@@ -276,8 +288,8 @@ class Renderer:
 
     def _dispatch(self, portion: Portion) -> None:
         frame = pack_frame(
-            self.scene,
-            self.settings,
+            self.plan.scene,
+            self.plan.settings,
             self._counts,
             self.samples,
             portion.samples,
@@ -287,12 +299,3 @@ class Renderer:
         self._frame.write(frame)
         self._kernel.bind(self._resources, self._film.images())
         self._kernel.run_tiles(portion.tiles)
-
-
-def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:
-    """Render a scene; `settings` are fields of Settings, and `context`."""
-    renderer = Renderer(scene, tier="baked", samples=samples, **settings)
-    try:
-        return renderer.render().image()
-    finally:
-        renderer.release()

@@ -32,7 +32,7 @@ from glrt.scene_parts import (
     Sphere,
     Vector,
 )
-from glrt.settings import Frozen, RenderSettings
+from glrt.settings import Cost, Frozen, RenderSettings
 
 __all__ = [
     "LARGEST",
@@ -96,7 +96,7 @@ class Scene(Frozen):
     lights: dict[Name, Intensity] = Field(
         {},
         description="intensity of light groups, a factor from 0 to 1e15, each 1 by default",
-        json_schema_extra={"slider": [0, 10]},
+        json_schema_extra={"slider": [0, 10], "cost": Cost.RELIGHT.value},
     )
     objects: tuple[Shape, ...] = Field(
         (), max_length=MAX_OBJECTS, description="the shapes, at most 65,536"

@@ -11,6 +11,7 @@ struct LightSample {
     float pdf;      // 0: nothing was sampled
     vec3 radiance;
     int shape;
+    int layer;      // of its light group
 };
 
 // 1 - cos of the cone that a sphere fills, without the cancellation of 1 - sqrt(1 - s2);
@@ -71,7 +72,7 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
 }
 
 LightSample no_light_sample(Ray ray) {
-    return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE);
+    return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0);
 }
 
 LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
@@ -84,9 +85,9 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
     ray.direction = direction;
     float distance = sphere_distance(ray, sphere, shape);
     if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
-    vec3 radiance = material_at(sphere.material).emission;
+    Material lamp = material_at(sphere.material);
     float pdf = pdf_light(index, ray, distance, total_weight(ray));
-    return LightSample(ray, distance, pdf, radiance, shape);
+    return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
 }
 
 LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
@@ -98,9 +99,9 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
     if (distance == 0.0) return no_light_sample(ray);
     vec3 direction = to_point / distance;
     ray.direction = direction;
-    vec3 radiance = material_at(quad.material).emission;
+    Material lamp = material_at(quad.material);
     float pdf = pdf_light(index, ray, distance, total_weight(ray));
-    return LightSample(ray, distance, pdf, radiance, shape);
+    return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
 }
 
 // From the origin of `ray`, whose direction is ignored.

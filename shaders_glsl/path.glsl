@@ -28,8 +28,7 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
 }
 
 // Direct light from one sampled point, scattered towards wo. The direction of `from` is ignored.
-vec3 direct_light(Vertex vertex, Ray from, inout Sampler rng) {
-    LightSample light = sample_light(from, rng);
+vec3 direct_light(Vertex vertex, Ray from, LightSample light) {
     if (light.pdf == 0.0) return vec3(0.0);
     vec3 wi = to_local(vertex.frame, light.ray.direction);
     if (wi.z <= 0.0) return vec3(0.0);
@@ -59,10 +58,17 @@ struct Path {
     float pdf;        // of the last scattering; 0 if it was a delta, or none yet
     float lamps;      // weight of all that are sampled, where it scattered last
     int depth;        // scattering events so far
+    vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
 Path start_path(Ray ray) {
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, NO_LAYERS);
+}
+
+// Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
+void gather(inout Path path, vec3 light, int group, int length) {
+    path.radiance += light;
+    if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
 }
 
 // Where a model of the ladder ends: the light of the lamps and of an unhidden sky, whose irradiance
@@ -71,15 +77,19 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
     vec3 weight = path.scale * path.throughput;
     if (HAS_BACKGROUND) {
         vec3 sky = background(2.0 / 3.0 * vertex.frame[2]);
-        path.radiance += weight * vertex.material.color * sky;
+        gather(path, weight * vertex.material.color * sky, BACKGROUND_LAYER, path.depth + 1);
     }
     if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
     if (MODEL == COOK) {
-        path.radiance += weight * direct_light(vertex, from, rng);
+        LightSample light = sample_light(from, rng);
+        vec3 direct = weight * direct_light(vertex, from, light);
+        gather(path, direct, light.layer, path.depth + 1);
         return;
     }
     for (int i = 0; i < light_count(); ++i) {
-        path.radiance += weight * point_light(vertex, from, light_at(i).shape);
+        int shape = light_at(i).shape;
+        vec3 direct = weight * point_light(vertex, from, shape);
+        gather(path, direct, material_at(point_lamp(shape).material).layer, path.depth + 1);
     }
 }
 
@@ -94,7 +104,9 @@ bool scatter_path(inout Path path, Surface surface, Material material, inout Sam
         return false;
     }
     if (SAMPLE_LIGHTS && !is_delta(material)) {
-        path.radiance += path.scale * path.throughput * direct_light(vertex, ray, rng);
+        LightSample light = sample_light(ray, rng);
+        vec3 direct = path.scale * path.throughput * direct_light(vertex, ray, light);
+        gather(path, direct, light.layer, path.depth + 1);
     }
     Scattering next = sample_material(vertex, side > 0.0, rng);
     path.throughput *= next.weight;
@@ -115,14 +127,16 @@ bool extend_path(inout Path path, inout Sampler rng) {
     Hit hit = closest_hit(path.ray);
     if (hit.shape == NO_SHAPE) {
         if (HAS_BACKGROUND) {
-            path.radiance += path.scale * path.throughput * background(path.ray.direction);
+            vec3 sky = path.scale * path.throughput * background(path.ray.direction);
+            gather(path, sky, BACKGROUND_LAYER, path.depth);
         }
         return false;
     }
     Surface surface = surface_at(path.ray, hit);
     Material material = material_at(surface.material);
     float emitted = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
-    path.radiance += path.scale * path.throughput * material.emission * emitted;
+    vec3 light = path.scale * path.throughput * material.emission * emitted;
+    gather(path, light, material.layer, path.depth);
     if (path.depth == frame.bounces) return false;
     return scatter_path(path, surface, material, rng);
 }

@@ -53,6 +53,7 @@ struct Material {
     vec3 emission;   // radiance, light intensity included
     float alpha;     // GGX roughness, the square of the scene file's; 0: mirror
     float ior;       // inside over outside
+    int layer;       // of its light group, where light is kept by layers
 };
 
 struct Light {

@@ -17,6 +17,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "strips.glsl"
 #include "light_choice.glsl"
 #include "light.glsl"
+#include "layers.glsl"
 #include "ladder.glsl"
 #include "path.glsl"
 #include "film.glsl"
@@ -29,6 +30,8 @@ layout(rgba32f) uniform readonly image2D source_block;     // a: its samples
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_block;
+layout(rgba32f) uniform readonly image2D source_layers;  // a: its samples
+layout(rgba32f) uniform writeonly image2D target_layers;
 
 layout(std430) buffer Lost { uint lost_samples; };
 
@@ -41,15 +44,41 @@ Pixel load_pixel(ivec2 texel) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
+// Layers lie side by side: one half of the observations above, the other below.
+ivec2 layer_place(ivec2 texel, int slice) {
+    return imageSize(target_mean) * ivec2(slice % DIVISOR, slice / DIVISOR) + texel;
+}
+
+Layers load_layers(ivec2 texel) {
+    Layers layers = empty_layers();
+    if (LAYERS == 0 || frame.first_sample == 0) return layers;
+    for (int i = 0; i < 2 * LAYERS; i += 1) {
+        vec4 mean = imageLoad(source_layers, layer_place(texel, i));
+        layers.means[i] = mean.rgb;
+        layers.counts[i / DIVISOR] = mean.a;
+    }
+    return layers;
+}
+
+void store_layers(ivec2 texel, Layers layers) {
+    if (LAYERS == 0) return;
+    for (int i = 0; i < 2 * LAYERS; i += 1) {
+        vec4 mean = vec4(layers.means[i], layers.counts[i / DIVISOR]);
+        imageStore(target_layers, layer_place(texel, i), mean);
+    }
+}
+
 void main() {
     ivec2 picture = imageSize(target_mean);
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
     Pixel pixel = load_pixel(texel);
-    int lost = add_samples(pixel, frame.origin + texel);
+    Layers layers = load_layers(texel);
+    int lost = add_samples(pixel, layers, frame.origin + texel);
     if (HAS_TREE && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
+    store_layers(texel, layers);
 }

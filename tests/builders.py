@@ -3,7 +3,7 @@
 from dataclasses import fields
 from typing import Any
 
-from glrt.needs import Needs
+from glrt.needs import NO_LAYERS, Needs
 from glrt.scene import Scene
 from glrt.scene_file import parse_scene
 
@@ -12,6 +12,7 @@ EVERYTHING: dict[str, bool | int] = {
     "BLOCK": 1,
     "MODEL": 0,
     "FEW_LIGHTS": 0,
+    **NO_LAYERS,
 }
 
 MATTE = {"type": "lambertian", "color": [0.5, 0.5, 0.5]}

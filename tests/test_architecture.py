@@ -19,6 +19,7 @@ ORDER = [
         "scene_file",
         "cautions",
         "needs",
+        "relight",
         "omissions",
         "layout",
         "shader",
@@ -32,7 +33,7 @@ ORDER = [
         "recipe",
     ),
     *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),
-    *("context", "kernel", "probe", "selftest", "pipelines", "film", "display", "schedule"),
+    *("context", "kernel", "probe", "selftest", "pipelines", "film", "mix", "display", "schedule"),
     *(
         "renderer",
         "__init__",
@@ -49,12 +50,29 @@ ORDER = [
     ),
     "__main__",
 ]
-KNOW_OPENGL = {"context", "kernel", "pipelines", "probe", "selftest", "film", "display", "renderer"}
+KNOW_OPENGL = {
+    "context",
+    "kernel",
+    "pipelines",
+    "probe",
+    "selftest",
+    "film",
+    "mix",
+    "display",
+    "renderer",
+}
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60
 
-ENTRIES = {"trace.comp", "trace.vert", "trace.frag", "blocks.glsl", "display.frag", "display.vert"}
+ENTRIES = {
+    "trace.comp",
+    "trace.vert",
+    "trace.frag",
+    "blocks.glsl",
+    "display.frag",
+    "display.vert",
+} | {"mix.frag"}
 NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it

@@ -303,7 +303,8 @@ def exposure(samples: Array, dropped: int = 0) -> Exposure:
     """A film of one pixel that has gathered these observations, (n, 3)."""
     mean, variance = samples.mean(axis=0), samples.var(axis=0)
     place = (1, 1, 3)
-    figures = [np.full((1, 1), float(figure)) for figure in (dropped, len(samples))]
+    counts = [np.full((1, 1), float(count)) for count in (dropped, len(samples))]
+    figures = [*counts, np.zeros((2, 0, 1, 1, 4))]
     return Exposure(mean.reshape(place), variance.reshape(place), *figures)
 
 

@@ -6,8 +6,9 @@ import pytest
 
 from glrt.context import Context
 from glrt.errors import SceneError
+from glrt.relight import NONE, ONE
 from glrt.renderer import Renderer
-from glrt.scene import Camera, Scene
+from glrt.scene import Camera, Scene, with_lights
 from glrt.settings import Cost, settings_for
 from glrt.ui.controls import replaced
 from glrt.ui.pace import LEAST, Pace
@@ -122,22 +123,6 @@ def test_what_the_renderer_refuses_is_told_and_the_old_scene_goes_on(
     assert session.samples > samples
 
 
-def test_a_frame_ends_with_its_time(session: Session, clock: Clock) -> None:
-    start(session)
-    for seconds in (0.1, 0.02):
-        began = clock.now
-        session.advance(seconds)
-        assert clock.now - began < 1.5 * seconds + 10 * clock.step
-
-
-def test_slow_dispatches_are_not_made_longer(session: Session, clock: Clock) -> None:
-    start(session)
-    session.restart()
-    clock.step = 0.05  # a dispatch of one sample now takes as long as the frame
-    session.advance(0.05)
-    assert session.samples == 1
-
-
 def test_a_count_of_samples_for_each_frame_is_kept(session: Session) -> None:
     start(session)
     samples = session.samples
@@ -168,12 +153,14 @@ def test_a_paused_session_shows_one_sample_of_what_is_new(session: Session) -> N
 
 
 def test_a_moving_camera_is_shown_coarsely_when_samples_are_slow(
-    session: Session, clock: Clock
+    session: Session, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     start(session)
     clock.step = 0.02
-    for _ in range(20):
-        session.advance(0.01)  # learns that a sample takes twice the time of a frame
+    with monkeypatch.context() as patch:
+        patch.setattr(Renderer, "advance", lambda renderer, *_: renderer.step(1))
+        for _ in range(20):
+            session.advance(0.01)  # learns that a sample takes twice the time of a frame
     session.edit(aside(session.scene), "camera")
     session.advance(0.01)
     assert session.renderer
@@ -191,6 +178,38 @@ def test_a_fast_renderer_moves_at_full_size(session: Session) -> None:
     session.edit(aside(session.scene), "camera")
     session.advance(0.1)
     assert not session.is_preview
+
+
+def test_light_is_weighed_without_a_restart(session: Session) -> None:
+    start(session)
+    samples, restarts = session.samples, session.restarts
+    session.edit(with_lights(session.scene, {"lamp": 0.0}))
+    assert session.cost_of_light("lamp") is Cost.RELIGHT
+    session.advance(0.01)
+    assert session.last_cost is Cost.RELIGHT
+    assert session.samples > samples
+    assert session.restarts == restarts
+    assert session.weights != (ONE,)
+
+
+def test_bounces_are_weighed_while_their_control_is_open(session: Session) -> None:
+    start(session)
+    session.by_length = True
+    assert session.cost_of_light("lamp") is Cost.RESTART
+    assert session.cost_of_fewer_bounces() is Cost.RELIGHT
+    start(session)
+    restarts, samples = session.restarts, session.samples
+    session.edit(bounces=1)
+    session.advance(0.01)
+    assert (session.restarts, session.last_cost) == (restarts, Cost.RELIGHT)
+    assert session.samples > samples
+    assert session.weights == (ONE, ONE, NONE, NONE)
+    session.alone = 2
+    assert session.weights == (NONE, NONE, ONE, NONE)
+    session.by_length = False
+    start(session)
+    assert session.restarts == restarts + 1
+    assert session.settings.bounces == 1
 
 
 def test_undo_brings_back_scene_and_settings(session: Session) -> None:

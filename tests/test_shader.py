@@ -205,7 +205,13 @@ Ray f(vec3 parameter, inout float other) {
 def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     files = {path.name for path in folder("shaders_glsl").iterdir()}
     reached = {*INCLUDES, *re.findall(r'#include "(\w+\.glsl)"', TONEMAP_ENTRY)}
-    assert files == reached | {"trace.comp", "trace.vert", "trace.frag", *DISPLAY_STAGES}
+    assert files == reached | {
+        "trace.comp",
+        "trace.vert",
+        "trace.frag",
+        "mix.frag",
+        *DISPLAY_STAGES,
+    }
 
 
 @pytest.mark.parametrize("features", FEATURE_SETS)
@@ -219,10 +225,19 @@ def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert warnings((COMPUTE, Source("tonemap", parts={"tonemap": TONEMAP_ENTRY}).text)) == []
 
 
-def test_the_display_compiles_without_a_warning(ctx: moderngl.Context) -> None:
+@pytest.mark.parametrize("name", ["display.frag", "mix.frag"])
+def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
     assert ctx.version_code >= 430
-    stages = [(stage, Source(name).text) for name, stage in DISPLAY_STAGES.items()]
+    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(name).text)]
     assert warnings(*stages) == []
+
+
+def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
+    assert ctx.version_code >= 430
+    for layers in ({"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}):
+        text = Source("trace.comp", {**EVERYTHING, **layers}).text
+        assert imprecise(text) == []
+        assert warnings((COMPUTE, text)) == []
 
 
 def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:

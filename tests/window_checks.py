@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from glrt.renderer import Renderer
 from glrt.scene import Camera, Scene
 from glrt.settings import Cost
 from glrt.ui import orbit, panel
@@ -18,9 +19,11 @@ from tests.hand import SMALL, Hand, check
 # Each control by its label in the panel: the control, and what to do to it.
 MOVES: dict[str, tuple[Control, Any]] = {
     "intensity##lamp": (panel.INTENSITY, 3.0),
-    "emission##lamp/##X": (panel.EMISSION, 2.0),
+    "emission##lamp/##X": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
     "bounces": (panel.SETTINGS["bounces"], 1),
     "method/nee": (panel.SETTINGS["method"], None),
+    "sampler/sobol": (panel.SETTINGS["sampler"], None),
+    "seed": (panel.SETTINGS["seed"], 7),
     "roulette": (panel.SETTINGS["roulette"], None),
     "samples": (panel.SETTINGS["samples"], 5000),
     "exposure": (panel.SETTINGS["exposure"], 2.0),
@@ -43,7 +46,7 @@ UNSEEN = (
 def move(hand: Hand, reference: str, value: Any) -> None:
     """Do what a user does to a control."""
     hand.ctx.set_ref("Controls")
-    if reference in ("method/nee", "tonemap/agx"):
+    if value is None and "/" in reference:
         hand.ctx.combo_click(reference)
     elif value is None:
         hand.ctx.item_click(reference)
@@ -259,3 +262,51 @@ def preferences_are_kept_while_the_window_is_open(hand: Hand) -> None:
     before = hand.session.scene.camera
     drag(hand, 60, 0)
     assert hand.session.scene.camera.position == before.position, "fly: it turns where it stands"
+
+
+@check
+def a_relit_picture_is_that_of_a_fresh_render(hand: Hand) -> None:
+    hand.there(lambda: hand.session.edit(samples=8, seed=2))
+    hand.until(lambda: hand.session.is_done)
+    dim, restarts = hand.pixels(), hand.session.restarts
+    move(hand, "intensity##lamp", 2.0)
+    hand.until(lambda: hand.session.last_cost is Cost.RELIGHT, frames=3)
+    hand.ctx.yield_()
+    bright = hand.pixels()
+    assert hand.session.restarts == restarts
+    assert bright.mean() > 1.1 * dim.mean()
+
+    def render() -> Any:
+        session = hand.session
+        fresh = Renderer(session.scene, session.settings, session._context)
+        codes = fresh.render().display()
+        fresh.release()
+        return codes
+
+    assert (hand.there(render) == bright[..., :3]).all()
+
+
+@check
+def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
+    ctx = hand.ctx
+    hand.there(lambda: hand.session.edit(bounces=5))
+    ctx.set_ref("Controls")
+    ctx.item_click("bounces live")
+    hand.settle()
+    restarts, samples, whole = hand.session.restarts, hand.session.samples, hand.pixels()
+    ctx.item_input_value("bounces", 0)
+    hand.settle()
+    assert hand.session.restarts == restarts
+    assert hand.session.samples > samples
+    black = hand.pixels()[..., :3]
+    assert (black.max(axis=2) > 0).mean() < 0.2 < (whole[..., :3].max(axis=2) > 0).mean(), "lamps"
+    ctx.item_input_value("bounces", 5)
+    hand.settle()
+    ctx.combo_click("shown/bounce 2 alone")
+    hand.settle()
+    alone = hand.pixels()[..., :3]
+    assert 0.05 * whole.mean() < alone.mean() < 0.9 * whole.mean()
+    ctx.combo_click("shown/all light")
+    ctx.item_click("bounces live")
+    hand.settle()
+    assert hand.session.restarts == restarts + 1

@@ -99,9 +99,11 @@ class App:
         if not session.renderer or not session.samples:
             return
         settings = session.settings
-        content = (session.samples, session.restarts, settings.exposure, settings.tonemap)
+        progress = session.samples, session.restarts
+        content = (*progress, settings.exposure, settings.tonemap, session.weights)
         if content != self.shown:
-            self.picture.draw(session.renderer.picture, settings, session.is_preview)
+            film = session.renderer.weighed(session.weights)
+            self.picture.draw(film, settings, session.is_preview)
             self.shown = content
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:

@@ -49,6 +49,10 @@ class Control:
         """The same control under another name."""
         return replace(self, name=name)
 
+    def costing(self, cost: Cost) -> "Control":
+        """The same control where an edit costs something else at present."""
+        return replace(self, cost=cost)
+
     @property
     def is_logarithmic(self) -> bool:
         """Whether the range of the slider spans several magnitudes."""

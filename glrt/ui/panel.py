@@ -6,15 +6,17 @@ from typing import Any
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.library import scene_names
+from glrt.relight import MOST_LAYERS
 from glrt.scene import SKY_GROUP, Background, Camera, Light, Scene, with_lights
 from glrt.settings import Settings
 from glrt.ui.app import App
 from glrt.ui.controls import Control, control_of_items, controls_of, replaced
 from glrt.ui.preferences import Preferences
+from glrt.ui.session import Session
 from glrt.ui.widgets import edited, edited_fields, legend
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
-PATHS = ("bounces", "method", "roulette", "seed")
+PATHS = ("method", "sampler", "roulette", "seed")
 DISPLAY = ("exposure", "tonemap")
 FRAME = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
@@ -25,6 +27,11 @@ PREFERENCES = controls_of(Preferences)
 FREE_SAMPLES = ("samples_per_frame",)
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value
+_LIVE = (
+    "Keep the light of each bounce apart: then fewer bounces than traced cost no sample, and each "
+    "can be shown alone. Turning it on or off begins the picture anew; meanwhile a change of a "
+    "lamp restarts."
+)
 _RED = (0.95, 0.35, 0.35, 1.0)
 
 
@@ -76,7 +83,8 @@ def _lights(app: App) -> None:
         if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
             continue
         imgui.separator_text(group)
-        new = edited(INTENSITY.named("intensity"), intensity, group)
+        control = INTENSITY.named("intensity").costing(app.session.cost_of_light(group))
+        new = edited(control, intensity, group)
         if new is not None:
             app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
         for name, material in scene.materials.items():
@@ -85,7 +93,8 @@ def _lights(app: App) -> None:
 
 
 def _emission(app: App, name: str, material: Light) -> None:
-    color = edited(EMISSION, material.emission, name)
+    cost = app.session.cost_of_light(material.group or name, is_tint=True)
+    color = edited(EMISSION.costing(cost), material.emission, name)
     if color is not None:
         app.edit_scene(f"emission {name}", partial(_with_material, name=name, emission=color))
 
@@ -104,7 +113,25 @@ def _with_background(scene: Scene, **colors: Any) -> Scene:
 
 
 def _paths(app: App) -> None:
+    session = app.session
+    bounces = SETTINGS["bounces"].costing(session.cost_of_fewer_bounces())
+    _edit(app, edited_fields((bounces,), dict(session.settings)))
+    _, session.by_length = imgui.checkbox("bounces live", session.by_length)
+    imgui.set_item_tooltip(_LIVE)
+    if session.by_length:
+        _lengths(session)
     _settings(app, PATHS)
+
+
+def _lengths(session: Session) -> None:
+    """Show the light of one length of paths alone."""
+    last = min(session.settings.bounces, MOST_LAYERS - 1)
+    rest = f"{last} and more" if session.settings.bounces > last else f"{last}"
+    names = ["all light", *[f"bounce {n} alone" for n in range(last)], f"bounce {rest} alone"]
+    chosen = 0 if session.alone is None else min(session.alone, last) + 1
+    imgui.set_next_item_width(hello_imgui.em_size(9.5))
+    _, chosen = imgui.combo("shown", chosen, names)
+    session.alone = chosen - 1 if chosen else None
 
 
 def _samples(app: App) -> None:
@@ -180,7 +207,10 @@ def _window(app: App) -> None:
 
 
 def _settings(app: App, names: tuple[str, ...]) -> None:
-    changes = edited_fields(tuple(SETTINGS[n] for n in names), dict(app.session.settings))
+    _edit(app, edited_fields(tuple(SETTINGS[n] for n in names), dict(app.session.settings)))
+
+
+def _edit(app: App, changes: dict[str, Any]) -> None:
     if changes:
         app.session.edit(gesture=f"{list(changes)}", **changes)
 

@@ -12,13 +12,16 @@ from glrt.context import Context
 from glrt.errors import GlrtError
 from glrt.image import Image
 from glrt.needs import needs_of
+from glrt.relight import Layering, Weights, emitters, layer_of_group, plan_for
 from glrt.renderer import Renderer
-from glrt.scene import Scene
+from glrt.scene import SKY_GROUP, Scene
 from glrt.settings import Cost, Settings, settings_for
 from glrt.ui.history import History
 
 ANNOUNCED = 2  # frames that say what is about to stop them
 STILL = 0.25  # seconds without a move after which the full size is rendered
+LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
+MEMORY = 0.3  # weight of the newest frame in what a sample of a pixel takes
 COARSEST = 8  # pixels of the frame, in width and height, that share one of a preview
 
 
@@ -45,6 +48,8 @@ class Session:
         self.history: History[State] = History()
         self.renderer: Renderer | None = None
         self.paused = False
+        self.by_length = False  # layers by the length of paths, so that bounces are weighed
+        self.alone: int | None = None  # the one length that is shown
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
         self.restarts = 0
@@ -74,6 +79,33 @@ class Session:
         return self.renderer.samples if self.renderer else 0
 
     @property
+    def layering(self) -> Layering:
+        """What the layers of the film are to hold: light groups, or lengths of paths."""
+        return "lengths" if self.by_length else "groups"
+
+    @property
+    def weights(self) -> Weights:
+        """What the film is shown by: as wanted, or one length of paths alone."""
+        assert self.renderer
+        plan = self.renderer.plan
+        is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
+        return plan.alone(self.alone or 0) if is_alone else plan.weights
+
+    def cost_of_light(self, group: str, is_tint: bool = False) -> Cost:
+        """What another intensity of a light group costs now, or another colour of one lamp."""
+        layers = layer_of_group(self.scene)
+        shares = [other for other in layers if layers[other] == layers.get(group)]
+        lamps = emitters(self.scene).get(group, [])
+        is_weighed = len(shares) == 1 and not (is_tint and len(lamps) > 1)
+        if is_weighed and not self.by_length:
+            return Cost.RELIGHT
+        return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
+
+    def cost_of_fewer_bounces(self) -> Cost:
+        """What a lower bounce limit costs now."""
+        return Cost.RELIGHT if self.by_length else Cost.RESTART
+
+    @property
     def is_preview(self) -> bool:
         """Whether the renderer is at less than full size."""
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
@@ -82,8 +114,7 @@ class Session:
     def is_done(self) -> bool:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
-        current = self.renderer is not None and self._wanted() == self._given(self.renderer)
-        return current and (waits or self.samples >= self.settings.samples)
+        return not self._is_behind and (waits or self.samples >= self.settings.samples)
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
@@ -114,10 +145,11 @@ class Session:
         """A frame: bring edits to the renderer, then render for a time or `count` samples."""
         self._budget = seconds
         if self._is_settled() and self.renderer:
-            most = 1 if self.paused else self.settings.samples
+            target = 1 if self.paused else self.settings.samples
             if count:
-                most = min(most, self.samples + count)
-            self._render(self.renderer, most, seconds)
+                target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
+            if self.samples < target:
+                self._render(self.renderer, target, seconds)
 
     def image(self) -> Image:
         """The picture so far, with its error and its recipe."""
@@ -144,27 +176,27 @@ class Session:
         return factor
 
     def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
-        """Dispatch until `target` samples or the end of the time; at least once if one is due."""
-        start = now = self._clock()
-        count = 1
-        while renderer.samples < target and (now == start or now < start + seconds):
-            count = min(count, target - renderer.samples, renderer.most_samples)
-            renderer.step(count)
-            before, now = now, self._clock()
-            self._learn(renderer, count, now - before)
-            fitting = (start + seconds - now) * count / max(1e-9, now - before)
-            count = max(1, min(2 * count, int(fitting)))
-        self.rendering += now - start
+        start, before = self._clock(), renderer.work
+        renderer.advance(seconds, target)
+        spent, done = self._clock() - start, renderer.work - before
+        self.rendering += spent
+        if done > 0:
+            width, height = renderer.size
+            measured = spent / (done * width * height)
+            known = self._pixel_seconds or measured
+            self._pixel_seconds = known + MEMORY * (measured - known)
 
-    def _learn(self, renderer: Renderer, count: int, seconds: float) -> None:
-        width, height = renderer.size
-        measured = seconds / (count * width * height)
-        known = self._pixel_seconds or measured
-        self._pixel_seconds = known + 0.3 * (measured - known)
+    @property
+    def _is_behind(self) -> bool:
+        """Whether the renderer lacks an edit."""
+        if self.renderer is None:
+            return True
+        given = State(self.renderer.scene, self.renderer.settings)
+        return given != self._wanted() or self.renderer.plan.layering != self.layering
 
     def _is_settled(self) -> bool:
         """Whether the renderer has all edits; what compiles is announced first."""
-        is_behind = not self.renderer or self._wanted() != self._given(self.renderer)
+        is_behind = self._is_behind
         if is_behind and self._compiles() and self._announced < ANNOUNCED:
             self.busy = "Compiling a kernel for this scene"
             self._announced += 1
@@ -180,9 +212,11 @@ class Session:
     def _apply(self) -> None:
         wanted = self._wanted()
         if not self.renderer:
-            self.renderer = Renderer(wanted.scene, wanted.settings, self._context)
+            self.renderer = Renderer(
+                wanted.scene, wanted.settings, self._context, layering=self.layering
+            )
             return self._begin()
-        self.last_cost = self.renderer.update(wanted.scene, **dict(wanted.settings))
+        self.last_cost = self.renderer.update(wanted.scene, self.layering, **dict(wanted.settings))
         if self.last_cost in (Cost.RESTART, Cost.RECOMPILE):
             self._begin()
         return None
@@ -207,8 +241,12 @@ class Session:
     def _compiles(self) -> bool:
         if not self.renderer:
             return True
-        before = needs_of(self.renderer.scene, self.renderer.settings)
-        return needs_of(self.scene, self.settings) != before
+        plan = self.renderer.plan
+        if plan.relit(self.scene, self._wanted().settings, self.layering):
+            return False
+        after = plan_for(self.scene, self.settings, self.layering)
+        is_other = needs_of(after.scene, after.settings) != needs_of(plan.scene, plan.settings)
+        return is_other or after.constants() != plan.constants()
 
     def _wanted(self) -> State:
         """What the renderer is to have: while the camera moves, a size that keeps up."""
@@ -218,7 +256,3 @@ class Session:
             size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
             settings = settings_for(settings, **size)
         return State(self.scene, settings)
-
-    @staticmethod
-    def _given(renderer: Renderer) -> State:
-        return State(renderer.scene, renderer.settings)
