@@ -9,11 +9,16 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from glrt.errors import RenderError
 from glrt.renderer import Renderer
 from glrt.scene import Camera, Scene
 from glrt.settings import Cost
 from glrt.ui import orbit, panel
 from glrt.ui.controls import Control, replaced
+from glrt.ui.gizmo import is_held
+from glrt.ui.orbit import axes
+from glrt.ui.picture import Picture
+from glrt.ui.plots import figures
 from tests.hand import SMALL, Hand, check
 
 # Each control by its label in the panel: the control, and what to do to it.
@@ -310,3 +315,173 @@ def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
     ctx.item_click("bounces live")
     hand.settle()
     assert hand.session.restarts == restarts + 1
+
+
+def place_of(hand: Hand, point: Any) -> tuple[float, float]:
+    """Where a point of the scene is on the screen."""
+    left, top, width, height = hand.window.app.rectangle
+    camera = hand.session.scene.camera
+    right, up, forward = (
+        np.dot(axis, np.subtract(point, camera.position)) for axis in axes(camera)
+    )
+    scale = 1 / (forward * math.tan(math.radians(camera.fov) / 2))
+    x, y = 0.5 + 0.5 * right * scale, 0.5 - 0.5 * up * scale  # the picture is square
+    return left + x * width, top + y * height
+
+
+def click(hand: Hand, point: Any, times: int = 1) -> None:
+    hand.ctx.mouse_move_to_pos(place_of(hand, point))
+    hand.ctx.yield_()
+    if times == 1:
+        hand.ctx.mouse_click(0)
+    else:
+        hand.ctx.mouse_double_click(0)
+    hand.ctx.yield_(2)
+
+
+def ball(hand: Hand) -> tuple[int, Any]:
+    """The first ball of the scene, and its number."""
+    objects = hand.session.scene.objects
+    return next((n, shape) for n, shape in enumerate(objects) if shape.shape == "sphere")
+
+
+@check
+def a_click_selects_and_restarts_nothing(hand: Hand) -> None:
+    number, shape = ball(hand)
+    restarts = hand.session.restarts
+    click(hand, shape.center)
+    assert hand.window.app.selected == number
+    assert hand.session.restarts == restarts
+    hand.ctx.key_press(imgui.Key.f.value)
+    hand.settle()
+    assert hand.session.scene.camera.look_at == shape.center
+    right, up, _ = axes(hand.session.scene.camera)
+    click(hand, shape.center - 0.92 * shape.radius * (right + up))  # beside it, off the handles
+    assert hand.window.app.selected != number
+
+
+@check
+def a_double_click_sets_the_pivot(hand: Hand) -> None:
+    number, shape = ball(hand)
+    click(hand, shape.center, times=2)
+    assert abs(math.dist(hand.window.app.pivot, shape.center) / shape.radius - 1) < 0.02
+    assert hand.session.scene.objects[number] == shape
+
+
+@check
+def the_gizmo_moves_what_is_selected_without_compiling(hand: Hand) -> None:
+    number, shape = ball(hand)
+    hand.window.app.selected = number
+    hand.ctx.yield_(2)
+    restarts, camera = hand.session.restarts, hand.session.scene.camera
+    x, y = place_of(hand, shape.center)
+    hand.ctx.mouse_move_to_pos((x, y))
+    hand.ctx.yield_(4)
+    assert hand.there(lambda: is_held(hand.window.app))
+    hand.ctx.mouse_down(0)
+    hand.ctx.mouse_move_to_pos((x + 20, y))
+    hand.ctx.mouse_move_to_pos((x + 40, y))
+    hand.ctx.mouse_up(0)
+    hand.settle()
+    moved = hand.session.scene.objects[number]
+    step = np.subtract(moved.center, shape.center)  # type: ignore[union-attr]
+    assert np.dot(step, axes(camera)[0]) > 0.05
+    assert hand.session.scene.camera == camera
+    assert hand.session.restarts > restarts
+    assert hand.session.last_cost is Cost.RESTART
+    hand.ctx.item_click("//Controls/undo")
+    hand.settle()
+    assert hand.session.scene.objects[number] == shape
+    hand.window.app.selected = None
+
+
+@check
+def an_object_is_edited_in_the_panel(hand: Hand) -> None:
+    number, shape = ball(hand)
+    hand.window.app.selected = number
+    hand.ctx.yield_(3)
+    hand.ctx.set_ref("Controls")
+    before = hand.pixels()
+    hand.ctx.item_input_value(f"radius##shape {number}", 0.2)
+    hand.settle()
+    assert hand.session.scene.objects[number].radius == 0.2  # type: ignore[union-attr]
+    hand.ctx.item_input_value(f"color##material {shape.material}/##X", 0.1)
+    hand.settle()
+    assert hand.session.scene.materials[shape.material].color[0] == 0.1  # type: ignore[union-attr]
+    assert (hand.pixels() != before).any()
+    hand.window.app.selected = None
+
+
+@check
+def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
+    app, file = hand.window.app, Path.cwd() / "edited.toml"
+    hand.there(lambda: hand.session.edit(bounces=3))
+    hand.there(partial(setattr, app, "scene_path", str(file)))
+    hand.there(app.save_scene)
+    hand.there(partial(app.open, str(file)))
+    hand.settle()
+    assert hand.session.settings.bounces == 3
+    text = file.read_text()
+    file.write_text(text.replace("[7.6, 7.2, 6.5]", "[1.0, 2.0, 3.0]"))
+    hand.until(lambda: hand.session.scene.materials["lamp"].emission == (1.0, 2.0, 3.0))  # type: ignore[union-attr]
+    file.write_text("nonsense")
+    hand.until(lambda: "edited.toml" in hand.session.problem)
+    file.write_text(text)
+    hand.until(lambda: hand.session.problem == "")
+    hand.there(partial(app.open, "cornell"))
+    hand.there(lambda: hand.session.edit(**SMALL))
+    hand.session.opened = hand.session.state
+
+
+@check
+def a_broken_shader_is_told_and_the_old_kernel_goes_on(hand: Hand) -> None:
+    def refuse(*_: Any, **__: Any) -> None:
+        raise RenderError("the driver refuses the kernel: path.glsl:12: syntax error")
+
+    opened = hand.session._open
+    samples = hand.session.samples
+    hand.session._open = refuse  # type: ignore[method-assign,assignment]
+    hand.there(hand.session.reload_shaders)
+    assert "path.glsl:12" in hand.session.problem
+    hand.ctx.yield_(3)
+    assert hand.session.samples > samples
+    hand.session._open = opened  # type: ignore[method-assign]
+    hand.there(hand.session.reload_shaders)
+    hand.settle()
+    assert hand.session.problem == ""
+
+
+@check
+def the_figures_tell_error_and_forecast(hand: Hand) -> None:
+    app = hand.window.app
+    hand.until(lambda: len(app.progress.looks) > 2, frames=2000)
+    told = "\n".join(figures(app))
+    assert "million samples/s" in told
+    assert "of rendering" in told or "is reached" in told
+    assert app.progress.looks[0].error > app.progress.looks[-1].error > 0
+
+
+@check
+def a_kept_picture_is_compared_by_a_wipe(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    ctx.set_ref("Controls")
+    hand.session.paused = True
+    ctx.yield_(2)
+    before = hand.pixels()
+    ctx.item_click("keep this picture")
+    ctx.yield_(2)
+    ctx.item_input_value("exposure", 3.0)
+    ctx.item_input_value("wipe", 0.25)
+    hand.settle()
+    assert app.wipe == 0.25
+    assert (hand.pixels() != before).any()
+    assert (hand.there(lambda: read_kept(app.picture)) == before).all()
+    ctx.item_click("forget it")
+    ctx.yield_(2)
+    assert app.picture.kept_name == 0
+
+
+def read_kept(picture: Picture) -> Any:
+    assert picture._kept
+    width, height = picture._kept.size
+    return np.frombuffer(picture._kept.read(), np.uint8).reshape(height, width, 4)[::-1].copy()

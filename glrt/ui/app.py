@@ -1,19 +1,25 @@
 """What the window's parts share, and the commands that buttons and keys give."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from glrt.errors import GlrtError
-from glrt.library import load_recipe
-from glrt.scene import Camera, Scene, Vector
+from glrt.library import load, load_recipe
+from glrt.scene import Camera, Scene, Shape, Vector
 from glrt.settings import settings_for
 from glrt.ui import orbit
 from glrt.ui.controls import replaced
 from glrt.ui.pace import Pace
+from glrt.ui.pick import Picked, middle, pick, reach
 from glrt.ui.picture import Picture
 from glrt.ui.preferences import Preferences, save_preferences
+from glrt.ui.progress import Look, Progress
 from glrt.ui.session import Session, State
+from glrt.ui.watch import Watch, watch_for
+from glrt.ui.write_scene import scene_with, write_scene
+
+Rectangle = tuple[float, float, float, float]  # left, top, width, height
 
 
 @dataclass
@@ -27,8 +33,16 @@ class App:
     source: str  # what was opened: a path, or the name of a scene that comes with glrt
     pace: Pace
     pivot: Vector
+    shaders: Watch
     open_path: str = ""
     save_path: str = "picture.png"
+    scene_path: str = "scene.toml"
+    selected: int | None = None  # number of an object
+    wipe: float = 0.5  # share of the picture's width that shows the kept one
+    rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
+    frame_seconds: float = 0.0
+    progress: Progress = field(default_factory=Progress)
+    watch: Watch | None = None  # of the scene file, if the scene came from one
     message: str = ""  # what was done last
     shown: object = None  # what the picture was drawn from
     unsaved: bool = False  # preferences
@@ -75,8 +89,62 @@ class App:
         self.source, self.pivot = source, scene.camera.look_at
         self.session.opened = State(scene, settings)
         self.session.edit(scene, **dict(settings))
+        self.selected = None
+        self.watch = watch_for(source)
         self.message = f"Opened {source}"
         return None
+
+    def follow_files(self, now: float) -> None:
+        """Take in what another program has changed: the scene file, or the shaders."""
+        if self.watch and self.watch.has_changed(now):
+            self.reload()
+        if self.shaders.has_changed(now):
+            self.session.reload_shaders()
+
+    def reload(self) -> None:
+        """The scene as its file has it now; the camera and the settings stay."""
+        try:
+            scene = replaced(load(self.source), camera=self.camera)
+        except GlrtError as error:
+            return self.complain(str(error))
+        self.session.problem = ""
+        self.session.edit(scene)
+        self.message = f"Read {self.source} again"
+        return None
+
+    def save_scene(self) -> None:
+        """Write the scene as it is to the path in its text box."""
+        whole = scene_with(self.session.scene, self.session.settings)
+        try:
+            write_scene(whole, Path(self.scene_path))
+        except GlrtError as error:
+            return self.complain(str(error))
+        self.message = f"Saved {self.scene_path}"
+        return None
+
+    @property
+    def selected_shape(self) -> Shape | None:
+        """The selected object, unless it is gone."""
+        objects = self.session.scene.objects
+        index = self.selected
+        return objects[index] if index is not None and index < len(objects) else None
+
+    def pick(self, x: float, y: float) -> Picked | None:
+        """What lies under a point of the picture, from (0, 0) upper left to (1, 1)."""
+        settings = self.session.settings
+        return pick(self.session.scene, settings.width / settings.height, x, y)
+
+    def frame_selected(self) -> None:
+        """Look at the selected object so that it fills the frame."""
+        if shape := self.selected_shape:
+            self.pivot = middle(shape)
+            self.place(orbit.framed(self.camera, middle(shape), reach(shape)))
+
+    def focus_on(self, point: Vector) -> None:
+        """Make a point sharp; one behind the camera is left alone."""
+        depth = orbit.depth_of(self.camera, point)
+        if depth > 0:
+            self.place(replaced(self.camera, focus_distance=depth))
 
     def save(self) -> None:
         """Write the picture, with its recipe, to the path in the text box."""
@@ -92,6 +160,17 @@ class App:
     def complain(self, problem: str) -> None:
         """Show what went wrong, if anything did."""
         self.session.problem = problem or self.session.problem
+
+    def look(self, now: float) -> None:
+        """Estimate the error where that is due."""
+        session = self.session
+        if session.is_preview or not session.renderer:
+            return
+        if self.progress.is_due(session.restarts, session.samples, now):
+            session.nonfinite = session.renderer.nonfinite()
+            error = session.image().error
+            if error is not None:
+                self.progress.record(Look(session.samples, session.rendering, error), now)
 
     def draw_picture(self) -> None:
         """Bring the newest samples to the screen; without a sample the old picture stays."""

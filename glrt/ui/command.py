@@ -7,7 +7,7 @@ from glrt.library import load_recipe
 from glrt.scene import with_lights
 from glrt.settings import settings_for
 
-EXTRA = ("imgui_bundle", "glfw", "watchfiles")  # what `pip install 'glrt[view]'` brings
+EXTRA = ("imgui_bundle", "glfw")  # what `pip install 'glrt[view]'` brings
 
 
 def view(arguments: argparse.Namespace, given: dict[str, object]) -> int:

@@ -1,6 +1,6 @@
 """How long a frame may render, so that the window stays at its rate."""
 
-LEAST = 0.004  # seconds: a frame always gets on with the picture
+LEAST = 0.25  # of a frame's time: however busy the machine, the picture gets on
 MEMORY = 0.2  # weight of the newest frame in what the window itself takes
 
 
@@ -15,7 +15,8 @@ class Pace:
     @property
     def seconds(self) -> float:
         """How long the next frame may render."""
-        return max(LEAST, 1 / self.frames_per_second - self._window)
+        whole = 1 / self.frames_per_second
+        return max(LEAST * whole, whole - self._window)
 
     def record(self, frame: float, rendering: float) -> None:
         """Learn from a frame: how long it took, and how much of that rendered."""

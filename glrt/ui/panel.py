@@ -11,6 +11,7 @@ from glrt.scene import SKY_GROUP, Background, Camera, Light, Scene, with_lights
 from glrt.settings import Settings
 from glrt.ui.app import App
 from glrt.ui.controls import Control, control_of_items, controls_of, replaced
+from glrt.ui.objects import draw_object, with_material
 from glrt.ui.preferences import Preferences
 from glrt.ui.session import Session
 from glrt.ui.widgets import edited, edited_fields, legend
@@ -24,7 +25,7 @@ INTENSITY = control_of_items(Scene, "lights")
 EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
 BACKGROUND = {c.name: c for c in controls_of(Background)}
 PREFERENCES = controls_of(Preferences)
-FREE_SAMPLES = ("samples_per_frame",)
+FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value
 _LIVE = (
@@ -96,12 +97,7 @@ def _emission(app: App, name: str, material: Light) -> None:
     cost = app.session.cost_of_light(material.group or name, is_tint=True)
     color = edited(EMISSION.costing(cost), material.emission, name)
     if color is not None:
-        app.edit_scene(f"emission {name}", partial(_with_material, name=name, emission=color))
-
-
-def _with_material(scene: Scene, name: str, **changes: Any) -> Scene:
-    material = replaced(scene.materials[name], **changes)
-    return replaced(scene, materials={**scene.materials, name: material})
+        app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
 
 
 def _with_camera(scene: Scene, **changes: Any) -> Scene:
@@ -157,6 +153,18 @@ def _display(app: App) -> None:
     _settings(app, DISPLAY)
 
 
+def _compare(app: App) -> None:
+    """Keep a picture, and wipe between it and what comes."""
+    if _button("keep this picture", bool(app.picture.name)):
+        app.picture.keep()
+    imgui.same_line()
+    if _button("forget it", bool(app.picture.kept_name)):
+        app.picture.forget()
+    if app.picture.kept_name:
+        imgui.set_next_item_width(hello_imgui.em_size(9.5))
+        _, app.wipe = imgui.slider_float("wipe", app.wipe, 0.0, 1.0, "%.2f")
+
+
 def _background(app: App) -> None:
     """One colour, or a gradient from bottom to top."""
     background = app.session.scene.background
@@ -196,6 +204,14 @@ def _files(app: App) -> None:
     imgui.same_line()
     if _button("save", app.session.samples > 0):
         app.save()
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    _, app.scene_path = imgui.input_text("##scene file", app.scene_path)
+    imgui.same_line()
+    if imgui.button("save scene"):
+        app.save_scene()
+    imgui.set_item_tooltip(
+        "A TOML file of the scene as it is now; comments of a file that it replaces go"
+    )
     imgui.text_disabled(app.message)
 
 
@@ -227,6 +243,8 @@ _SECTIONS = (
     ("Samples", _samples, _OPEN),
     ("Display", _display, _OPEN),
     ("Camera", _camera, _OPEN),
+    ("Object", draw_object, _OPEN),
+    ("Compare", _compare, _OPEN),
     ("Background", _background, 0),
     ("Frame", _frame, 0),
     ("Files", _files, 0),

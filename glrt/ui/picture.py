@@ -14,6 +14,7 @@ class Picture:
         self._gl = gl
         self._display = Display(gl)
         self._texture: moderngl.Texture | None = None
+        self._kept: moderngl.Texture | None = None
 
     @property
     def name(self) -> int:
@@ -35,9 +36,30 @@ class Picture:
         with self._gl.scope(self._target):
             self._display.draw(film, settings)
 
+    @property
+    def kept_name(self) -> int:
+        """OpenGL's name of the picture that is kept to compare with, 0 if there is none."""
+        return self._kept.glo if self._kept else 0
+
+    def keep(self) -> None:
+        """Keep the picture as it is now, to compare with what comes."""
+        self.forget()
+        if self._texture:
+            self._kept = self._gl.texture(self._texture.size, 4)
+            target = self._gl.framebuffer([self._kept])
+            self._gl.copy_framebuffer(target, self._target)
+            target.release()
+
+    def forget(self) -> None:
+        """Keep no picture."""
+        if self._kept:
+            self._kept.release()
+        self._kept = None
+
     def release(self) -> None:
         """Free what the driver holds."""
         self._display.release()
+        self.forget()
         self._free()
 
     def _allocate(self, size: tuple[int, int]) -> None:

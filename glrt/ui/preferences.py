@@ -49,6 +49,9 @@ class Preferences(Frozen):
         ge=0,
         le=1024,
     )
+    target_error: float = _preference(
+        0.02, "the relative error whose time is foretold", slider=(0.001, 0.5), gt=0, le=1
+    )
     frame_rate: int = _preference(
         0,
         "frames a second to keep up; 0: 30 on a GPU, 10 without one",

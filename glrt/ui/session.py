@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from glrt.context import Context
-from glrt.errors import GlrtError
+from glrt.errors import GlrtError, RenderError
 from glrt.image import Image
 from glrt.needs import needs_of
 from glrt.relight import Layering, Weights, emitters, layer_of_group, plan_for
@@ -52,6 +52,7 @@ class Session:
         self.alone: int | None = None  # the one length that is shown
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
+        self.nonfinite = 0  # samples that were dropped, at the last look
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
@@ -151,6 +152,22 @@ class Session:
             if self.samples < target:
                 self._render(self.renderer, target, seconds)
 
+    def reload_shaders(self) -> None:
+        """Compile the shader files as they are now; if the driver refuses, the old kernel stays."""
+        if not self.renderer:
+            return
+        try:
+            fresh = self._open(self._wanted())
+        except GlrtError as error:
+            self.problem = str(error)
+            return
+        self.renderer.release()
+        self.renderer, self.problem = fresh, ""
+        self._begin()
+
+    def _open(self, state: State) -> Renderer:
+        return Renderer(state.scene, state.settings, self._context, layering=self.layering)
+
     def image(self) -> Image:
         """The picture so far, with its error and its recipe."""
         assert self.renderer
@@ -212,11 +229,18 @@ class Session:
     def _apply(self) -> None:
         wanted = self._wanted()
         if not self.renderer:
-            self.renderer = Renderer(
-                wanted.scene, wanted.settings, self._context, layering=self.layering
-            )
+            self.renderer = self._open(wanted)
             return self._begin()
-        self.last_cost = self.renderer.update(wanted.scene, self.layering, **dict(wanted.settings))
+        before = State(self.renderer.scene, self.renderer.settings)
+        try:
+            self.last_cost = self.renderer.update(
+                wanted.scene, self.layering, **dict(wanted.settings)
+            )
+        except RenderError:  # half done: no room for a film, or a kernel that is refused
+            self.renderer.release()
+            self.renderer = self._open(before)
+            self._begin()
+            raise
         if self.last_cost in (Cost.RESTART, Cost.RECOMPILE):
             self._begin()
         return None

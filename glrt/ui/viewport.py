@@ -2,10 +2,9 @@
 
 from imgui_bundle import ImVec2, imgui
 
-from glrt.ui.app import App
+from glrt.ui.app import App, Rectangle
+from glrt.ui.gizmo import draw_gizmo, is_held
 from glrt.ui.preferences import Action, Move
-
-Rectangle = tuple[float, float, float, float]  # left, top, width, height
 
 _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "forward": (0, 0, 1),
@@ -16,6 +15,11 @@ _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "down": (0, -1, 0),
 }
 _LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
+_EVERY_BUTTON = int(
+    imgui.ButtonFlags_.mouse_button_left
+    | imgui.ButtonFlags_.mouse_button_right
+    | imgui.ButtonFlags_.mouse_button_middle
+)
 _NOTICE = (0.0, 0.0, 0.0, 0.65)
 
 
@@ -32,17 +36,31 @@ def draw_viewport(app: App) -> None:
     room = imgui.get_content_region_avail()
     left, top, width, height = fitted((room.x, room.y), (settings.width, settings.height))
     corner = imgui.get_cursor_screen_pos() + ImVec2(left, top)
+    app.rectangle = (corner.x, corner.y, width, height)
     if app.picture.name:
         imgui.set_cursor_screen_pos(corner)
         texture = imgui.ImTextureRef(app.picture.name)
         imgui.image(texture, ImVec2(width, height), uv0=(0, 1), uv1=(1, 0))  # OpenGL's row 0 is low
-    imgui.set_cursor_screen_pos(corner)
-    buttons = imgui.ButtonFlags_
-    every = buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle
-    imgui.invisible_button("picture", ImVec2(width, height), int(every))
-    _mouse(app)
+    if app.picture.kept_name:
+        _wipe(app)
+    draw_gizmo(app, corner.x, corner.y, width, height)
+    if not is_held(app):  # a button below the handles would keep the mouse from them
+        imgui.set_cursor_screen_pos(corner)
+        imgui.invisible_button("picture", ImVec2(width, height), _EVERY_BUTTON)
+        x, y = imgui.get_io().mouse_pos
+        _mouse(app)
+        _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
     if app.session.busy:
         _notice(app.session.busy, corner)
+
+
+def _wipe(app: App) -> None:
+    """The kept picture over the left part, and the line where it ends."""
+    left, top, width, height = app.rectangle
+    painter, edge = imgui.get_window_draw_list(), left + app.wipe * width
+    texture = imgui.ImTextureRef(app.picture.kept_name)
+    painter.add_image(texture, (left, top), (edge, top + height), (0, 1), (app.wipe, 0))
+    painter.add_line((edge, top), (edge, top + height), imgui.get_color_u32((1.0, 1.0, 1.0, 0.8)))
 
 
 def draw_keys(app: App) -> None:
@@ -57,6 +75,8 @@ def draw_keys(app: App) -> None:
         app.walk(right, up, forward, seconds)
     if _is_pressed(app, "home"):
         app.home()
+    if _is_pressed(app, "frame"):
+        app.frame_selected()
     if _is_pressed(app, "pause"):
         app.session.paused = not app.session.paused
     if _is_pressed(app, "undo"):
@@ -80,6 +100,27 @@ def _mouse(app: App) -> None:
     else:
         is_right = imgui.is_mouse_down(imgui.MouseButton_.right)
         app.turn(across, down, about_camera=(app.preferences.mode == "fly") != is_right)
+
+
+def _clicks(app: App, share: tuple[float, float]) -> None:
+    """A click selects, with Alt it focuses; a double click sets the pivot."""
+    left = imgui.MouseButton_.left.value
+    if not imgui.is_item_hovered() or imgui.is_mouse_dragging(left):
+        return
+    if imgui.is_mouse_double_clicked(left):
+        if picked := app.pick(*share):
+            app.pivot = picked.point
+    elif imgui.is_mouse_released(left) and not _was_dragged():
+        picked = app.pick(*share)
+        if picked and imgui.get_io().key_alt:
+            app.focus_on(picked.point)
+        else:
+            app.selected = picked.number if picked else None
+
+
+def _was_dragged() -> bool:
+    moved = imgui.get_io().mouse_drag_max_distance_sqr[0]
+    return bool(moved > imgui.get_io().mouse_drag_threshold ** 2)
 
 
 def _notice(text: str, corner: ImVec2) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from glrt.job import Interruption
+from glrt.resources import folder
 from glrt.scene import Scene
 from glrt.settings import Settings
 from glrt.ui.app import App
@@ -13,12 +14,14 @@ from glrt.ui.opengl import check_window, wrap_window
 from glrt.ui.pace import Pace
 from glrt.ui.panel import draw_panel
 from glrt.ui.picture import Picture
+from glrt.ui.plots import draw_figures
 from glrt.ui.preferences import load_preferences, preferences_file
 from glrt.ui.session import Session
 from glrt.ui.viewport import draw_keys, draw_viewport
+from glrt.ui.watch import Watch, watch_for
 
 SIZE = (1240, 800)
-PANEL = 0.3  # of the window's width
+PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
 RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
 THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
@@ -57,8 +60,6 @@ class Window:
         params.imgui_window_params.default_imgui_window_type = (
             hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         )
-        params.imgui_window_params.show_status_bar = True
-        params.imgui_window_params.show_status_fps = False
         params.renderer_backend_options.open_gl_options = _opengl()
         params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
         params.ini_filename = "glrt/view.ini"
@@ -67,16 +68,17 @@ class Window:
         callbacks.setup_imgui_config = _configure
         callbacks.post_init = self._open
         callbacks.pre_new_frame = self._render
-        callbacks.show_status = self._status
         callbacks.before_exit = self._close
         return params
 
     def _docking(self) -> hello_imgui.DockingParams:
-        split = hello_imgui.DockingSplit("MainDockSpace", "Side", imgui.Dir.left, PANEL)
+        side = hello_imgui.DockingSplit("MainDockSpace", "Side", imgui.Dir.left, PANEL)
+        below = hello_imgui.DockingSplit("MainDockSpace", "Below", imgui.Dir.down, FIGURES)
         docking = hello_imgui.DockingParams()
-        docking.docking_splits = [split]
+        docking.docking_splits = [side, below]
         docking.dockable_windows = [
             _part("Controls", "Side", lambda: draw_panel(self.app)),
+            _part("Figures", "Below", lambda: draw_figures(self.app)),
             _part("Picture", "MainDockSpace", lambda: draw_viewport(self.app)),
         ]
         return docking
@@ -94,6 +96,8 @@ class Window:
             source=source,
             pace=Pace(RATES[context.is_software]),
             pivot=scene.camera.look_at,
+            shaders=Watch(folder("shaders_glsl").iterdir()),
+            watch=watch_for(source),
         )
         self.app.complain(problem)
         self._style()
@@ -101,12 +105,15 @@ class Window:
     def _render(self) -> None:
         """Before a frame is drawn: keys, edits, samples, and the picture of them."""
         app, now = self.app, time.perf_counter()
-        app.pace.record(now - self._began, self._rendered)
+        app.frame_seconds = now - self._began
+        app.pace.record(app.frame_seconds, self._rendered)
         self._began = now
         draw_keys(app)
         self._style()
         app.session.advance(app.pace.seconds, app.preferences.samples_per_frame)
         app.draw_picture()
+        app.look(now)
+        app.follow_files(now)
         self._rendered = time.perf_counter() - now
         self.params.fps_idling.enable_idling = app.session.is_done
         self._keep(now)
@@ -118,10 +125,6 @@ class Window:
         if now - self._kept > KEEP_EVERY:
             self._kept = now
             self.app.keep_preferences()
-
-    def _status(self) -> None:
-        session = self.app.session
-        imgui.text(f"{session.samples} of {session.settings.samples} samples")
 
     def _style(self) -> None:
         """Follow the preferences of theme and size."""
@@ -156,4 +159,5 @@ def _configure() -> None:
     """The arrow keys move the camera, not from widget to widget."""
     hello_imgui.imgui_default_settings.setup_default_imgui_config()
     io = imgui.get_io()
+    io.config_windows_move_from_title_bar_only = True
     io.config_flags &= ~imgui.ConfigFlags_.nav_enable_keyboard.value

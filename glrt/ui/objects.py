@@ -1,0 +1,84 @@
+"""The part of the panel that edits the selected object and its material."""
+
+from functools import partial
+from typing import Any
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.scene import Material, Scene, Shape
+from glrt.ui import pick
+from glrt.ui.app import App
+from glrt.ui.controls import Control, controls_of, replaced
+from glrt.ui.place import with_object
+from glrt.ui.widgets import edited_fields
+
+_NONE = "nothing"
+
+
+def draw_object(app: App) -> None:
+    """Which object is selected, its shape and its material."""
+    scene = app.session.scene
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    names = [_NONE, *(_name(index, shape) for index, shape in enumerate(scene.objects))]
+    index = 0 if app.selected_shape is None or app.selected is None else app.selected + 1
+    chosen, index = imgui.combo("object", index, names)
+    if chosen:
+        app.selected = index - 1 if index else None
+    shape = app.selected_shape
+    if shape is None or app.selected is None:
+        imgui.text_disabled("click an object in the picture")
+        return
+    _buttons(app, shape)
+    _shape(app, app.selected, shape)
+    _material(app, app.selected, shape)
+
+
+def _name(index: int, shape: Shape) -> str:
+    return f"{index}: {shape.name or shape.shape + ' of ' + shape.material}"
+
+
+def _buttons(app: App, shape: Shape) -> None:
+    if imgui.button("frame"):
+        app.frame_selected()
+    imgui.same_line()
+    if imgui.button("focus here"):
+        app.focus_on(pick.middle(shape))
+    imgui.same_line()
+    imgui.text_disabled("Shift scales")
+
+
+def _shape(app: App, index: int, shape: Shape) -> None:
+    changes = edited_fields(controls_of(type(shape)), dict(shape), f"shape {index}")
+    if changes:
+        app.edit_scene(f"object {index} {list(changes)}", partial(_reshaped, index, changes))
+
+
+def _reshaped(index: int, changes: dict[str, Any], scene: Scene) -> Scene:
+    return with_object(scene, index, replaced(scene.objects[index], **changes))
+
+
+def _material(app: App, index: int, shape: Shape) -> None:
+    scene, name = app.session.scene, shape.material
+    names = list(scene.materials)
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    chosen, which = imgui.combo("material", names.index(name), names)
+    if chosen:
+        app.edit_scene("", partial(_reshaped, index, {"material": names[which]}))
+        return
+    sharing = sum(1 for other in scene.objects if other.material == name)
+    imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s)")
+    material = scene.materials[name]
+    changes = edited_fields(_controls(material), dict(material), f"material {name}")
+    if changes:
+        app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
+
+
+def _controls(material: Material) -> tuple[Control, ...]:
+    """Emission stands with the light groups."""
+    return controls_of(type(material), leave_out=("emission",))
+
+
+def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
+    """The scene with other values of a material."""
+    material = replaced(scene.materials[name], **changes)
+    return replaced(scene, materials={**scene.materials, name: material})

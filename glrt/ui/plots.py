@@ -1,0 +1,94 @@
+"""The figures of a render: how far, how fast, how sure, and when it is good enough."""
+
+import numpy as np
+from imgui_bundle import ImVec2, hello_imgui, imgui, implot
+
+from glrt.needs import explain
+from glrt.ui.app import App
+
+
+def draw_figures(app: App) -> None:
+    """The content of the window below the picture."""
+    if imgui.begin_table("figures", 2, imgui.TableFlags_.sizing_stretch_prop.value):
+        imgui.table_next_column()
+        for line in figures(app):
+            imgui.text(line)
+        _kernel(app)
+        imgui.table_next_column()
+        _plot(app)
+        imgui.end_table()
+
+
+def figures(app: App) -> list[str]:
+    """What is known of the picture, line by line."""
+    session, progress = app.session, app.progress
+    width, height = session.renderer.size if session.renderer else (0, 0)
+    rate = session.samples * width * height / max(session.rendering, 1e-9)
+    preview = " (coarse while it moves)" if session.is_preview else ""
+    lines = [
+        f"{session.samples} of {session.settings.samples} samples{preview}",
+        f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
+        f"error {_percent(progress.error)}, estimated",
+        _forecast(app),
+    ]
+    if session.nonfinite:
+        lines.append(f"{session.nonfinite} samples were not finite, and are left out")
+    return lines
+
+
+def _forecast(app: App) -> str:
+    target = app.preferences.target_error
+    seconds = app.progress.remaining(target)
+    if seconds is None:
+        return f"{_percent(target)} at a time not known yet"
+    if seconds == 0:
+        return f"{_percent(target)} is reached"
+    return f"{_percent(target)} in about {_duration(seconds)} of rendering"
+
+
+def _percent(error: float | None) -> str:
+    return "not known yet" if error is None else f"{100 * error:.2g} %"
+
+
+def _duration(seconds: float) -> str:
+    units = (("days", 86400), ("hours", 3600), ("minutes", 60))
+    for name, unit in units:
+        if seconds >= 2 * unit:
+            return f"{seconds / unit:.0f} {name}"
+    return f"{seconds:.0f} s"
+
+
+def _kernel(app: App) -> None:
+    """What the kernel contains, and what draws it."""
+    session = app.session
+    if not session.renderer:
+        return
+    plan = session.renderer.plan
+    features = explain(plan.scene, plan.settings)
+    inside = ", ".join(feature.name for feature in features if feature.present)
+    layers = f"; {plan.layers} layers" if plan.layers else ""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_disabled(f"kernel: {inside}{layers}")
+    left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
+    imgui.set_item_tooltip(f"left out\n{left_out}")
+    imgui.text_disabled(session.renderer.context.renderer)
+    imgui.pop_text_wrap_pos()
+
+
+def _plot(app: App) -> None:
+    """Error over seconds, both logarithmic, and the line of slope -1/2 that noise follows."""
+    looks = app.progress.looks
+    size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
+    if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
+        return
+    fit = implot.AxisFlags_.auto_fit.value
+    implot.setup_legend(implot.Location_.north_east.value)
+    implot.setup_axes("seconds of rendering", "error", fit, fit)
+    implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
+    implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
+    if len(looks) > 1:
+        seconds = np.array([look.seconds for look in looks])
+        implot.plot_line("error", seconds, np.array([look.error for look in looks]))
+        along, down = app.progress.slope()
+        implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
+    implot.end_plot()

@@ -1,0 +1,61 @@
+"""A scene as a TOML file."""
+
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from glrt.files import write_whole
+from glrt.scene import Scene
+from glrt.scene_file import scene_to_dict
+from glrt.settings import RenderSettings, Settings
+
+
+def scene_with(scene: Scene, settings: Settings) -> Scene:
+    """The scene with these settings as its own wishes."""
+    wishes = {name: getattr(settings, name) for name in RenderSettings.model_fields}
+    return scene.model_copy(update={"render": RenderSettings(**wishes)})
+
+
+def write_scene(scene: Scene, path: Path) -> None:
+    """Write a file that `read_scene` reads back as the same scene.
+
+    It appears whole or not at all: raises `RenderError` if it cannot be written.
+    """
+    text = "\n".join(toml_lines(scene_to_dict(scene))).strip() + "\n"
+    write_whole(path, lambda file: _write(file, text))
+
+
+def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:
+    """The lines of a table: its values, then its tables, then its lists of tables."""
+    for key, value in table.items():
+        if not isinstance(value, Mapping) and not _is_list_of_tables(value):
+            yield f"{_key(key)} = {_value(value)}"
+    for key, value in table.items():
+        name = ".".join(map(_key, (*path, key)))
+        if isinstance(value, Mapping):
+            lines = list(toml_lines(value, (*path, key)))
+            yield from (["", f"[{name}]", *lines] if lines and lines[0] else lines)
+        elif _is_list_of_tables(value):
+            for item in value:
+                yield from ("", f"[[{name}]]", *toml_lines(item, (*path, key)))
+
+
+def _is_list_of_tables(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(item, Mapping) for item in value)
+
+
+def _key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "a").replace("-", "a").isalnum()
+    return key if bare else _value(key)
+
+
+def _value(value: Any) -> str:
+    """A number, a truth, a text or a list of them; JSON's texts are TOML's."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
