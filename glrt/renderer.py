@@ -59,8 +59,7 @@ class Renderer:
         `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
         "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
         The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
-        With `layering` by "groups", lamps change without a restart; by "lengths", the bounces
-        below those traced do; both need compute shaders.
+        `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         self.scene = scene
