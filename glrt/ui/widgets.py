@@ -27,7 +27,7 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     `name` distinguishes controls of one label: those of two lamps, say.
     """
     label = f"{control.label}##{name}" if name else control.label
-    imgui.set_next_item_width(hello_imgui.em_size(9.5))
+    imgui.set_next_item_width(min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width()))
     changed, new = _draw(control, label, value)
     tooltip(control)
     _tag(control.cost)
@@ -50,7 +50,9 @@ def legend() -> None:
 
 
 def _tag(cost: Cost) -> None:
-    imgui.same_line(imgui.get_window_width() - hello_imgui.em_size(5.6))
+    """At the right edge; where the label reaches that far, behind it."""
+    end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
+    imgui.same_line(max(end, imgui.get_window_width() - hello_imgui.em_size(5.6)))
     imgui.text_colored(COLORS[cost], cost.value)
 
 
