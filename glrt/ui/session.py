@@ -227,6 +227,7 @@ class Session:
         return self.renderer is not None
 
     def _apply(self) -> None:
+        _ = self._context.gl.error  # what others left in this context is no fault of the film
         wanted = self._wanted()
         if not self.renderer:
             self.renderer = self._open(wanted)

@@ -1,0 +1,123 @@
+"""The window, driven by a script: `python -m glrt.ui.tour drag`, or `film FILE.webp`.
+
+`drag` measures frames while the camera turns; `film` makes the README's moving picture. Both want a
+display; without a screen, that of `xvfb-run -a -s "-screen 0 1280x840x24"`.
+"""
+
+import argparse
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glrt.library import load
+from glrt.scene import Scene, with_lights
+from glrt.settings import settings_for
+
+DRAG = 60  # frames
+WARM = 30  # frames before them, in which kernels are compiled and times learnt
+STEP = 0.004  # of the window's width that a frame of the drag turns by
+SHARES = (50, 95, 99)  # percentiles that are told
+FILM_SIZE = (620, 400)
+MOST_BYTES = 300_000
+
+Script = Iterator[None]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Measure a drag, or make the film."""
+    parser = argparse.ArgumentParser(prog="python -m glrt.ui.tour", description=__doc__)
+    parser.add_argument("task", choices=["drag", "film"])
+    parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
+    parser.add_argument("--scene", default="cornell", help="what is shown (default: cornell)")
+    parsed = parser.parse_args(arguments)
+    if parsed.task == "drag":
+        print(told(measure_drag(parsed.scene)))
+    else:
+        make_film(parsed.file)
+    return 0
+
+
+def measure_drag(scene: str, width: int = 640, height: int = 480) -> list[float]:
+    """Seconds of each frame of a camera drag."""
+    seconds: list[float] = []
+
+    def script(window: Any) -> Script:
+        for _ in range(WARM):
+            yield
+        for _ in range(DRAG):
+            start = time.perf_counter()
+            window.app.turn(STEP, 0.0, about_camera=False)
+            yield
+            seconds.append(time.perf_counter() - start)
+
+    play(load(scene), script, width=width, height=height)
+    return seconds
+
+
+def told(seconds: list[float]) -> str:
+    """Percentiles in milliseconds."""
+    parts = [f"p{share} {1e3 * np.percentile(seconds, share):.0f} ms" for share in SHARES]
+    return f"{len(seconds)} frames of a camera drag: {', '.join(parts)}"
+
+
+def make_film(file: Path) -> None:
+    """Lamps are tuned and the camera is turned; RuntimeError if the file gets too large."""
+    from PIL import Image
+
+    scene, pictures = load("lamps"), []
+
+    def script(window: Any) -> Script:
+        edits: list[Callable[[], object]] = [lambda: None]
+        for blue, amber in ((0.4, 1.0), (0.0, 1.5), (1.0, 2.5), (3.0, 0.5), (1.5, 1.0), (1.0, 1.0)):
+            lit = with_lights(scene, {"blue": blue, "amber": amber})
+            edits.append(partial(window.app.session.edit, lit))
+        edits += 4 * [partial(window.app.turn, 0.03, 0.0, about_camera=False)]
+        for edit in edits:
+            edit()
+            yield from frames_until_done(window)
+            screen = window.app.session.renderer.context.gl.screen
+            size = screen.size
+            pixels = np.frombuffer(screen.read(components=3, alignment=1), np.uint8)
+            shot = Image.fromarray(pixels.reshape(size[1], size[0], 3)[::-1])
+            pictures.append(shot.resize(FILM_SIZE))
+
+    play(scene, script, width=200, height=200, samples=64)
+    first, *rest = pictures
+    options: dict[str, Any] = {"duration": 700, "loop": 0, "quality": 60, "method": 6}
+    first.save(file, save_all=True, append_images=rest, **options)
+    if file.stat().st_size > MOST_BYTES:
+        raise RuntimeError(f"{file} has {file.stat().st_size} bytes, more than {MOST_BYTES}")
+
+
+def frames_until_done(window: Any) -> Script:
+    """Frames that pass until the picture has all its samples, and is on the screen."""
+    for _ in range(5):
+        yield
+    while not window.app.session.is_done:
+        yield
+    for _ in range(3):
+        yield
+
+
+def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None:
+    """Open a window, go on with the script after each frame, close the window at its end."""
+    from glrt.ui.window import Window
+
+    window = Window(scene.title or "", scene, settings_for(scene.render, **settings))
+    window.params.ini_disable = True
+    running = script(window)
+
+    def go_on() -> None:
+        if next(running, "end") == "end":
+            window.params.app_shall_exit = True
+
+    window.params.callbacks.after_swap = go_on
+    window.run()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
