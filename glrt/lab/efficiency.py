@@ -25,7 +25,7 @@ from glrt.stats import DARK
 
 SWITCHES: dict[str, dict[str, Any]] = {
     "defaults": {},
-    "independent numbers": {"sampler": "independent"},
+    "sobol": {"sampler": "sobol"},
     "no roulette": {"roulette": False},
     "nee": {"method": "nee"},
     "naive": {"method": "naive"},
