@@ -148,7 +148,7 @@ def _rights() -> list[str] | None:
 
 
 def _packages(missing: Missing) -> list[str]:
-    return [name for need in missing for name in need.packages]
+    return list(dict.fromkeys(name for need in missing for name in need.packages))
 
 
 def _is_known(package: str) -> bool:
