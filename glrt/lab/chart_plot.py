@@ -84,10 +84,11 @@ def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
             continue
         axes.axhline(level, color=GREY, ls=":", lw=1.2, zorder=0)
         gain = speed_up(curves, level)
-        text = f"{percent(level)}: {gain.text}" if gain else percent(level)
         if curves:
-            box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85}
-            axes.text(left * 1.05, level, text, size=FONT - 3, va="bottom", zorder=6, bbox=box)
+            text = f"{percent(level)}: {gain.text}" if gain else percent(level)
+            at_right = gain is not None and gain.fast / left < right / gain.slow
+            place = {"x": right, "ha": "right"} if at_right else {"x": left * 1.05, "ha": "left"}
+            axes.text(y=level, s=text, size=FONT - 3, va="bottom", zorder=6, **place)
         if gain and gain.fast < right:
             ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
             axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})

@@ -37,7 +37,7 @@ def speed_up(curves: Sequence[Curve], level: float) -> SpeedUp | None:
         return None
     (fast, winner, _), (slow, measured) = known[0], bases[0]
     about = "" if measured else "about "
-    return SpeedUp(fast, slow, f"{winner} {about}{number(slow / fast)} x as fast as {BASE}")
+    return SpeedUp(fast, slow, f"{winner} {about}{number(slow / fast)} x {BASE}")
 
 
 def number(value: float) -> str:
@@ -97,7 +97,8 @@ def _introduction(experiment: Experiment) -> Iterator[str]:
         "compiling. Every round runs each variant once, in another order and with other random "
         "numbers: times are medians; errors and slopes have 95 % intervals over the rounds, of "
         "which one in twenty misses the truth by chance. A time after `~` lies beyond what was "
-        "measured. Black in the charts is what nothing else beats in both time and error."
+        "measured. Black in the charts is what nothing else beats in both time and error; on the "
+        "line of an error stands how many times as fast the fastest gets there."
     )
     yield ""
 
