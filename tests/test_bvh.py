@@ -251,6 +251,34 @@ def test_balls_that_touch_the_horizon_are_seen_as_without_a_tree(call_glsl: Call
     assert (without[:, 1] >= 0).sum() > COUNT / 4
 
 
+def test_boxes_are_wider_than_their_spheres_by_many_roundings() -> None:
+    arrays = pack_scene(CROWD)
+    nodes, spheres = arrays["Nodes"], arrays["Spheres"]
+    center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
+    rounding = 2.0**-24 * (np.abs(center).max(axis=1, keepdims=True) + radius)
+    for place in np.flatnonzero(nodes["sphere"] < 0):
+        below = nodes["sphere"][place : nodes["skip"][place]]
+        items = below[below >= 0]
+        assert (nodes["upper"][place] >= (center + radius + 32 * rounding)[items]).all()
+        assert (nodes["lower"][place] <= (center - radius - 32 * rounding)[items]).all()
+
+
+@pytest.mark.parametrize("far", [1.0, 1000.0, 2.0**40])
+def test_a_box_is_met_as_if_the_ray_began_up_to_many_roundings_beside(
+    call_glsl: CallGlsl, far: float
+) -> None:
+    """Past the upper face of a box, from afar: by 32 roundings it is met, by 128 it is not."""
+    call = {
+        "expression": "meets_box(slab_of(Ray(o, d, -1, false)), node, FAR)",
+        "returns": "bool",
+        "setup": "Node node = Node(-vec3(size), 0, vec3(size), NO_SHAPE);",
+    }
+    roundings = np.array([-128, -1, 0, 1, 32, 128])
+    origin = np.column_stack([np.full(6, -far), far / 2 * (1 + 2.0**-23 * roundings), np.zeros(6)])
+    inputs = {"o": origin, "d": np.array([[1.0, 0, 0]] * 6), "size": np.array([far / 2])}
+    assert call_glsl(**call, **inputs).tolist() == [True] * 5 + [False]
+
+
 def test_of_equal_spheres_the_first_is_hit(call_glsl: CallGlsl) -> None:
     spheres = pack_scene(CROWD)["Spheres"]
     given = {**rays("to rims"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
