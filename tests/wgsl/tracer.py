@@ -82,7 +82,8 @@ class Tracer:
         """Mean and variance so far."""
         mean, variance = (self._read(texture) for texture in self._pairs[1])
         parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
-        return Exposure(*(part.copy() for part in parts))
+        no_layers = np.empty((2, 0, *mean.shape), np.float32)
+        return Exposure(*(part.copy() for part in (*parts, no_layers)))
 
     def nonfinite(self) -> int:
         """How many samples were dropped because they were not finite."""
