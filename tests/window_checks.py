@@ -485,3 +485,12 @@ def read_kept(picture: Picture) -> Any:
     assert picture._kept
     width, height = picture._kept.size
     return np.frombuffer(picture._kept.read(), np.uint8).reshape(height, width, 4)[::-1].copy()
+
+
+@check
+def the_frame_rate_is_what_is_preferred(hand: Hand) -> None:
+    app = hand.window.app
+    for wanted, expected in ((20, 20), (0, 10 if hand.session._context.is_software else 30)):
+        hand.there(partial(app.prefer, replaced(app.preferences, frame_rate=wanted)))
+        hand.ctx.yield_(2)
+        assert app.pace.frames_per_second == expected

@@ -88,13 +88,14 @@ class Window:
         source, scene, settings = self._opened
         context = wrap_window()
         preferences, problem = load_preferences(preferences_file())
+        self._rate = RATES[context.is_software]
         self.app = App(
             session=Session(scene, settings, context),
             picture=Picture(context.gl),
             preferences=preferences,
             preferences_file=preferences_file(),
             source=source,
-            pace=Pace(RATES[context.is_software]),
+            pace=Pace(self._rate),
             pivot=scene.camera.look_at,
             shaders=Watch(folder("shaders_glsl").iterdir()),
             watch=watch_for(source),
@@ -108,6 +109,7 @@ class Window:
         app.frame_seconds = now - self._began
         app.pace.record(app.frame_seconds, self._rendered)
         self._began = now
+        app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
         self._style()
         app.session.advance(app.pace.seconds, app.preferences.samples_per_frame)
