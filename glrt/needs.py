@@ -139,7 +139,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
         Feature("sphere lamps", needs.has_sphere_light, f"method {method}, {lamps}"),
         Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
-        Feature("lamps by nearness", needs.few_lights > 1, f"method {method}, {lamps}"),
+        Feature("near lamps", needs.few_lights > 1, f"method {method}, {lamps}"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
         Feature("lighting model", needs.model > 0, _model(settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),

@@ -134,11 +134,16 @@ MUTANTS = [
             ),
             Edit(
                 "shaders_glsl/path.glsl",
+                "    if (ROULETTE && roulette_ends(path.throughput, rng)) return false;\n",
+                "",
+            ),
+            Edit(
+                "shaders_glsl/path.glsl",
                 "path.throughput * direct_light(",
                 "arrived * direct_light(",
             ),
         ),
-        "test_furnace.py::test_lamp_in_the_centre_of_a_matte_ball",
+        "test_furnace.py::test_roulette_keeps_the_light_of_dim_paths",
     ),
     Mutant(
         "the background is counted twice after a bounce",

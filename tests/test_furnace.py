@@ -238,6 +238,22 @@ def test_lamp_in_the_centre_of_a_matte_ball(context: Context, method: str, sampl
             assert_mean(whole(image), truth, within=0.02, floor=1e-5 * truth)
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_roulette_keeps_the_light_of_dim_paths(context: Context, method: str) -> None:
+    """The same with a dark wall: every path that it scatters plays."""
+    albedo, share = 0.1, (0.7 / 2) ** 2  # the share of the wall's view that the lamp takes
+    wall = {"type": "lambertian", "color": [albedo] * 3}
+    objects = [sphere([0, 0, 0], 2, "wall"), sphere([0, 0, 0], 0.7, "lamp")]
+    eye = {"position": [0.2, 0.1, 1.2], "look_at": [0.5, 1, 3], "fov": 60}
+    scene = scene_of(objects, {"wall": wall, "lamp": lamp(3.0, 0.9)}, eye)
+    truth, lit = 0.0, 3.0
+    for _ in range(6):
+        truth, lit = albedo * (share * lit + (1 - share) * truth), 3.0 + 0.9 * truth
+    samples = 4096 if method == "naive" else 512
+    image = rendered(scene, context, samples, method=method, bounces=6, width=32, height=32)
+    assert_mean(whole(image), truth, within=0.015)
+
+
 def test_two_planes_exchange_light_by_the_series_of_their_albedos(context: Context) -> None:
     r1, r2 = np.array([0.9, 0.5, 0.1]), np.array([0.8, 0.7, 0.6])
     materials = {
