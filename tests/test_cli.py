@@ -220,16 +220,6 @@ def test_inspect_names_features_in_and_out() -> None:
     assert lines["light sampling"] == "out"
 
 
-def test_doctor_names_routes_and_renderer() -> None:
-    done = glrt("doctor", DISPLAY="")
-    assert done.returncode == 0, done.stdout
-    assert "egl" in done.stdout
-    assert "osmesa" in done.stdout
-    assert "window  does not work: there is no display" in done.stdout
-    assert done.stdout.count("<- used") == 1
-    assert "random numbers  those of Python's integers" in done.stdout
-
-
 def test_schema_is_json_schema_of_scenes() -> None:
     done = glrt("schema")
     assert done.returncode == 0
