@@ -68,8 +68,8 @@ def vulkan() -> str:
 
 
 def llvm() -> str:
-    """Is the version of LLVM there that Mitsuba works with? 15 and 16 crash it."""
-    return library("libLLVM.so.19.1")
+    """Is the version of LLVM there that Mitsuba works with (15 and 16 crash it), and libatomic?"""
+    return library("libLLVM.so.19.1") or library("libatomic.so.1")
 
 
 def cxx() -> str:

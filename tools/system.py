@@ -59,10 +59,11 @@ WINDOW = Need(
     "Alpine: mesa-gl libx11 libxext)",
 )
 LLVM = Need(
-    "LLVM 19 for Mitsuba, the renderer that tests compare with",
+    "LLVM 19 and libatomic for Mitsuba, the renderer that tests compare with",
     probes.llvm,
-    ("libllvm19",),
-    "LLVM 19 (Fedora: llvm-libs; Arch: llvm-libs; Alpine: llvm19-libs)",
+    ("libllvm19", "libatomic1"),
+    "LLVM 19 and libatomic (Fedora: llvm-libs libatomic; Arch: llvm-libs gcc-libs; "
+    "Alpine: llvm19-libs libatomic)",
 )
 
 WANTED = {
