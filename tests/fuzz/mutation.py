@@ -1,6 +1,7 @@
 """Scenes with faults: tables with a wrong value somewhere, files with wrong bytes somewhere."""
 
 from collections.abc import Iterator
+from copy import deepcopy
 from typing import Any
 
 from hypothesis import strategies as st
@@ -39,7 +40,7 @@ def broken_scenes(draw: st.DrawFn) -> Table:
         owner, key = draw(st.sampled_from(list(places(table))))
         change = draw(st.sampled_from(["replace", "replace", "drop", "rename"]))
         if change == "replace":
-            owner[key] = draw(JUNK)
+            owner[key] = deepcopy(draw(JUNK))  # a later change must not reach the samples
         elif change == "drop":
             del owner[key]
         elif isinstance(owner, dict):
