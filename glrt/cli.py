@@ -12,7 +12,7 @@ from typing import Any
 from glrt.arguments import is_automatic, make_parser, refuse_later, settings_given
 from glrt.errors import GlrtError, RenderError, UsageError
 from glrt.job import Interruption, Limits, peak_bytes, run, samples_limit, since_start
-from glrt.library import load_recipe
+from glrt.library import load_recipe, recipe_of
 from glrt.omissions import omissions
 from glrt.scene import Scene, with_lights
 from glrt.settings import Settings, settings_for
@@ -167,9 +167,10 @@ def _render(
     limits: Limits,
     interruption: Interruption,
 ) -> int:
-    from glrt.renderer import Renderer
+    from glrt.again import open_renderer
 
-    renderer = Renderer(scene, settings, arguments.context, "baked", arguments.pipeline)
+    recipe, route = recipe_of(arguments.scene), arguments.context
+    renderer = open_renderer(scene, settings, recipe, route, "baked", arguments.pipeline)
     setup = since_start() - renderer.compile_seconds
     start = time.perf_counter()
     with _watch(arguments, limits) as watch:

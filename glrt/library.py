@@ -4,6 +4,7 @@ from pathlib import Path
 
 from glrt.errors import SceneError
 from glrt.image import read_recipe
+from glrt.recipe import Recipe
 from glrt.resources import folder
 from glrt.scene import Scene, unknown
 from glrt.scene_file import read_scene
@@ -28,12 +29,17 @@ def load_recipe(source: str | Path) -> tuple[Scene, Settings | None]:
 
     The settings are None for a scene file, whose wishes are in `scene.render`.
     """
-    path = _find(source)
-    if path.suffix.lower() not in PICTURES:
-        return read_scene(path), None
-    recipe = read_recipe(path)
+    recipe = recipe_of(source)
+    if recipe is None:
+        return read_scene(_find(source)), None
     taken = recipe.samples or recipe.settings.samples
     return recipe.scene, recipe.settings.model_copy(update={"samples": taken})
+
+
+def recipe_of(source: str | Path) -> Recipe | None:
+    """The recipe of a rendered picture; None for a scene file, which has none."""
+    path = _find(source)
+    return read_recipe(path) if path.suffix.lower() in PICTURES else None
 
 
 def scene_names() -> list[str]:

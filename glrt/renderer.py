@@ -18,7 +18,7 @@ from glrt.mix import Mixer, mixed
 from glrt.needs import has_tree, needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.pipelines import Arrays, compiled, resolve, scene_text, sources, upload
-from glrt.recipe import Recipe
+from glrt.recipe import Recipe, traced
 from glrt.relight import Layering, Weights, are_trivial, plan_for
 from glrt.scene import Scene
 from glrt.schedule import (
@@ -90,9 +90,7 @@ class Renderer:
     @property
     def size(self) -> tuple[int, int]:
         """Width and height of the picture in pixels: of the crop, if there is one."""
-        if self.settings.crop:
-            return self.settings.crop[2], self.settings.crop[3]
-        return self.settings.width, self.settings.height
+        return (self.settings.crop or (0, 0, self.settings.width, self.settings.height))[2:]
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
@@ -170,10 +168,11 @@ class Renderer:
                 break
         return self
 
-    def image(self) -> Image:
-        """The picture so far, with its standard error and its recipe."""
+    def image(self, weights: Weights | None = None) -> Image:
+        """The picture so far, with its standard error and its recipe; `weights` show it so."""
         with self.context.gl:
             film = self._film.read()
+        weights = weights or self.plan.weights
         recipe = Recipe(
             scene=self.scene,
             settings=self.settings,
@@ -182,8 +181,9 @@ class Renderer:
             renderer=self.context.renderer,
             tier=self.tier,
             pipeline=self.pipeline,
+            traced=traced(self.plan, weights),
         )
-        return Image(*mixed(film, self.plan.weights), self.samples, recipe)
+        return Image(*mixed(film, weights), self.samples, recipe)
 
     def display(self) -> np.ndarray[Any, Any]:
         """The picture so far through the display pass: (H, W, 3) uint8 sRGB, row 0 on top."""

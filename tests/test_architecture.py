@@ -37,6 +37,7 @@ ORDER = [
     *(
         "renderer",
         "__init__",
+        "again",
         "job",
         "progress",
         "examination",

@@ -13,7 +13,11 @@ import numpy as np
 import pytest
 
 import glrt as package
+from glrt.context import Context
 from glrt.image import Image, read_recipe
+from glrt.library import load
+from glrt.renderer import Renderer
+from glrt.scene import with_lights
 from tests.processes import glrt, start
 
 SMALL = ("--width", "24", "--height", "16", "--samples", "4")
@@ -69,6 +73,20 @@ def test_render_from_a_recipe_gives_the_same_bits(
     first_image, again = Image.load(folder / "a.exr"), Image.load(tmp_path / "again.exr")
     assert again.radiance.tobytes() == first_image.radiance.tobytes()
     assert again.stderr.tobytes() == first_image.stderr.tobytes()
+
+
+def test_render_from_a_relit_picture_gives_the_same_bits(context: Context, tmp_path: Path) -> None:
+    scene = with_lights(load("lamps"), {"rose": 0.0})
+    renderer = Renderer(scene, context=context, layering="groups", width=24, height=16)
+    renderer.render(3).update(with_lights(scene, {"rose": 0.7, "blue": 0.3}))
+    relit = renderer.image()
+    renderer.release()
+    relit.save(tmp_path / "relit.exr")
+    done = glrt("render", tmp_path / "relit.exr", "-o", tmp_path / "again.exr")
+    assert done.returncode == 0, done.stderr
+    again = Image.load(tmp_path / "again.exr")
+    assert np.array_equal(again.radiance, relit.radiance)
+    assert np.array_equal(again.stderr, relit.stderr)
 
 
 def test_explicit_options_override_the_recipe(

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from glrt.errors import SceneError
-from glrt.recipe import Recipe
+from glrt.recipe import Recipe, Traced
 from glrt.scene_file import parse_scene
 from glrt.settings import Settings
 
@@ -43,6 +43,41 @@ def recipe() -> Recipe:
 
 def test_a_recipe_survives_json_without_loss(recipe: Recipe) -> None:
     assert Recipe.from_json(recipe.to_json(), "x.png") == recipe
+
+
+@pytest.fixture
+def relit(recipe: Recipe) -> Recipe:
+    traced = Traced(
+        scene=recipe.scene, bounces=3, layering="groups", weights=[(0.1, 1.0, 1 / 3), (1, 0, 2)]
+    )
+    return recipe.model_copy(update={"traced": traced})
+
+
+def test_what_was_traced_survives_json_without_loss(relit: Recipe) -> None:
+    assert Recipe.from_json(relit.to_json(), "x.png") == relit
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("traced.weights", [], "weights"),
+        ("traced.weights", [[1, 1, 1]] * 3, "weights"),
+        ("traced.weights", [[1, 1, -1]], "weights"),
+        ("traced.weights", [[1, 1]], "weights"),
+        ("traced.layering", "colours", "layering"),
+        ("traced.bounces", 1001, "bounces"),
+        ("traced.scene", None, "scene"),
+        ("traced.scene.camera.fov", 0, "camera.fov"),
+        ("traced", 3, "traced"),
+    ],
+)
+def test_damaged_light_of_a_recipe_is_refused_with_the_key(
+    relit: Recipe, key: str, value: Any, named: str
+) -> None:
+    with pytest.raises(SceneError, match=r"^x\.exr.*recipe") as caught:
+        Recipe.from_json(damaged(relit, key, value), "x.exr")
+    assert named in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_every_setting_is_written_out_so_that_new_defaults_change_no_old_recipe(

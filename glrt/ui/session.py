@@ -169,9 +169,9 @@ class Session:
         return Renderer(state.scene, state.settings, self._context, layering=self.layering)
 
     def image(self) -> Image:
-        """The picture so far, with its error and its recipe."""
+        """The picture as it is shown, with its error and its recipe."""
         assert self.renderer
-        return self.renderer.image()
+        return self.renderer.image(self.weights)
 
     def release(self) -> None:
         """Free what the driver holds."""
