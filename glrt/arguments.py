@@ -136,12 +136,7 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
         "--error", type=float, metavar="E", help="stop at this relative RMS error: 0.02 is 2 %%"
     )
     _add_context(parser)
-    parser.add_argument(
-        "--pipeline",
-        choices=get_args(Pipeline),
-        default="auto",
-        help="kind of shader; fragment needs OpenGL 4.1 alone; default: compute where it works",
-    )
+    _add_pipeline(parser)
     parser.add_argument("--resume", metavar="FILE", help=argparse.SUPPRESS)
     parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
@@ -152,6 +147,16 @@ def _add_view(parser: argparse.ArgumentParser) -> None:
         "scene", metavar="SCENE", nargs="?", default="cornell", help=f"{_SCENE}; default: cornell"
     )
     _add_settings(parser)
+    _add_pipeline(parser)
+
+
+def _add_pipeline(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--pipeline",
+        choices=get_args(Pipeline),
+        default="auto",
+        help="kind of shader; fragment needs OpenGL 4.1 alone; default: compute where it works",
+    )
 
 
 def _add_compare(parser: argparse.ArgumentParser) -> None:

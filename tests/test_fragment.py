@@ -20,18 +20,11 @@ from glrt.scene import Scene
 from glrt.texels import ROWS, accessor, texels
 from tests.images import same_bits
 from tests.mixture import everything
+from tests.old_driver import OLD_DRIVER
 from tests.processes import glrt
 from tests.renders import METHODS, SAMPLERS
 
 SMALL: dict[str, Any] = {"width": 19, "height": 13, "bounces": 6}
-
-# Mesa with what OpenGL 4.1 lacks really taken away: a version alone still compiles compute shaders.
-OLD_DRIVER = {
-    "MESA_GL_VERSION_OVERRIDE": "4.1",
-    "MESA_GLSL_VERSION_OVERRIDE": "410",
-    "MESA_EXTENSION_OVERRIDE": "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object "
-    "-GL_ARB_shader_image_load_store",
-}
 
 
 def bits(scene: Scene, context: Context, pipeline: Resolved, **settings: Any) -> bytes:

@@ -1,6 +1,7 @@
 """What the window edits, without a window: edits, costs, previews, and the time of a frame."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
@@ -210,6 +211,31 @@ def test_bounces_are_weighed_while_their_control_is_open(session: Session) -> No
     start(session)
     assert session.restarts == restarts + 1
     assert session.settings.bounces == 1
+
+
+def test_without_compute_another_light_restarts(context: Context, clock: Clock) -> None:
+    """A fragment shader keeps no layers, and the session says so."""
+    scene = everything()
+    settings = settings_for(scene.render, width=16, height=16, bounces=3, samples=1000)
+    session = Session(scene, settings, context, clock, pipeline="fragment")
+    with context.gl:
+        start(session)
+        assert session.renderer
+        assert session.renderer.pipeline == "fragment"
+        session.by_length = True
+        edits: list[dict[str, Any]] = [
+            {"scene": with_lights(scene, {"lamp": 0.5})},
+            {"bounces": 2},
+        ]
+        for edit in edits:
+            restarts = session.restarts
+            assert session.cost_of_light("lamp") is Cost.RESTART
+            assert session.cost_of_fewer_bounces() is Cost.RESTART
+            session.edit(**edit)
+            start(session)
+            assert (session.restarts, session.last_cost) == (restarts + 1, Cost.RESTART)
+        assert not session.problem
+        session.release()
 
 
 def test_undo_brings_back_scene_and_settings(session: Session) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.old_driver import OLD_DRIVER
 from tests.packages import needs_package
 from tests.processes import glrt
 from tests.screens import screen
@@ -27,6 +28,14 @@ CHECKS = [
     for node in ast.parse((ROOT / "tests" / "window_checks.py").read_text()).body
     if isinstance(node, ast.FunctionDef) and node.decorator_list
 ]
+ON_OLD_DRIVERS = (
+    "the_driver_decides_on_the_pipeline",
+    "the_picture_never_goes_black",
+    "a_drag_turns_by_its_share_of_the_window",
+    "a_picture_is_saved_with_its_recipe_and_opened_again",
+    "a_kept_picture_is_compared_by_a_wipe",
+    "a_compilation_is_announced_while_the_old_picture_stays",
+)
 
 
 @pytest.fixture(scope="module")
@@ -40,18 +49,30 @@ def display() -> Iterator[str]:
 @pytest.fixture(scope="module")
 def found(display: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """What each check found wrong, "" for nothing."""
-    folder = tmp_path_factory.mktemp("window")
+    return checked(display, tmp_path_factory.mktemp("window"))
+
+
+def checked(display: str, folder: Path, *names: str, **variables: str) -> dict[str, str]:
+    """What the checks of these names, or all, found in a window of their own."""
     environment = {
         "DISPLAY": display,
         "XDG_CONFIG_HOME": str(folder / "config"),
         "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
     }
     told = subprocess.run(
-        [sys.executable, "-W", "error", "-c", "from tests.hand import main; main()", str(folder)],
+        [
+            sys.executable,
+            "-W",
+            "error",
+            "-c",
+            "from tests.hand import main; main()",
+            str(folder),
+            *names,
+        ],
         capture_output=True,
         text=True,
         cwd=folder,
-        env={**os.environ, **environment},
+        env={**os.environ, **environment, **variables},
         timeout=280,
     )
     file = folder / "found.json"
@@ -63,6 +84,15 @@ def found(display: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, s
 @pytest.mark.parametrize("check", [*CHECKS, "window"])
 def test_in_the_window(found: dict[str, str], check: str) -> None:
     assert found.get(check, "did not run" if check in CHECKS else "") == ""
+
+
+def test_the_window_works_without_compute_shaders(display: str, tmp_path: Path) -> None:
+    arguments = "view", "cornell", "--pipeline", "compute"
+    needed = glrt(*arguments, cwd=None, DISPLAY=display, **OLD_DRIVER)
+    assert needed.returncode == 3
+    assert "OpenGL 4.3" in needed.stderr
+    found = checked(display, tmp_path, *ON_OLD_DRIVERS, **OLD_DRIVER)
+    assert found == dict.fromkeys(ON_OLD_DRIVERS, "")
 
 
 @pytest.mark.parametrize("seconds", [0.6, 1.2, 2.5])

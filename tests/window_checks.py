@@ -270,6 +270,18 @@ def preferences_are_kept_while_the_window_is_open(hand: Hand) -> None:
 
 
 @check
+def the_driver_decides_on_the_pipeline(hand: Hand) -> None:
+    """Without compute shaders there are no layers: another intensity restarts."""
+    has_compute = hand.session._context.has_compute
+    assert hand.session.pipeline == ("compute" if has_compute else "fragment")
+    restarts = hand.session.restarts
+    move(hand, "intensity##lamp", 2.0)
+    hand.settle()
+    assert hand.session.last_cost is (Cost.RELIGHT if has_compute else Cost.RESTART)
+    assert hand.session.restarts == restarts + (not has_compute)
+
+
+@check
 def a_relit_picture_is_that_of_a_fresh_render(hand: Hand) -> None:
     hand.there(lambda: hand.session.edit(samples=8, seed=2))
     hand.until(lambda: hand.session.is_done)

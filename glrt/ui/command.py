@@ -29,4 +29,4 @@ def view(arguments: argparse.Namespace, given: dict[str, object]) -> int:
             f"no window can be opened: {error}. On Debian or Ubuntu install libgl1 and libx11-6. "
             "`glrt render` renders without a window."
         ) from None
-    return Window(arguments.scene, scene, settings).run()
+    return Window(arguments.scene, scene, settings, arguments.pipeline).run()

@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+import sys
 from typing import Any
 
 from imgui_bundle import imgui  # noqa: F401 - first: glfw then is the library that it brings
@@ -9,7 +10,7 @@ from imgui_bundle import imgui  # noqa: F401 - first: glfw then is the library t
 import glfw  # isort: skip
 import moderngl
 
-from glrt.context import COMPUTE, Context
+from glrt.context import COMPUTE, FRAGMENT, Context, Pipeline
 from glrt.errors import ContextError
 
 INSTEAD = "Use `glrt render`, which needs none; `glrt doctor` tells which OpenGL works here."
@@ -35,25 +36,32 @@ class WindowLoader:
 def wrap_window() -> Context:
     """The context of the window that is open."""
     loader: Any = WindowLoader()
-    return Context(moderngl.create_context(require=COMPUTE, context=loader), "window")
+    return Context(moderngl.create_context(require=FRAGMENT, context=loader), "window")
 
 
-def check_window() -> None:
-    """Raise ContextError if no window with OpenGL 4.3 can be opened."""
+def window_version(pipeline: Pipeline = "auto") -> int:
+    """The version of OpenGL to open a window with: 430, with compute shaders, else 410.
+
+    Raises ContextError if no window can be opened, or none that the pipeline can do with.
+    """
     problems: list[str] = []
     report: Any = glfw.set_error_callback
     report(lambda _code, message: problems.append(os.fsdecode(message).strip()))
-    works = bool(glfw.init()) and _opens()
+    versions = (COMPUTE,) if pipeline == "compute" else (COMPUTE, FRAGMENT)
+    version = next(filter(_opens, versions), None) if glfw.init() else None
     glfw.terminate()
     report(None)
-    if not works:
-        reason = "; ".join(problems) or "no reason given"
-        raise ContextError(f"no window can be opened: {reason}. {INSTEAD}")
+    if version is None:
+        needed = versions[-1] / 100
+        reason = "; ".join(dict.fromkeys(problems)) or "no reason given"
+        raise ContextError(f"no window with OpenGL {needed} can be opened: {reason}. {INSTEAD}")
+    return version
 
 
-def _opens() -> bool:
-    major, minor = divmod(COMPUTE // 10, 10)
+def _opens(version: int) -> bool:
+    major, minor = divmod(version // 10, 10)
     glfw.window_hint(glfw.VISIBLE, glfw.FALSE)
+    glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, sys.platform == "darwin")  # macOS insists on it
     glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, major)
     glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, minor)
     glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)

@@ -112,9 +112,10 @@ def _paths(app: App) -> None:
     session = app.session
     bounces = SETTINGS["bounces"].costing(session.cost_of_fewer_bounces())
     _edit(app, edited_fields((bounces,), dict(session.settings)))
-    _, session.by_length = imgui.checkbox("bounces live", session.by_length)
-    imgui.set_item_tooltip(_LIVE)
-    if session.by_length:
+    if session.layering != "none":
+        _, session.by_length = imgui.checkbox("bounces live", session.by_length)
+        imgui.set_item_tooltip(_LIVE)
+    if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
 

@@ -68,7 +68,7 @@ def _kernel(app: App) -> None:
     inside = ", ".join(feature.name for feature in features if feature.present)
     layers = f"; {plan.layers} layers" if plan.layers else ""
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_disabled(f"kernel: {inside}{layers}")
+    imgui.text_disabled(f"{session.pipeline} kernel: {inside}{layers}")
     left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
     imgui.set_item_tooltip(f"left out\n{left_out}")
     imgui.text_disabled(session.renderer.context.renderer)

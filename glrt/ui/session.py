@@ -8,10 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from glrt.context import Context
+from glrt.context import Context, Pipeline
 from glrt.errors import GlrtError, RenderError
 from glrt.image import Image
 from glrt.needs import needs_of
+from glrt.pipelines import resolve
 from glrt.relight import Layering, Weights, emitters, layer_of_group, plan_for
 from glrt.renderer import Renderer
 from glrt.scene import SKY_GROUP, Scene
@@ -42,8 +43,10 @@ class Session:
         settings: Settings,
         context: Context,
         clock: Callable[[], float] = time.perf_counter,
+        pipeline: Pipeline = "auto",
     ) -> None:
         """Nothing is compiled before the first frames, which say that it will be."""
+        self.pipeline = resolve(pipeline, context)
         self.state = self.opened = State(scene, settings_for(settings, crop=None))
         self.history: History[State] = History()
         self.renderer: Renderer | None = None
@@ -81,7 +84,12 @@ class Session:
 
     @property
     def layering(self) -> Layering:
-        """What the layers of the film are to hold: light groups, or lengths of paths."""
+        """What the layers of the film are to hold: light groups, or lengths of paths.
+
+        A fragment shader writes to few textures: it keeps none.
+        """
+        if self.pipeline == "fragment":
+            return "none"
         return "lengths" if self.by_length else "groups"
 
     @property
@@ -98,13 +106,13 @@ class Session:
         shares = [other for other in layers if layers[other] == layers.get(group)]
         lamps = emitters(self.scene).get(group, [])
         is_weighed = len(shares) == 1 and not (is_tint and len(lamps) > 1)
-        if is_weighed and not self.by_length:
+        if is_weighed and self.layering == "groups":
             return Cost.RELIGHT
         return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
 
     def cost_of_fewer_bounces(self) -> Cost:
         """What a lower bounce limit costs now."""
-        return Cost.RELIGHT if self.by_length else Cost.RESTART
+        return Cost.RELIGHT if self.layering == "lengths" else Cost.RESTART
 
     @property
     def is_preview(self) -> bool:
@@ -166,7 +174,8 @@ class Session:
         self._begin()
 
     def _open(self, state: State) -> Renderer:
-        return Renderer(state.scene, state.settings, self._context, layering=self.layering)
+        ways: dict[str, Any] = {"pipeline": self.pipeline, "layering": self.layering}
+        return Renderer(state.scene, state.settings, self._context, **ways)
 
     def image(self) -> Image:
         """The picture as it is shown, with its error and its recipe."""

@@ -5,12 +5,13 @@ from collections.abc import Callable
 
 from imgui_bundle import hello_imgui, imgui, immapp
 
+from glrt.context import Pipeline
 from glrt.job import Interruption
 from glrt.resources import folder
 from glrt.scene import Scene
 from glrt.settings import Settings
 from glrt.ui.app import App
-from glrt.ui.opengl import check_window, wrap_window
+from glrt.ui.opengl import window_version, wrap_window
 from glrt.ui.pace import Pace
 from glrt.ui.panel import draw_panel
 from glrt.ui.picture import Picture
@@ -35,10 +36,16 @@ class Window:
 
     app: App
 
-    def __init__(self, source: str, scene: Scene, settings: Settings) -> None:
-        """Prepare; `run` opens it. ContextError if there is no display, or no OpenGL 4.3."""
-        check_window()
+    def __init__(
+        self, source: str, scene: Scene, settings: Settings, pipeline: Pipeline = "auto"
+    ) -> None:
+        """Prepare; `run` opens it. ContextError if there is no display, or no OpenGL 4.1.
+
+        `pipeline` is compute, which needs OpenGL 4.3, or fragment; by default the first that works.
+        """
+        self._version = window_version(pipeline)
         self._opened = (source, scene, settings)
+        self._pipeline: Pipeline = pipeline
         self._rendered = 0.0
         self._styled: tuple[str, float] | None = None
         self._began = self._kept = time.perf_counter()
@@ -60,7 +67,7 @@ class Window:
         params.imgui_window_params.default_imgui_window_type = (
             hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         )
-        params.renderer_backend_options.open_gl_options = _opengl()
+        params.renderer_backend_options.open_gl_options = _opengl(self._version)
         params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
         params.ini_filename = "glrt/view.ini"
         params.docking_params = self._docking()
@@ -90,7 +97,7 @@ class Window:
         preferences, problem = load_preferences(preferences_file())
         self._rate = RATES[context.is_software]
         self.app = App(
-            session=Session(scene, settings, context),
+            session=Session(scene, settings, context, pipeline=self._pipeline),
             picture=Picture(context.gl),
             preferences=preferences,
             preferences_file=preferences_file(),
@@ -149,10 +156,10 @@ def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.Docka
     return part
 
 
-def _opengl() -> hello_imgui.OpenGlOptions:
+def _opengl(version: int) -> hello_imgui.OpenGlOptions:
     """Without antialiasing: it takes a software driver as long again."""
     options = hello_imgui.OpenGlOptions()
-    options.major_version, options.minor_version = 4, 3
+    options.major_version, options.minor_version = divmod(version // 10, 10)
     options.use_core_profile, options.anti_aliasing_samples = True, 0
     return options
 

@@ -1,0 +1,9 @@
+"""Mesa as a driver of OpenGL 4.1, for processes that have this in their environment."""
+
+# What OpenGL 4.1 lacks is really taken away: under a version alone compute shaders still compile.
+OLD_DRIVER = {
+    "MESA_GL_VERSION_OVERRIDE": "4.1",
+    "MESA_GLSL_VERSION_OVERRIDE": "410",
+    "MESA_EXTENSION_OVERRIDE": "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object "
+    "-GL_ARB_shader_image_load_store",
+}
