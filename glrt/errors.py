@@ -2,9 +2,16 @@
 
 
 class GlrtError(Exception):
-    """An error with one paragraph for the user: what is wrong, where, and what to do."""
+    """An error with one paragraph for the user: what is wrong, where, and what to do.
+
+    What it quotes may come from a damaged file: it is kept fit for a terminal.
+    """
 
     exit_code = 4
+
+    def __init__(self, paragraph: str) -> None:
+        """Make one line of it, without control characters."""
+        super().__init__("".join(sign if sign.isprintable() else " " for sign in paragraph))
 
 
 class UsageError(GlrtError):

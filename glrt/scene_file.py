@@ -73,8 +73,7 @@ def _toml(text: str, source: str) -> dict[str, Any]:
 
 
 def _scene_error(source: str, text: str) -> SceneError:
-    whole = sentence(f"{source}: {text}")
-    return SceneError("".join(letter if letter.isprintable() else " " for letter in whole))
+    return SceneError(sentence(f"{source}: {text}"))
 
 
 def _strict(value: Any, depth: int = 8) -> Any:

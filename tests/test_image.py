@@ -190,6 +190,14 @@ def test_exr_files_without_colours_are_refused_by_the_names_of_their_channels(
         Image.load(tmp_path / "x.exr")
 
 
+def test_names_that_a_terminal_would_obey_are_told_without_their_commands(tmp_path: Path) -> None:
+    exr(tmp_path / "x.exr", {"\x1b[2J\n": np.zeros((2, 2), np.float32)})
+    with pytest.raises(UsageError) as caught:
+        Image.load(tmp_path / "x.exr")
+    assert "[2J" in str(caught.value)
+    assert str(caught.value).isprintable()
+
+
 def test_a_foreign_picture_has_no_recipe(tmp_path: Path) -> None:
     exr(tmp_path / "x.exr", {"RGB": np.zeros((2, 2, 3), np.float32)})
     Pillow.new("RGB", (2, 2)).save(tmp_path / "x.png")
