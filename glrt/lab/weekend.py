@@ -1,17 +1,18 @@
-"""Writes weekend.toml: the picture on the cover of "Ray Tracing in One Weekend".
+"""Writes scenes/weekend.toml: the picture on the cover of "Ray Tracing in One Weekend".
 
 Three large balls, of glass, matte brown and metal, stand in a row among some 480 small ones that
 lie strewn over grey ground under a pale sky. The picture is described in Peter Shirley, Trevor
 David Black, Steve Hollasch, "Ray Tracing in One Weekend", https://raytracing.github.io; the
 placement and the colours here are this file's own. The same seed writes the same file.
 
-    python scenes/weekend.py
+    python -m glrt.lab.weekend
 """
 
 import math
 import random
 from collections.abc import Iterator
-from pathlib import Path
+
+from glrt.resources import folder
 
 SEED = 35
 GRID = range(-11, 11)  # one small ball a cell, cells 1 apart in x and z
@@ -50,7 +51,7 @@ LARGE_BALLS = {  # name: material, x; at y = 1 and z = 0
 }
 
 HEAD = """\
-# Written by weekend.py beside this file, which says what it shows; change that, not this.
+# Written by glrt/lab/weekend.py, which says what it shows; change that, not this.
 title = "The cover of Ray Tracing in One Weekend: some 480 balls on the ground"
 
 camera = {{ position = [13.0, 2.0, 3.0], look_at = [0.0, 0.0, 0.0], fov = 20.0, \
@@ -137,4 +138,5 @@ def scene_text(seed: int = SEED) -> str:
 
 
 if __name__ == "__main__":
-    Path(__file__).with_suffix(".toml").write_text(scene_text(), encoding="utf-8", newline="\n")
+    file = folder("scenes") / "weekend.toml"
+    file.write_text(scene_text(), encoding="utf-8", newline="\n")
