@@ -17,6 +17,8 @@ class Exposure(NamedTuple):
     variance: Array  # of one observation
     dropped: Array  # (H, W): samples that were not finite
     observations: Array  # (H, W): whole ones
+    part: Array  # mean of the samples after the last whole observation
+    share: Array  # (H, W): of all finite samples, those in `part`
     layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
 
 
@@ -76,8 +78,9 @@ class Film:
         if not self.samples:
             raise RenderError("the film is empty: render a sample first")
         mean, variance = (self._read(self._pairs[0][name]) for name in ("mean", "variance"))
-        parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
-        return Exposure(*(part.copy() for part in (*parts, self._read_layers())))
+        whole = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
+        begun = self._read_begun(self.samples - mean[..., 3])
+        return Exposure(*(part.copy() for part in (*whole, *begun, self._read_layers())))
 
     def release(self) -> None:
         """Free the textures."""
@@ -104,6 +107,13 @@ class Film:
             raise RenderError(f"{problem} ({state})")
         return texture
 
+    def _read_begun(self, finite: Array) -> tuple[Array, Array]:
+        """The observation that has begun: its mean, and its share of so many finite samples."""
+        if self.samples % self.block == 0:
+            return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
+        begun = self._read(self._pairs[0]["block"])
+        return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
+
     def _read_layers(self) -> Array:
         (width, height), count = self.size, self.layer_count
         whole = np.frombuffer(self.layers.read() if self.layers else b"", np.float32)
@@ -117,11 +127,14 @@ class Film:
 def standard_error(film: Exposure) -> Array:
     """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations.
 
-    s / sqrt(k) for k observations, with s^2 = v k / (k - 1), v being their variance about the mean.
-    What is not a whole observation counts in the mean alone: a few samples of Sobol's points are
-    worth less than their share of a block.
+    The mean M of k whole observations has the variance V = v / (k - 1), v being that of theirs
+    about M. A part P of one, a share a of the samples, has a variance of its own, for Sobol's
+    points are worth more together: (P - M)^2 - V is an estimate without bias. So that of the mean
+    (1 - a) M + a P is (1 - a)^2 V + a^2 ((P - M)^2 - V).
     """
-    count = film.observations[..., None]
+    count, share = film.observations[..., None], film.share[..., None]
     with np.errstate(divide="ignore", invalid="ignore"):
-        error = np.sqrt(film.variance / (count - 1))
+        whole = film.variance / (count - 1)
+        apart = (film.part - film.mean) / (1 - share)
+        error = np.sqrt(np.maximum(1 - 2 * share, 0) * whole + np.square(share * apart))
     return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)

@@ -28,7 +28,7 @@ def mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
     total = np.maximum(first + second, 1)
     mean = (sums[0] * first + sums[1] * second) / total
     error = np.abs(sums[0] - sums[1]) * np.sqrt(first * second) / total
-    error[np.broadcast_to((first == 0) | (second == 0), error.shape)] = np.nan
+    error[film.observations < 2] = np.nan
     return mean.astype(np.float32), error.astype(np.float32)
 
 

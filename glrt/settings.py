@@ -11,11 +11,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from glrt.errors import UsageError
 
 Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
-Sampler = Literal["independent", "sobol"]
+Sampler = Literal["sobol", "independent"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
-BLOCKS = {"independent": 1, "sobol": 16}  # samples of an observation, by sampler
+BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
 
 
 class Cost(StrEnum):
@@ -85,8 +85,8 @@ class Settings(RenderSettings):
         None, "the part of the frame to render: left, top, width, height", Cost.RESTART, "pixels"
     )
     sampler: Sampler = _setting(
-        "independent",
-        "independent: any random numbers; sobol: blocks of 16 samples that fill the space evenly",
+        "sobol",
+        "sobol: blocks of 16 samples that fill the space evenly; independent: any random numbers",
         Cost.RECOMPILE,
     )
     roulette: bool = _setting(

@@ -21,6 +21,7 @@ from tests.numerics import Array
 from tests.test_rng import drawn
 from tests.wgsl.seeds import pcg
 
+ONE = np.ones(3, np.float32)
 NAN, INFINITY = 0x7FC00000, 0x7F800000  # bits of floats
 SAMPLES = 4096
 WIDTH, HEIGHT = 12, 7
@@ -168,7 +169,7 @@ Step = Callable[[Film, int], None]
 @pytest.fixture
 def step(ctx: moderngl.Context) -> Iterator[Step]:
     """`step(film, samples)`: one dispatch of the kernel for ROOM, and the swap after it."""
-    settings = settings_for(ROOM.render)
+    settings = settings_for(ROOM.render, sampler="independent")
     kernel = Kernel(ctx, Source("trace.comp", needs_of(ROOM, settings).constants()))
     arrays = pack_scene(ROOM)
     counts = {name: len(rows) for name, rows in arrays.items()}
@@ -299,13 +300,19 @@ def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> No
 # --- standard error ------------------------------------------------------------------------
 
 
-def exposure(samples: Array, dropped: int = 0) -> Exposure:
-    """A film of one pixel that has gathered these observations, (n, 3)."""
-    mean, variance = samples.mean(axis=0), samples.var(axis=0)
+def exposure(samples: Array, dropped: int = 0, part: Array = ONE, share: float = 0) -> Exposure:
+    """A film of one pixel: these observations, (n, 3), and a share that is a part of one, (3,)."""
+    mean = (1 - share) * samples.mean(axis=0) + share * part
     place = (1, 1, 3)
-    counts = [np.full((1, 1), float(count)) for count in (dropped, len(samples))]
-    figures = [*counts, np.zeros((2, 0, 1, 1, 4))]
-    return Exposure(mean.reshape(place), variance.reshape(place), *figures)
+    return Exposure(
+        mean=mean.reshape(place),
+        variance=samples.var(axis=0).reshape(place),
+        dropped=np.full((1, 1), np.float32(dropped)),
+        observations=np.full((1, 1), np.float32(len(samples))),
+        part=part.reshape(place),
+        share=np.full((1, 1), np.float32(share)),
+        layers=np.zeros((2, 0, 1, 1, 4), np.float32),
+    )
 
 
 def test_the_standard_error_is_that_of_the_mean() -> None:
@@ -313,6 +320,19 @@ def test_the_standard_error_is_that_of_the_mean() -> None:
     exact = samples.std(axis=0, ddof=1) / np.sqrt(50)
     assert standard_error(exposure(samples))[0, 0] == pytest.approx(exact, rel=1e-6)
     assert standard_error(exposure(samples, dropped=3))[0, 0] == pytest.approx(exact, rel=1e-6)
+
+
+def test_a_part_of_an_observation_has_a_variance_of_its_own() -> None:
+    """Whatever it is: the mean of the estimates is the variance of the means."""
+    random = np.random.default_rng(2)
+    blocks = random.normal(5, 1, size=(20_000, 3, 3)).astype(np.float32)
+    for spread in (0.5, 1, 4):
+        parts = random.normal(5, spread, size=(20_000, 3)).astype(np.float32)
+        films = [exposure(a, part=b, share=0.2) for a, b in zip(blocks, parts, strict=True)]
+        estimate = np.mean([np.square(standard_error(film)) for film in films])
+        # Of 60,000 estimates of three degrees of freedom or fewer: 0.6 % is one standard error.
+        assert estimate == pytest.approx(0.64 / 3 + 0.04 * spread**2, rel=0.03)
+        assert estimate == pytest.approx(np.var([film.mean for film in films]), rel=0.04)
 
 
 def test_fewer_than_two_observations_have_no_standard_error() -> None:

@@ -79,11 +79,12 @@ def test_one_group_times_a_power_of_two_equals_a_fresh_render_to_the_bit(
     relit_scene = with_lights(room(), {"warm": factor})
     with layered(room(), context) as renderer, layered(relit_scene, context) as fresh:
         assert renderer.plan.layers == 0, "one group pays for no layer"
-        renderer.render(8)
+        renderer.render(32)
         assert renderer.update(relit_scene) is Cost.RELIGHT
-        assert renderer.samples == 8
-        fresh.render(8)
+        assert renderer.samples == 32
+        fresh.render(32)
         assert same_bits(radiance(renderer), radiance(fresh))
+        assert renderer.image().error is not None
         assert same_bits(renderer.image().stderr, fresh.image().stderr)
     with layered(relit_scene, context, "none") as plain:
         assert same_bits(radiance(plain.render(8)), radiance(fresh_again(relit_scene, context)))
@@ -187,12 +188,21 @@ def fresh_mean(scene: Scene, context: Context) -> float:
 
 def test_layers_sum_up_to_the_picture(context: Context) -> None:
     with layered(room(2, 0.5), context) as renderer:
-        renderer.render(16)
+        renderer.render(32)
         with context.gl:
             film = renderer._film.read()
         halves = film.layers[..., :3].sum(axis=1)
         assert np.allclose(halves.mean(axis=0), film.mean, rtol=1e-4, atol=1e-6)
-        assert (film.layers[..., 3] == 8).all()
+        assert (film.layers[..., 3] == 16).all()
+
+
+@pytest.mark.parametrize("sampler", ["independent", "sobol"])
+def test_the_error_of_a_weighted_sum_takes_two_observations(context: Context, sampler: str) -> None:
+    with layered(room(2), context, sampler=sampler) as renderer:
+        renderer.update(room(2, warm=0.2))
+        block = renderer.settings.block
+        assert renderer.render(2 * block - 1).image().error is None
+        assert renderer.render(2 * block).image().error is not None
 
 
 @pytest.mark.parametrize("sampler", ["independent", "sobol"])

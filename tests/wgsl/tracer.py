@@ -81,9 +81,10 @@ class Tracer:
     def read(self) -> Exposure:
         """Mean and variance so far."""
         mean, variance = (self._read(texture) for texture in self._pairs[1])
-        parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
+        whole = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
+        begun = np.zeros_like(whole[0]), np.zeros_like(whole[2])  # a sample is an observation
         no_layers = np.empty((2, 0, *mean.shape), np.float32)
-        return Exposure(*(part.copy() for part in (*parts, no_layers)))
+        return Exposure(*(part.copy() for part in (*whole, *begun, no_layers)))
 
     def nonfinite(self) -> int:
         """How many samples were dropped because they were not finite."""
