@@ -5,6 +5,7 @@ from typing import Any, get_args
 import moderngl
 import numpy as np
 
+from glrt.kernel import drawing
 from glrt.settings import Settings, ToneMap
 from glrt.shader import Source
 
@@ -15,11 +16,10 @@ class Display:
     """A full-screen quad that shows a texture of radiance."""
 
     def __init__(self, gl: moderngl.Context) -> None:
-        """Compile the pass."""
+        """Compile the pass; RenderError tells where the driver refuses it."""
         self._gl = gl
-        self._program = gl.program(
-            vertex_shader=Source("display.vert", version=_VERSION).text,
-            fragment_shader=Source("display.frag", version=_VERSION).text,
+        self._program = drawing(
+            gl, Source("display.vert", version=_VERSION), Source("display.frag", version=_VERSION)
         )
         self._quad = gl.vertex_array(self._program, [])
 

@@ -64,10 +64,7 @@ class FragmentKernel:
         """Compile; RenderError tells the driver's message by shader file and line."""
         self._gl = gl
         self._targets: moderngl.Framebuffer | None = None
-        try:
-            self._program = gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
-        except moderngl.Error as error:
-            raise _refusal(fragment, error) from error
+        self._program = drawing(gl, vertex, fragment)
         self._quad = gl.vertex_array(self._program, [])
 
     def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
@@ -98,6 +95,14 @@ class FragmentKernel:
             self._targets = None
 
 
+def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.Program:
+    """A program that draws; RenderError tells the driver's message by shader file and line."""
+    try:
+        return gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
+    except moderngl.Error as error:
+        raise _refusal(fragment, error) from error
+
+
 def _bind_blocks(
     program: moderngl.ComputeShader | moderngl.Program, scene: Mapping[str, Resource]
 ) -> None:
@@ -116,4 +121,4 @@ def _bind_blocks(
 
 def _refusal(source: Source, error: moderngl.Error) -> RenderError:
     message = " ".join(source.explain(str(error)).split())
-    return RenderError(f"the driver refuses the kernel: {message}")
+    return RenderError(f"the driver refuses a shader: {message}")

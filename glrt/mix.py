@@ -4,6 +4,7 @@ import moderngl
 import numpy as np
 
 from glrt.film import Array, Exposure, Film, standard_error
+from glrt.kernel import drawing
 from glrt.relight import MOST_LAYERS, NONE, Weights, are_trivial
 from glrt.shader import Source
 
@@ -66,10 +67,11 @@ class Mixer:
             self._program.release()
 
     def _compile(self) -> moderngl.Program:
-        self._program = self._gl.program(
-            vertex_shader=Source("display.vert", version=_VERSION).text,
-            fragment_shader=Source("mix.frag", version=_VERSION).text,
+        vertex, fragment = (
+            Source("display.vert", version=_VERSION),
+            Source("mix.frag", version=_VERSION),
         )
+        self._program = drawing(self._gl, vertex, fragment)
         self._quad = self._gl.vertex_array(self._program, [])
         return self._program
 

@@ -1,9 +1,16 @@
-"""Kernel source: included files, a prelude of constants, and driver messages led back to files."""
+"""Kernel source: included files, a prelude of constants, and driver messages led back to files.
+
+A file is read once: what is rendered does not change while somebody edits a shader. `files_anew`
+is for those who ask for that.
+"""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
 from typing import NamedTuple
 
+from glrt.errors import RenderError
 from glrt.resources import folder
 
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
@@ -11,6 +18,7 @@ _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 _LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
 _STRUCT = re.compile(r"^struct\s+(\w+)", re.MULTILINE)
 _FLOATS = ("float", "vec2", "vec3", "vec4", "mat3")
+_texts: dict[Path, str] = {}  # of files that have been read
 
 
 class Line(NamedTuple):
@@ -34,7 +42,10 @@ class Source:
         version: str = "430 core",
         parts: Mapping[str, str] | None = None,
     ) -> None:
-        """Read `entry` and what it includes from `parts`, by name, or from the shader folder."""
+        """Read `entry` and what it includes from `parts`, by name, or from the shader folder.
+
+        RenderError if a file is not there.
+        """
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
         files = _Files(parts or {})
         lines = [Line(line, "prelude") for line in head] + files.expand(entry, "the kernel")
@@ -57,7 +68,26 @@ class Source:
 
 def read(name: str) -> str:
     """The text of one shader file."""
-    return folder("shaders_glsl").joinpath(name).read_text()
+    return _text_of(folder("shaders_glsl") / name)
+
+
+@contextmanager
+def files_anew() -> Iterator[None]:
+    """Inside, files are read as they are now; should an error leave it, the texts before stay."""
+    before = dict(_texts)
+    _texts.clear()
+    try:
+        yield
+    except BaseException:
+        _texts.clear()
+        _texts.update(before)
+        raise
+
+
+def _text_of(path: Path) -> str:
+    if path not in _texts:
+        _texts[path] = path.read_text("utf-8", errors="replace")
+    return _texts[path]
 
 
 def _precise(line: str, structs: list[str]) -> str:
@@ -96,7 +126,8 @@ class _Files:
     def _text(self, name: str, wanted_by: str) -> str:
         if name in self._parts:
             return self._parts[name]
-        path = folder("shaders_glsl") / name
-        if not path.is_file():
-            raise FileNotFoundError(f"{wanted_by}: no shader file '{name}'")
-        return path.read_text()
+        try:
+            return read(name)
+        except OSError as error:
+            problem = error.strerror or "cannot be read"
+            raise RenderError(f"{wanted_by}: the shader file '{name}': {problem}") from error

@@ -16,7 +16,7 @@ from glrt.pack import pack_scene
 from glrt.pipelines import sources
 from glrt.probe import path_files
 from glrt.resources import folder
-from glrt.shader import Source, read
+from glrt.shader import Source, files_anew, read
 from tests.builders import EVERYTHING
 from tests.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
 
@@ -85,8 +85,25 @@ def test_no_include_is_left_for_the_driver() -> None:
 
 def test_a_missing_include_names_the_file_and_the_line_that_asks(shaders: Path) -> None:
     (shaders / "a.glsl").write_text('// one\n#include "lost.glsl"\n')
-    with pytest.raises(FileNotFoundError, match=r"a\.glsl:2: no shader file 'lost\.glsl'"):
+    with pytest.raises(RenderError, match=r"a\.glsl:2: .*'lost\.glsl': No such file"):
         Source("entry.comp", parts={"entry.comp": '#include "a.glsl"\n'})
+
+
+def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
+    def text() -> str:
+        return Source("entry.comp", parts={"entry.comp": '#include "a.glsl"\n'}).lines[-1].text
+
+    file = shaders / "a.glsl"
+    file.write_text("int a;\n")
+    assert text() == "int a;"
+    file.write_bytes(b"int b; // \xff\n")
+    assert text() == "int a;"
+    with pytest.raises(RenderError, match="int b"), files_anew():
+        raise RenderError(text())
+    assert text() == "int a;"
+    with files_anew():
+        assert text() == "int b; // \ufffd"
+    assert text() == "int b; // \ufffd"
 
 
 # --- the driver's messages -----------------------------------------------------------------
@@ -264,7 +281,7 @@ def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) 
 def test_glsl_4_10_refuses_what_came_later(ctx: moderngl.Context) -> None:
     for late in ("buffer Later { float later[]; };", "layout(binding = 1) uniform L { float l; };"):
         parts = {"blocks.glsl": OLD_BLOCKS["blocks.glsl"] + late}
-        with pytest.raises(RenderError, match="refuses the kernel"):
+        with pytest.raises(RenderError, match="refuses a shader"):
             FragmentKernel(ctx, *sources("fragment", EVERYTHING, parts))
 
 

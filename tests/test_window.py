@@ -53,11 +53,16 @@ def found(display: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, s
 
 
 def checked(display: str, folder: Path, *names: str, **variables: str) -> dict[str, str]:
-    """What the checks of these names, or all, found in a window of their own."""
+    """What the checks of these names, or all, found in a window of their own.
+
+    They work on a copy of the sources, and break its shaders.
+    """
+    for name in ("glrt", "shaders_glsl", "scenes", "tests"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     environment = {
         "DISPLAY": display,
         "XDG_CONFIG_HOME": str(folder / "config"),
-        "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
+        "PYTHONPATH": os.pathsep.join([str(folder), *sys.path]),
     }
     told = subprocess.run(
         [

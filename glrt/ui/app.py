@@ -8,6 +8,7 @@ from glrt.errors import GlrtError
 from glrt.library import load, load_recipe
 from glrt.scene import Camera, Scene, Shape, Vector
 from glrt.settings import settings_for
+from glrt.shader import files_anew
 from glrt.ui import orbit
 from glrt.ui.controls import replaced
 from glrt.ui.pace import Pace
@@ -99,7 +100,18 @@ class App:
         if self.watch and self.watch.has_changed(now):
             self.reload()
         if self.shaders.has_changed(now):
-            self.session.reload_shaders()
+            self.reload_shaders()
+
+    def reload_shaders(self) -> None:
+        """Compile the shader files as they are now; what the driver refuses is told."""
+        try:
+            with files_anew():
+                self.picture.reload_shaders()
+                self.session.reload_shaders()
+        except GlrtError as error:
+            return self.complain(str(error))
+        self.shown = None
+        return None
 
     def reload(self) -> None:
         """The scene as its file has it now; the camera and the settings stay."""
@@ -176,14 +188,18 @@ class App:
         """Bring the newest samples to the screen; without a sample the old picture stays."""
         session = self.session
         if not session.renderer or not session.samples:
-            return
+            return None
         settings = session.settings
         progress = session.samples, session.restarts
         content = (*progress, settings.exposure, settings.tonemap, session.weights)
         if content != self.shown:
-            film = session.renderer.weighed(session.weights)
+            try:
+                film = session.renderer.weighed(session.weights)
+            except GlrtError as error:  # a shader file that somebody edits
+                return self.complain(str(error))
             self.picture.draw(film, settings, session.is_preview)
             self.shown = content
+        return None
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         """Turn by a drag, given as shares of the window's width and height."""

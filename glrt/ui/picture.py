@@ -56,6 +56,12 @@ class Picture:
             self._kept.release()
         self._kept = None
 
+    def reload_shaders(self) -> None:
+        """Compile the display pass again, as `Session.reload_shaders`."""
+        fresh = Display(self._gl)
+        self._display.release()
+        self._display = fresh
+
     def release(self) -> None:
         """Free what the driver holds."""
         self._display.release()

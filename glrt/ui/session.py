@@ -161,14 +161,10 @@ class Session:
                 self._render(self.renderer, target, seconds)
 
     def reload_shaders(self) -> None:
-        """Compile the shader files as they are now; if the driver refuses, the old kernel stays."""
+        """Compile the shaders again, within `files_anew`; RenderError, and the old kernel stays."""
         if not self.renderer:
             return
-        try:
-            fresh = self._open(self._wanted())
-        except GlrtError as error:
-            self.problem = str(error)
-            return
+        fresh = self._open(self._wanted())
         self.renderer.release()
         self.renderer, self.problem = fresh, ""
         self._begin()
@@ -248,6 +244,7 @@ class Session:
             )
         except RenderError:  # half done: no room for a film, or a kernel that is refused
             self.renderer.release()
+            self.renderer = None
             self.renderer = self._open(before)
             self._begin()
             raise
