@@ -42,6 +42,12 @@ def recipe_of(source: str | Path) -> Recipe | None:
     return read_recipe(path) if path.suffix.lower() in PICTURES else None
 
 
+def scene_file_of(source: str | Path) -> Path | None:
+    """The scene file that a path or a name means; None for a rendered picture."""
+    path = _find(source)
+    return None if path.suffix.lower() in PICTURES else path
+
+
 def scene_names() -> list[str]:
     """Names of the scenes that come with glrt, sorted."""
     return sorted(path.stem for path in folder("scenes").glob("*.toml"))

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from glrt.errors import GlrtError
-from glrt.library import load, load_recipe
+from glrt.library import load, load_recipe, scene_file_of
 from glrt.scene import Camera, Scene, Shape, Vector
 from glrt.settings import settings_for
 from glrt.shader import files_anew
@@ -92,6 +92,7 @@ class App:
         self.session.edit(scene, **dict(settings))
         self.selected = None
         self.watch = watch_for(source)
+        self.scene_path = source if self.watch else self.scene_path
         self.message = f"Opened {source}"
         return None
 
@@ -126,12 +127,15 @@ class App:
 
     def save_scene(self) -> None:
         """Write the scene as it is to the path in its text box."""
-        whole = scene_with(self.session.scene, self.session.settings)
+        whole, path = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
         try:
-            write_scene(whole, Path(self.scene_path))
+            model = scene_file_of(self.source)
+            has_comments = write_scene(whole, path, model)
         except GlrtError as error:
             return self.complain(str(error))
-        self.message = f"Saved {self.scene_path}"
+        self.source, self.watch = str(path), watch_for(str(path))
+        lost = "" if has_comments or not model else f", without the comments of {model.name}"
+        self.message = f"Saved {path}{lost}"
         return None
 
     @property

@@ -9,6 +9,7 @@ from glrt.files import write_whole
 from glrt.scene import Scene
 from glrt.scene_file import scene_to_dict
 from glrt.settings import RenderSettings, Settings
+from glrt.ui.comments import revised
 
 
 def scene_with(scene: Scene, settings: Settings) -> Scene:
@@ -17,13 +18,17 @@ def scene_with(scene: Scene, settings: Settings) -> Scene:
     return scene.model_copy(update={"render": RenderSettings(**wishes)})
 
 
-def write_scene(scene: Scene, path: Path) -> None:
+def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
     """Write a file that `read_scene` reads back as the same scene.
 
-    It appears whole or not at all: raises `RenderError` if it cannot be written.
+    `model` is a scene file whose comments, order and formatting it is to have; returns whether that
+    could be. It appears whole or not at all: raises `RenderError` if it cannot be written.
     """
-    text = "\n".join(toml_lines(scene_to_dict(scene))).strip() + "\n"
-    write_whole(path, lambda file: _write(file, text))
+    text = revised(_text(model), scene) if model else None
+    plain = "\n".join(toml_lines(scene_to_dict(scene))).strip() + "\n"
+    content = (plain if text is None else text).encode("utf-8")
+    write_whole(path, lambda file: _write(file, content))
+    return text is not None
 
 
 def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:
@@ -57,5 +62,13 @@ def _value(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8")
+def _text(path: Path) -> str:
+    """Of a file, with the ends of its lines; of one that is no text, something that is no scene."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return "?"
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.write_bytes(content)
