@@ -2,6 +2,10 @@
 
 from typing import Any
 
+from glrt.signals import leave_at_once_while_loading
+
+leave_at_once_while_loading()
+
 from glrt.compare import compare
 from glrt.comparison import Comparison
 from glrt.image import Image

@@ -2,26 +2,46 @@
 
 import argparse
 import json
-import os
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from glrt import signals, streams
 from glrt.arguments import is_automatic, make_parser, refuse_later, settings_given
 from glrt.errors import GlrtError, RenderError, UsageError
+from glrt.files import reason
 from glrt.job import Interruption, Limits, peak_bytes, run, samples_limit, since_start
 from glrt.library import load_recipe, recipe_of
 from glrt.omissions import omissions
 from glrt.scene import Scene, with_lights
 from glrt.settings import Settings, settings_for
-
-INTERRUPTED = 128  # plus the number of the signal
+from glrt.signals import INTERRUPTED
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns its exit code. `arguments` are those of the process by default."""
+    streams.open_missing()
+    signals.loaded()
+    try:
+        with signals.handled(signals.interrupt):
+            code = _run(arguments)
+            sys.stdout.flush()  # a reader that has gone is found out here, not at exit
+            return code
+    except GlrtError as error:
+        return _fail(str(error), error.exit_code)
+    except KeyboardInterrupt as error:
+        return _fail(signals.NOTHING, getattr(error, "exit_code", INTERRUPTED + 2))
+    except BrokenPipeError:
+        streams.silence(sys.stdout)
+        return 0
+    except (OSError, MemoryError) as error:
+        streams.settle(sys.stdout)
+        return _fail(f"{_what_failed(error)}: {reason(error)}", RenderError.exit_code)
+
+
+def _run(arguments: list[str] | None) -> int:
     commands: dict[str, Callable[[argparse.Namespace], int]] = {
         "render": render,
         "view": view,
@@ -34,19 +54,15 @@ def main(arguments: list[str] | None = None) -> int:
     }
     try:
         parsed = make_parser().parse(arguments)
-        refuse_later(parsed)
-        code = commands[parsed.command](parsed)
-        sys.stdout.flush()  # a reader that has gone is found out here, not at exit
-        return code
-    except GlrtError as error:
-        return _fail(str(error), error.exit_code)
-    except KeyboardInterrupt:
-        return _fail("interrupted before anything was rendered", INTERRUPTED + 2)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except SystemExit:  # after --help and --version
         return 0
-    except (OSError, MemoryError) as error:
-        return _fail(f"the render failed: {error or 'out of memory'}", RenderError.exit_code)
+    refuse_later(parsed)
+    return commands[parsed.command](parsed)
+
+
+def _what_failed(error: OSError | MemoryError) -> str:
+    name = getattr(error, "filename", None)
+    return f"the command failed at {name}" if name else "the command failed"
 
 
 def render(arguments: argparse.Namespace) -> int:
@@ -181,7 +197,7 @@ def _render(
         "render": time.perf_counter() - start,
     }
     if not renderer.samples:
-        return _fail("interrupted before anything was rendered", _signal_code(interruption))
+        return _fail(signals.NOTHING, _signal_code(interruption))
     image = renderer.image()
     for output in arguments.outputs:
         image.save(output)
@@ -275,5 +291,5 @@ def _figures(
 
 
 def _fail(message: str, code: int) -> int:
-    print(f"glrt: {' '.join(message.split())}", file=sys.stderr)
+    streams.tell(f"glrt: {' '.join(message.split())}")
     return code

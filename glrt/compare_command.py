@@ -124,6 +124,7 @@ def _check_picture(path: str) -> None:
 
 def _read_npy(path: str) -> Image:
     try:
+        files.check_regular(Path(path))
         pixels = np.load(path, allow_pickle=False)
     except (OSError, ValueError, EOFError) as error:
         raise UsageError(

@@ -1,10 +1,12 @@
-"""Files that appear whole or not at all: written beside, then renamed."""
+"""Files that appear whole or not at all: written beside, then renamed; and files worth reading."""
 
 import os
 import secrets
 import shutil
+import stat
 from collections.abc import Callable
 from contextlib import suppress
+from errno import EFBIG, EINVAL, EISDIR
 from pathlib import Path
 
 from glrt.errors import RenderError, UsageError
@@ -39,6 +41,25 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
 def write_text(path: Path, text: str) -> None:
     """`write_whole` of a text in UTF-8."""
     write_whole(path, lambda file: _write_text(file, text))
+
+
+def read_at_most(path: Path, most: int) -> bytes:
+    """What a file holds. Raises OSError for what is no file, or longer than `most` bytes."""
+    check_regular(path)
+    with path.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise OSError(EFBIG, f"longer than {most >> 20} MiB")
+    return content
+
+
+def check_regular(path: Path) -> None:
+    """Raise OSError for a pipe or a device, whose reading may never end, and for a folder."""
+    mode = path.stat().st_mode
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(EISDIR, "a folder, not a file", str(path))
+    if not stat.S_ISREG(mode):
+        raise OSError(EINVAL, "a pipe or a device, not a file", str(path))
 
 
 def check_writable(path: Path) -> None:

@@ -19,6 +19,7 @@ from glrt.tonemap import expose_and_encode
 Pixels = NDArray[np.float32]
 
 SUFFIXES = (".exr", ".png", ".npy")
+MOST_PIXELS = 16384**2  # of the largest frame
 RECIPE_KEY = "glrt"  # of the EXR attribute and of the PNG chunk
 
 _EXR_MAGIC = b"\x76\x2f\x31\x01"
@@ -164,15 +165,29 @@ def _read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any],
     if _first_bytes(path) != _EXR_MAGIC:
         raise UsageError(f"{path}: not an EXR image, whatever its name; give one that is.")
     try:
-        file = OpenEXR.File(str(path), separate_channels=True, header_only=header_only)
+        file = OpenEXR.File(str(path), separate_channels=True, header_only=True)
+        if not header_only:
+            _check_size(file.header()["dataWindow"], path)
+            file = OpenEXR.File(str(path), separate_channels=True)
         channels = {name: channel.pixels for name, channel in file.channels().items()}
         return file.header(), channels
     except (RuntimeError, ValueError) as error:
         raise _unreadable(path, error) from None
 
 
+def _check_size(window: Any, path: Path) -> None:
+    """Raise UsageError for a picture that no memory holds, as a few bytes can claim to be."""
+    low, high = (np.asarray(corner, float) for corner in window)
+    width, height = high - low + 1
+    if width * height > MOST_PIXELS:
+        raise UsageError(
+            f"{path}: {width:.0f} x {height:.0f} pixels are more than glrt reads, {MOST_PIXELS:,}."
+        )
+
+
 def _first_bytes(path: Path) -> bytes:
     try:
+        files.check_regular(path)
         with path.open("rb") as file:
             return file.read(len(_EXR_MAGIC))
     except OSError as error:
@@ -183,6 +198,7 @@ def _read_png_metadata(path: Path) -> Mapping[Any, Any]:
     from PIL.PngImagePlugin import PngImageFile
 
     try:
+        files.check_regular(path)
         with PngImageFile(path) as file:
             return file.info
     except (OSError, SyntaxError, ValueError) as error:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from glrt.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
+from glrt.signals import handled
 
 FIRST_LOOK = 64  # samples
 
@@ -37,13 +38,8 @@ class Interruption:
     @contextmanager
     def watched(self) -> Iterator["Interruption"]:
         """Catch the two signals inside; a second one ends the process at once."""
-        watched = (signal.SIGINT, signal.SIGTERM)
-        before = {number: signal.signal(number, self._remember) for number in watched}
-        try:
+        with handled(self._remember):
             yield self
-        finally:
-            for number, handler in before.items():
-                signal.signal(number, handler)
 
     def _remember(self, number: int, _frame: object) -> None:
         self.signal = number

@@ -8,7 +8,7 @@ from pydantic import Field, ValidationError, model_validator
 from glrt.errors import SceneError
 from glrt.relight import Layering, Plan, Weights, are_trivial
 from glrt.scene import Scene
-from glrt.scene_file import parse_scene, scene_to_dict
+from glrt.scene_file import LARGEST, parse_scene, scene_to_dict
 from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for
 
 Factor = Annotated[float, Field(ge=0)]
@@ -87,6 +87,8 @@ class Recipe(Frozen):
 
 
 def _table(text: str, source: str) -> dict[str, Any]:
+    if len(text) > LARGEST:
+        raise _damaged(source, f"its metadata are longer than {LARGEST >> 20} MiB")
     try:
         table = json.loads(text)
     except (ValueError, RecursionError):

@@ -1,15 +1,27 @@
 """Scene files: TOML into scenes and back into tables."""
 
+import re
 import tomllib
 from collections.abc import Mapping
+from errno import EFBIG, EINVAL
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from glrt.errors import SceneError
+from glrt.files import read_at_most
 from glrt.scene import Scene, nearest, quoted
 from glrt.scene_advice import advice, sentence
+
+# A scene of 65,536 quads with every number at full length takes 18 MB.
+LARGEST = 32 << 20  # bytes of a scene
+MOST_MISTAKES = 1 << 17  # that are worth being told apart: each takes a kilobyte
+
+# tomllib takes a minute and 6 GB for a key of 40,000 parts. Those of a scene have four at most.
+_MOST_PARTS = 64
+_PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
+_LONG_KEY = re.compile(rf"(?:{_PART}\.[ \t]*+){{{_MOST_PARTS}}}")
 
 _HUGE = 10**400  # beyond every range; Python refuses to print much longer integers
 
@@ -28,6 +40,8 @@ def parse_scene(data: Mapping[str, Any], source: str) -> Scene:
     try:
         return Scene.model_validate(_strict(data), strict=True)
     except ValidationError as error:
+        if (count := error.error_count()) > MOST_MISTAKES:
+            raise _scene_error(source, f"not a scene: it has {count:,} mistakes") from None
         raise _scene_error(source, " ".join(advice(error, data))) from None
 
 
@@ -41,7 +55,7 @@ def scene_to_dict(scene: Scene) -> dict[str, Any]:
 
 def _text(path: Path, source: str) -> str:
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        return read_at_most(path, LARGEST).decode("utf-8-sig")
     except FileNotFoundError:
         raise _scene_error(source, f"no such file{_neighbour(path)}") from None
     except UnicodeDecodeError:
@@ -51,8 +65,15 @@ def _text(path: Path, source: str) -> str:
     except OSError as error:
         if path.is_dir():
             raise _scene_error(source, "is a folder; name a scene file in it") from None
-        reason = error.strerror or "unknown reason"
-        raise _scene_error(source, f"cannot be read: {reason}; check its permissions") from None
+        raise _scene_error(source, _obstacle(error)) from None
+
+
+def _obstacle(error: OSError) -> str:
+    if error.errno == EFBIG:
+        return f"not a scene: it is {error.strerror}, more than 65,536 objects take"
+    if error.errno == EINVAL and error.strerror:
+        return f"is {error.strerror}; save the scene to a file first"
+    return f"cannot be read: {error.strerror or 'unknown reason'}; check its permissions"
 
 
 def _neighbour(path: Path) -> str:
@@ -61,6 +82,9 @@ def _neighbour(path: Path) -> str:
 
 
 def _toml(text: str, source: str) -> dict[str, Any]:
+    if found := _LONG_KEY.search(text):
+        line = text.count("\n", 0, found.start()) + 1
+        raise _scene_error(source, f"not a scene: a key of {_MOST_PARTS} parts in line {line}")
     try:
         return tomllib.loads(text)
     except RecursionError:

@@ -14,7 +14,18 @@ from glrt.resources import folder
 PACKAGE = Path(glrt.__file__).parent
 # A module imports only what stands above it. A package counts as one.
 ORDER = [
-    *("version", "errors", "resources", "settings", "scene_parts", "scene", "scene_advice"),
+    *(
+        "version",
+        "errors",
+        "signals",
+        "streams",
+        "resources",
+        "files",
+        "settings",
+        "scene_parts",
+        "scene",
+        "scene_advice",
+    ),
     *(
         "scene_file",
         "cautions",
@@ -29,7 +40,6 @@ ORDER = [
         "blocks",
         "stats",
         "tonemap",
-        "files",
         "recipe",
     ),
     *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),

@@ -1,0 +1,72 @@
+"""SIGINT and SIGTERM: how the command ends by them, from its first import to its last file."""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import NoReturn
+
+INTERRUPTED = 128  # plus the number of the signal: the exit code
+NOTHING = "interrupted before anything was rendered"
+
+_WATCHED = (signal.SIGINT, signal.SIGTERM)
+
+Handler = Callable[[int, FrameType | None], None]
+
+
+class Interrupted(KeyboardInterrupt):
+    """What ends a command that has nothing to save."""
+
+    def __init__(self, number: int) -> None:
+        """`number` of the signal."""
+        super().__init__()
+        self.exit_code = INTERRUPTED + number
+
+
+@contextmanager
+def handled(handler: Handler) -> Iterator[None]:
+    """Let `handler` take the two signals inside, unless they are ignored, as by nohup.
+
+    Only the main thread can; elsewhere nothing changes.
+    """
+    is_main = threading.current_thread() is threading.main_thread()
+    watched = [n for n in _WATCHED if is_main and signal.getsignal(n) is not signal.SIG_IGN]
+    before = {number: signal.signal(number, handler) for number in watched}
+    try:
+        yield
+    finally:
+        for number, old in before.items():
+            signal.signal(number, old)
+
+
+def interrupt(number: int, _frame: FrameType | None) -> NoReturn:
+    """A handler: raises Interrupted."""
+    raise Interrupted(number)
+
+
+def leave_at_once_while_loading() -> None:
+    """Where the process is the command: no traceback from an import that Ctrl-C meets.
+
+    Imports take most of the first half second. Nothing is open yet that must be closed.
+    """
+    if any(Path(word).stem == "glrt" for word in sys.orig_argv[1:3]):
+        for number in _WATCHED:
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, _leave)
+
+
+def loaded() -> None:
+    """The command's own handling takes over: Ctrl-C raises KeyboardInterrupt again."""
+    if signal.getsignal(signal.SIGINT) is _leave:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    if signal.getsignal(signal.SIGTERM) is _leave:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def _leave(number: int, _frame: FrameType | None) -> None:
+    os.write(2, f"glrt: {NOTHING}\n".encode())
+    os._exit(INTERRUPTED + number)
