@@ -160,11 +160,9 @@ def test_error_not_reached_exits_1_with_the_picture(tmp_path: Path) -> None:
 
 def test_time_ends_the_render(tmp_path: Path) -> None:
     picture = tmp_path / "a.exr"
-    began = time.perf_counter()
     done = glrt("render", "cornell", "-o", picture, *SMALL[:4], "--time", "2")
     assert done.returncode == 0, done.stderr
-    assert time.perf_counter() - began < 30, "far from the million samples that it lifts to"
-    assert Image.load(picture).samples > 4
+    assert 0 < Image.load(picture).samples < 1 << 20, "far from the samples that it lifts to"
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
