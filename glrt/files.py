@@ -57,7 +57,7 @@ def check_regular(path: Path) -> None:
     """Raise OSError for a pipe or a device, whose reading may never end, and for a folder."""
     mode = path.stat().st_mode
     if stat.S_ISDIR(mode):
-        raise IsADirectoryError(EISDIR, "a folder, not a file", str(path))
+        raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
     if not stat.S_ISREG(mode):
         raise OSError(EINVAL, "a pipe or a device, not a file", str(path))
 
