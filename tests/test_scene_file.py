@@ -74,10 +74,11 @@ def test_folder_is_no_scene(tmp_path: Path) -> None:
 
 
 def test_unreadable_file_says_why(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(_path: Path) -> bytes:
+    def refuse(*_: object) -> bytes:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    (tmp_path / "box.toml").touch()
+    monkeypatch.setattr(Path, "open", refuse)
     with pytest.raises(SceneError, match=r"box\.toml: cannot be read: Permission denied; check"):
         read_scene(tmp_path / "box.toml")
 
