@@ -1,8 +1,8 @@
 """How the kernel reads the scene: `blocks.glsl` with each array declared the fastest way it can be.
 
 Three tiers, the same values: "baked" writes the shapes into the kernel's text, so that each edit
-of them compiles; "generic" reads uniform blocks, and storage blocks for what is larger than those
-may be; "storage" reads storage blocks, as in the file. Figures stand in docs/speed.md.
+of them compiles; "generic" reads uniform blocks, and textures for what is larger than those may be;
+"storage" reads storage blocks, as in the file. Figures stand in docs/speed.md.
 """
 
 from collections.abc import Mapping
@@ -36,8 +36,8 @@ def blocks_text(
 ) -> str:
     """The text of `blocks.glsl` for these arrays, keyed by block name.
 
-    Uniform blocks are at most `uniform_bytes` large. Without storage blocks, as in OpenGL 4.1,
-    textures take their place.
+    Uniform blocks are at most `uniform_bytes` large; what is larger lies in textures. These
+    stand in for storage blocks too where there are none, as in OpenGL 4.1.
     """
     text = read("blocks.glsl")
     for block, rows in arrays.items():
@@ -52,7 +52,7 @@ def blocks_text(
         elif is_uniform(rows, tier, uniform_bytes):
             uniform = f"layout(std140) uniform {block} {{ {struct} {name}s[{_capacity(rows)}]; }};"
             text = text.replace(storage, uniform)
-        elif not has_storage:
+        elif tier != "storage" or not has_storage:
             getter = f"{struct} {name}_at(int index) {{ return {name}s[index]; }}"
             text = text.replace(storage, "").replace(getter, accessor(struct, block, rows.dtype))
     return text

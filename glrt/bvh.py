@@ -4,9 +4,13 @@ Binned surface area heuristic (Wald, "On Fast Construction of SAH-Based Bounding
 Hierarchies", 2007): a node is split between two of BINS slices of its boxes' centres, along the
 axis and at the place that let a ray meet the fewest boxes.
 
-Nodes lie in depth-first order, and know where to go on when a ray misses them: a ray then needs no
-stack. A node over m boxes has 2 m - 1 nodes below it, itself included, so every place is known
-from above.
+Every node keeps a box of its own, the largest of those that it is over, and divides the rest among
+its children: n boxes make n nodes, and what is large is met near the root. (Drivers that compute
+both sides of a branch test a node's own box and the one around the rest for the price of a choice.)
+
+Nodes lie in depth-first order, and know where to go on when a ray misses what lies below them: a
+ray then needs no stack. A node over m boxes has m nodes below it, itself included, so every place
+is known from above.
 """
 
 from typing import Any, NamedTuple
@@ -21,12 +25,12 @@ BINS = 16
 
 
 class Tree(NamedTuple):
-    """A binary tree over n boxes: 2 n - 1 nodes in depth-first order."""
+    """A binary tree over n boxes: n nodes in depth-first order."""
 
-    lower: Floats  # (2 n - 1, 3): corners of the node's box
+    item: Ints  # the box that is the node's own
+    lower: Floats  # (n, 3): corners of the box around the rest, zeros where there is none
     upper: Floats
-    skip: Ints  # the next node for a ray that misses this one; 2 n - 1 at the end
-    item: Ints  # the box that is a leaf, -1 for an inner node
+    skip: Ints  # the next node for a ray that misses the rest; n at the end
 
 
 class _Level(NamedTuple):
@@ -43,42 +47,46 @@ class _Level(NamedTuple):
 
 def build(lower: Floats, upper: Floats) -> Tree:
     """The tree over boxes given by their corners, (n, 3) each, n > 0."""
-    nodes = 2 * len(lower) - 1
-    tree = Tree(
-        np.empty((nodes, 3)), np.empty((nodes, 3)), np.empty(nodes, int), np.full(nodes, -1)
-    )
-    level = _Level(np.zeros(1, int), np.array([len(lower)]), np.arange(len(lower)))
+    count = len(lower)
+    corners = np.zeros((2, count, 3))
+    tree = Tree(np.empty(count, int), corners[0], corners[1], np.empty(count, int))
+    by_size = np.argsort(-_surface((upper - lower).T), kind="stable")
+    level = _Level(np.zeros(1, int), np.array([count]), by_size)
     while len(level.place):
+        tree.item[level.place] = level.items[level.start]
+        tree.skip[level.place] = level.place + level.size
+        level = _rest(level)
         tree.lower[level.place] = np.minimum.reduceat(lower[level.items], level.start)
         tree.upper[level.place] = np.maximum.reduceat(upper[level.items], level.start)
-        tree.skip[level.place] = level.place + 2 * level.size - 1
-        is_leaf = level.size == 1
-        tree.item[level.place[is_leaf]] = level.items[level.start[is_leaf]]
-        level = _below(_inner(level), lower, upper)
+        level = _below(level, lower, upper)
     return tree
 
 
-def _inner(level: _Level) -> _Level:
-    """The nodes that are not leaves."""
+def _rest(level: _Level) -> _Level:
+    """The nodes that have children, without their own items, which come first."""
+    is_rest = np.ones(len(level.items), bool)
+    is_rest[level.start] = False
     keep = level.size > 1
-    return _Level(level.place[keep], level.size[keep], level.items[np.repeat(keep, level.size)])
+    return _Level(level.place[keep], level.size[keep] - 1, level.items[is_rest])
 
 
 def _below(level: _Level, lower: Floats, upper: Floats) -> _Level:
-    """The children of all nodes of a level."""
+    """The children of all nodes of a level: two, or one for a single item."""
     if not len(level.place):
         return level
     node = np.repeat(np.arange(len(level.size)), level.size)
     is_right = _sides(level, node, lower[level.items], upper[level.items])
+    is_right ^= is_right[level.start][node]  # large items first: what is hit there hides the rest
     order = np.argsort(2 * node + is_right, kind="stable")
     right = np.bincount(node, is_right).astype(int)
     left = level.size - right
-    place = np.column_stack([level.place + 1, level.place + 2 * left]).ravel()
-    return _Level(place, np.column_stack([left, right]).ravel(), level.items[order])
+    place = np.column_stack([level.place, level.place + left]).ravel() + 1
+    size = np.column_stack([left, right]).ravel()
+    return _Level(place[size > 0], size[size > 0], level.items[order])
 
 
 def _sides(level: _Level, node: Ints, lower: Floats, upper: Floats) -> Any:
-    """Of each item whether it goes to the second child; both children get some."""
+    """Of each item on which side of the split it lies; both get some, where there are two."""
     centre = lower + upper
     low = np.minimum.reduceat(centre, level.start)
     extent = np.maximum.reduceat(centre, level.start) - low
@@ -116,5 +124,10 @@ def _swept(count: Ints, low: Floats, high: Floats) -> Floats:
     total = np.cumsum(count, axis=1)
     size = np.maximum.accumulate(high, axis=2) - np.minimum.accumulate(low, axis=2)
     with np.errstate(invalid="ignore"):  # where there is no box yet, its size is -inf
-        area = size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
-        return np.where(total > 0, area * total, np.inf)
+        return np.where(total > 0, _surface(size) * total, np.inf)
+
+
+def _surface(size: Floats) -> Floats:
+    """Half the surface of boxes; `size` is (3, ...)."""
+    area: Floats = size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
+    return area

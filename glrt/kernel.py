@@ -39,6 +39,7 @@ class Kernel:
         Those that the compiler dropped need none; a missing one is a KeyError with its name.
         """
         _bind_blocks(self._program, scene)
+        _bind_textures(self._program, scene)
         for unit, name in enumerate(images):
             if name in self._program:
                 self._program[name] = unit
@@ -70,10 +71,7 @@ class FragmentKernel:
     def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
         """As Kernel.bind; images whose names begin with "target" are drawn to, in their order."""
         _bind_blocks(self._program, scene)
-        for unit, (name, texture) in enumerate({**scene, **images}.items()):
-            if isinstance(texture, moderngl.Texture) and name in self._program:
-                self._program[name] = unit
-                texture.use(unit)
+        _bind_textures(self._program, {**scene, **images})
         self._release_targets()
         targets = [texture for name, texture in images.items() if name.startswith("target")]
         self._targets = self._gl.framebuffer(color_attachments=targets)
@@ -117,6 +115,15 @@ def _bind_blocks(
             buffer.bind_to_uniform_block(slot)
         else:
             buffer.bind_to_storage_buffer(slot)
+
+
+def _bind_textures(
+    program: moderngl.ComputeShader | moderngl.Program, resources: Mapping[str, Resource]
+) -> None:
+    for unit, (name, texture) in enumerate(resources.items()):
+        if isinstance(texture, moderngl.Texture) and name in program:
+            program[name] = unit
+            texture.use(unit)
 
 
 def _refusal(source: Source, error: moderngl.Error) -> RenderError:

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt import bvh
 from glrt.layout import read_constants, read_structs, record
 from glrt.needs import has_tree, is_light, used_materials
+from glrt.nodes import pack_nodes
 from glrt.relight import layer_of_group
 from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere
 from glrt.settings import Settings
@@ -22,7 +22,6 @@ Array = np.ndarray[Any, Any]
 _TEXT = read("scene.glsl")
 STRUCTS = read_structs(_TEXT)
 CONSTANTS = read_constants(_TEXT)
-SLACK = 2.0**-18  # of boxes, as of rays in bvh.glsl: the float32 rounding of a box is far below
 
 
 class Shapes(NamedTuple):
@@ -60,7 +59,7 @@ def pack_scene(scene: Scene) -> dict[str, Array]:
         "Quads": _pack_quads(
             shapes.quads, eye, names, light_of, len(shapes.spheres) + len(shapes.planes)
         ),
-        "Nodes": _pack_nodes(spheres if has_tree(scene) else spheres[:0]),
+        "Nodes": pack_nodes(spheres if has_tree(scene) else spheres[:0], STRUCTS["Node"]),
         "Materials": _pack_materials(scene),
         "Lights": _pack_lights(scene, shapes, lamps),
     }
@@ -151,22 +150,6 @@ def _pack_spheres(
         rows["radius"] = [s.radius for s in spheres]
         rows["material"] = [names[s.material] for s in spheres]
         rows["light"] = [light_of.get(i, CONSTANTS["NO_LIGHT"]) for i in range(len(spheres))]
-    return rows
-
-
-def _pack_nodes(spheres: Array) -> Array:
-    """A tree over packed spheres, its boxes wide enough for float32."""
-    if not len(spheres):
-        return np.zeros(0, STRUCTS["Node"])
-    center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
-    slack = SLACK * (np.abs(center).max(axis=1, keepdims=True) + radius)
-    tree = bvh.build(center - radius - slack, center + radius + slack)
-    rows = np.zeros(len(tree.skip), STRUCTS["Node"])
-    rows["lower"], rows["upper"] = tree.lower, tree.upper
-    rows["skip"], rows["sphere"] = tree.skip, tree.item
-    leaf = tree.item >= 0
-    rows["lower"][leaf] = spheres["center"][tree.item[leaf]]
-    rows["upper"][leaf, 0] = spheres["radius"][tree.item[leaf]]
     return rows
 
 

@@ -1,4 +1,4 @@
-"""Arrays of structs as textures of words, for drivers without storage blocks.
+"""Arrays of structs as textures of words, for what no uniform block holds.
 
 The words are unsigned integers: a texture of floats may lose what looks like a denormal number.
 """
@@ -9,7 +9,8 @@ import numpy as np
 
 Array = np.ndarray[Any, Any]
 
-ROWS = 512  # structs along a texture: with 7 texels each well within the 16,384 that 4.1 grants
+_BITS = 9
+ROWS = 1 << _BITS  # structs along a texture: with 7 texels each within the 16,384 that 4.1 grants
 _TEXEL = 16  # bytes of RGBA32UI
 _CASTS = {"f": "uintBitsToFloat({})", "i": "int({})", "u": "{}"}
 
@@ -25,7 +26,7 @@ def accessor(struct: str, block: str, dtype: np.dtype[Any]) -> str:
         [
             f"uniform usampler2D {block};",
             f"{struct} {struct.lower()}_at(int index) {{",
-            f"    ivec2 place = ivec2({texels} * (index % {ROWS}), index / {ROWS});",
+            f"    ivec2 place = ivec2({texels} * (index & {ROWS - 1}), index >> {_BITS});",
             *fetches,
             f"    return {struct}({', '.join(fields)});",
             "}",

@@ -39,12 +39,11 @@ struct Quad {
     vec3 dual_v;
 };
 
-// Of the tree over the spheres: a box, or a leaf, which is a sphere.
+// Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
+// node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
 struct Node {
-    vec3 lower;  // corner of the box; the centre of a leaf
-    int skip;    // the next node for a ray that misses the box
-    vec3 upper;  // the other corner; x: the radius of a leaf
-    int sphere;  // of a leaf; of a box NO_SHAPE
+    uvec4 sphere;  // bits of centre and radius; of the grid: its corner, and the edge of a cell
+    uvec4 box;     // along each axis its end << 16 | its start, in cells; nodes below << 16 | sphere
 };
 
 struct Material {

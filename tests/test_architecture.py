@@ -35,6 +35,7 @@ ORDER = [
         "layout",
         "shader",
         "bvh",
+        "nodes",
         "pack",
         "texels",
         "blocks",

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt import blocks
+from glrt import blocks, pipelines
 from glrt.blocks import MOST_BAKED, blocks_text, padded
 from glrt.context import Context
 from glrt.library import load, scene_names
@@ -44,7 +44,20 @@ def test_constants_uniform_and_storage_blocks_give_the_same_bits(
     assert bits(scene, context, "storage", sampler) == uniform
 
 
-def test_text_has_storage_uniform_blocks_or_constants() -> None:
+@pytest.mark.parametrize("name", ["cornell", "weekend"])
+def test_textures_give_the_same_bits(
+    name: str, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no uniform block is large enough; as in the fragment pipeline, see test_fragment.py."""
+    if not context.is_software:
+        pytest.skip("bits are promised on software drivers alone")
+    scene = load(name)
+    uniform = bits(scene, context, "generic", "independent")
+    monkeypatch.setattr(pipelines, "MOST_UNIFORM_BYTES", 0)
+    assert bits(scene, context, "generic", "independent") == uniform
+
+
+def test_text_has_storage_uniform_blocks_textures_or_constants() -> None:
     arrays = pack_scene(load("cornell"))
     assert "buffer" not in blocks_text(arrays)
     baked = blocks_text(arrays, "baked")
@@ -52,6 +65,7 @@ def test_text_has_storage_uniform_blocks_or_constants() -> None:
     assert "int plane_count() { return 5; }" in baked
     assert "uniform Materials" in baked
     assert blocks_text(arrays, "storage") == read("blocks.glsl")
+    assert "usampler2D Quads" in blocks_text(arrays, uniform_bytes=0)
 
 
 def test_literals_keep_every_bit() -> None:
