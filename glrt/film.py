@@ -69,6 +69,11 @@ class Film:
         return self._pairs[0]["mean"]
 
     @property
+    def variance(self) -> moderngl.Texture:
+        """The texture that holds the variance of an observation so far."""
+        return self._pairs[0]["variance"]
+
+    @property
     def layers(self) -> moderngl.Texture | None:
         """The layers so far, side by side: over one half of the observations, below the other."""
         return self._pairs[0].get("layers")
@@ -99,6 +104,7 @@ class Film:
     def _texture(self, across: int, down: int) -> moderngl.Texture:
         width, height = self.size
         problem = f"no room on the driver for a film of {width} x {height} pixels; render a --crop"
+        _ = self._gl.error  # what others left in this context is no fault of the film
         try:
             texture = self._gl.texture((across, down), 4, dtype="f4")
         except moderngl.Error as error:

@@ -92,6 +92,11 @@ class Renderer:
         """Width and height of the picture in pixels: of the crop, if there is one."""
         return (self.settings.crop or (0, 0, self.settings.width, self.settings.height))[2:]
 
+    @property
+    def film(self) -> Film:
+        """What has been gathered."""
+        return self._film
+
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
         return self._film.mean if are_trivial(weights) else self._mixer.draw(self._film, weights)
@@ -286,15 +291,8 @@ class Renderer:
                 self._film.advance(portion.samples)
 
     def _dispatch(self, portion: Portion) -> None:
-        frame = pack_frame(
-            self.plan.scene,
-            self.plan.settings,
-            self._counts,
-            self.samples,
-            portion.samples,
-            portion.first,
-            stride_of(self._tiles),
-        )
-        self._frame.write(frame)
+        plan, numbers = self.plan, (self.samples, portion.samples, portion.first)
+        strided = (*numbers, stride_of(self._tiles))
+        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *strided))
         self._kernel.bind(self._resources, self._film.images())
         self._kernel.run_tiles(portion.tiles)

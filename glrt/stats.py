@@ -5,11 +5,13 @@ An estimate is a pixel's mean with the standard error of that mean; all sums are
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
+TWO_SIDED_95 = 1.959964  # standard deviations about the mean within which 95 % lie
 
 
 def relative_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
@@ -19,6 +21,39 @@ def relative_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
     None where `stderr` holds NaN: there are fewer than two observations. A black image without
     noise has error 0.
     """
+    ratio = _relative_variance(radiance, stderr)
+    return None if ratio is None else math.sqrt(ratio.mean())
+
+
+class Band(NamedTuple):
+    """A relative error as estimated, and the band that chance leaves it."""
+
+    error: float
+    low: float
+    high: float
+
+
+def error_band(radiance: ArrayLike, stderr: ArrayLike) -> Band | None:
+    """`relative_error` of an image, (H, W, 3) each, and the interval that holds it at 95 %.
+
+    Pixels are independent of each other, so the mean over them is as sure as their spread tells:
+    the standard error s of the error's logarithm is half that of the mean, over the mean, and the
+    band is error * exp(+-1.96 s). Light that no sample has met is in no estimate, nor in the band.
+    """
+    ratio = _relative_variance(radiance, stderr)
+    if ratio is None:
+        return None
+    pixels = ratio.mean(axis=-1)
+    mean = float(pixels.mean())
+    if mean in (0.0, math.inf) or pixels.size < 2:
+        return Band(math.sqrt(mean), math.sqrt(mean), math.sqrt(mean))
+    spread = float(pixels.std(ddof=1)) / math.sqrt(pixels.size) / mean / 2
+    factor = math.exp(TWO_SIDED_95 * spread)
+    return Band(math.sqrt(mean), math.sqrt(mean) / factor, math.sqrt(mean) * factor)
+
+
+def _relative_variance(radiance: ArrayLike, stderr: ArrayLike) -> NDArray[np.float64] | None:
+    """stderr^2 / (radiance^2 + 0.01 * mean(radiance)^2), in the arrays' shape; None for NaN."""
     variance = np.square(np.asarray(stderr, np.float64))
     if np.isnan(variance).any():
         return None
@@ -26,7 +61,7 @@ def relative_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
     scale = np.square(value) + DARK * value.mean() ** 2
     ratio = np.where(variance > 0, np.inf, 0.0)
     np.divide(variance, scale, out=ratio, where=scale > 0)
-    return math.sqrt(ratio.mean())
+    return ratio
 
 
 def p_value(z: float) -> float:

@@ -46,6 +46,7 @@ class Hand:
         self.ctx: imgui.test_engine.TestContext
         self._preferences = Preferences(samples_per_frame=2)
         self._errands: list[Callable[[], None]] = []
+        self._wanted: list[list[NDArray[np.uint8]]] = []  # where pictures of the window go
         before = window.params.callbacks.pre_new_frame
 
         def run_errands() -> None:
@@ -54,6 +55,7 @@ class Hand:
             before()
 
         window.params.callbacks.pre_new_frame = run_errands
+        window.params.callbacks.after_swap = self._shoot
 
     @property
     def session(self) -> Session:
@@ -90,6 +92,8 @@ class Hand:
             app.preferences = self._preferences
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
             app.pivot = app.camera.look_at
+            app.show.forget()
+            app.show.view, app.show.wipe = "picture", 0.5
 
         self.there(reset)
         self.settle()
@@ -98,13 +102,19 @@ class Hand:
         """The picture as the window shows it, (H, W, 4), row 0 on top."""
         return self.there(lambda: _read(self.window.app.picture))
 
-    def type_value(self, reference: str, value: Any) -> None:
-        """Ctrl, click, a number, and Enter."""
-        self.ctx.item_input_value(reference, value)
+    def screen(self) -> NDArray[np.uint8]:
+        """The window as it is drawn next, (H, W, 3), row 0 on top."""
+        shots: list[NDArray[np.uint8]] = []
+        self._wanted.append(shots)
+        self.until(lambda: bool(shots))
+        return shots[0]
 
-    def capture(self, file: Path) -> None:
-        """A picture of the whole window."""
-        testing.capture(self.ctx, str(file))
+    def _shoot(self) -> None:
+        screen = self.session._context.gl.screen
+        while self._wanted:
+            width, height = screen.size
+            codes = np.frombuffer(screen.read(components=3, alignment=1), np.uint8)
+            self._wanted.pop().append(codes.reshape(height, width, 3)[::-1].copy())
 
 
 def _read(picture: Picture) -> NDArray[np.uint8]:

@@ -44,7 +44,8 @@ ORDER = [
         "recipe",
     ),
     *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),
-    *("context", "kernel", "probe", "selftest", "pipelines", "film", "mix", "display", "schedule"),
+    *("context", "kernel", "probe", "selftest", "pipelines", "film", "mix", "display"),
+    *("false_colors", "schedule"),
     *(
         "renderer",
         "__init__",
@@ -71,6 +72,7 @@ KNOW_OPENGL = {
     "film",
     "mix",
     "display",
+    "false_colors",
     "renderer",
 }
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}
@@ -84,7 +86,7 @@ ENTRIES = {
     "blocks.glsl",
     "display.frag",
     "display.vert",
-} | {"mix.frag"}
+} | {"mix.frag", "false_colors.frag"}
 NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it

@@ -227,6 +227,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         "trace.vert",
         "trace.frag",
         "mix.frag",
+        "false_colors.frag",
         *DISPLAY_STAGES,
     }
 
@@ -242,7 +243,7 @@ def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert warnings((COMPUTE, Source("tonemap", parts={"tonemap": TONEMAP_ENTRY}).text)) == []
 
 
-@pytest.mark.parametrize("name", ["display.frag", "mix.frag"])
+@pytest.mark.parametrize("name", ["display.frag", "mix.frag", "false_colors.frag"])
 def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
     assert ctx.version_code >= 430
     stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(name).text)]

@@ -8,12 +8,14 @@ import pytest
 from glrt.stats import (
     block_means,
     block_stderr,
+    error_band,
     p_value,
     relative_error,
     sidak_threshold,
     z_scores,
     z_test,
 )
+from tests.noisy import alarms_allowed, noisy
 
 SHAPE = (4, 6, 3)
 
@@ -53,6 +55,31 @@ def test_a_black_image_without_noise_has_error_zero() -> None:
 
 def test_noise_around_black_is_no_small_error() -> None:
     assert relative_error(np.zeros(SHAPE), np.full(SHAPE, 1e-3)) == math.inf
+
+
+@pytest.mark.parametrize("name", ["smooth", "lamp", "small lamp"])
+@pytest.mark.parametrize("samples", [64, 1024])
+def test_the_band_holds_the_error_nineteen_times_of_twenty(name: str, samples: int) -> None:
+    """Where all light was met: of 200 seeds; hits that come as they like cost it 3 of 100."""
+    pictures = (noisy(name, samples, seed, size=24) for seed in range(200))
+    bands = np.array([error_band(picture.radiance, picture.stderr) for picture in pictures])
+    error, low, high = bands.T
+    truth = math.sqrt((error**2).mean())
+    misses = int(((truth < low) | (high < truth)).sum())
+    assert misses <= alarms_allowed(200, 0.08)
+    spread = np.log(error).std()
+    assert 1.5 * spread < np.log(high / error).mean() < 4.5 * spread, "nor is it wide for nothing"
+
+
+def test_a_band_is_about_the_estimate_and_known_when_that_is() -> None:
+    noise = np.random.default_rng(1).uniform(0.1, 0.2, SHAPE)
+    band = error_band(np.ones(SHAPE), noise)
+    assert band is not None
+    assert band.error == relative_error(np.ones(SHAPE), noise)
+    assert band.low < band.error < band.high
+    assert error_band(np.zeros(SHAPE), np.zeros(SHAPE)) == (0, 0, 0)
+    noise[0, 0, 0] = math.nan
+    assert error_band(np.ones(SHAPE), noise) is None
 
 
 @pytest.mark.parametrize(

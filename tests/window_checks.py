@@ -2,13 +2,16 @@
 
 import json
 import math
+import re
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from imgui_bundle import imgui
 
+from glrt.false_colors import ERROR
 from glrt.renderer import Renderer
 from glrt.resources import folder
 from glrt.scene import Camera, Scene
@@ -27,7 +30,7 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "emission##lamp/##X": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
     "bounces": (panel.SETTINGS["bounces"], 1),
     "method/nee": (panel.SETTINGS["method"], None),
-    "sampler/sobol": (panel.SETTINGS["sampler"], None),
+    "sampler/independent": (panel.SETTINGS["sampler"], None),
     "seed": (panel.SETTINGS["seed"], 7),
     "roulette": (panel.SETTINGS["roulette"], None),
     "samples": (panel.SETTINGS["samples"], 5000),
@@ -481,6 +484,8 @@ def the_figures_tell_error_and_forecast(hand: Hand) -> None:
     hand.until(lambda: len(app.progress.looks) > 2, frames=2000)
     told = "\n".join(figures(app))
     assert "million samples/s" in told
+    assert "ms a frame" in told
+    assert re.search(r"error [\d.]+ % \([\d.]+ to [\d.]+\)", told), told
     assert "of rendering" in told or "is reached" in told
     assert app.progress.looks[0].error > app.progress.looks[-1].error > 0
 
@@ -497,12 +502,109 @@ def a_kept_picture_is_compared_by_a_wipe(hand: Hand) -> None:
     ctx.item_input_value("exposure", 3.0)
     ctx.item_input_value("wipe", 0.25)
     hand.settle()
-    assert app.wipe == 0.25
+    assert app.show.wipe == 0.25
     assert (hand.pixels() != before).any()
     assert (hand.there(lambda: read_kept(app.picture)) == before).all()
     ctx.item_click("forget it")
     ctx.yield_(2)
     assert app.picture.kept_name == 0
+
+
+@check
+def the_wipe_shows_one_picture_on_each_side_of_a_line_that_is_dragged(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    hand.session.paused = True
+    ctx.item_click("//Controls/keep this picture")
+    hand.there(lambda: hand.session.edit(exposure=-20.0))  # black
+    left, top, width, height = app.rectangle
+    ctx.mouse_move_to_pos((left + 0.5 * width, top + 0.5 * height))
+    ctx.mouse_down(0)
+    ctx.mouse_move_to_pos((left + 0.5 * width - 40, top + 0.5 * height))
+    ctx.mouse_up(0)
+    ctx.mouse_move_to_pos((left + 0.9 * width, top - 10))
+    ctx.yield_(2)
+    assert app.show.wipe == pytest.approx(0.5 - 40 / width, abs=4 / width)
+    row = hand.screen()[int(top + 0.75 * height), int(left) : int(left + width)].astype(int)
+    edge = round(app.show.wipe * width)
+    near = row[edge - 4 : edge + 5].min(axis=1)
+    assert near.max() > 200, "a white line"
+    assert near.min() < 60, "with a dark rim"
+    assert row[20 : edge - 20].mean() > 60 > 5 > row[edge + 20 : -20].mean()
+    ctx.item_click("//Controls/forget it")
+    ctx.yield_(2)
+    row = hand.screen()[int(top + 0.75 * height), int(left) : int(left + width)]
+    assert row[20:-20].max() < 5
+
+
+def views(hand: Hand, *names: str) -> list[Any]:
+    """The picture as each of these views shows it."""
+    shown = []
+    hand.ctx.set_ref("Controls")
+    for name in names:
+        hand.ctx.combo_click(f"view/{name}")
+        hand.until(lambda name=name: hand.window.app.show.drawn == name)  # type: ignore[misc]
+        shown.append(hand.pixels()[..., :3])
+    return shown
+
+
+@check
+def views_cost_no_sample_and_have_a_legend(hand: Hand) -> None:
+    hand.until(lambda: hand.window.app.show.mean is not None, frames=2000)
+    hand.session.paused = True
+    restarts, samples = hand.session.restarts, hand.session.samples
+    left, top, _, height = hand.window.app.rectangle
+    corner = (slice(int(top + height - 70), int(top + height)), slice(int(left), int(left + 300)))
+    plain = hand.screen()[corner]
+    error, dropped = views(hand, "error", "dropped")
+    scale = 255 * ERROR.color(np.geomspace(ERROR.low, ERROR.high, 500))
+    apart = np.abs(error[:, :, None].astype(int) - scale).max(axis=3).min(axis=2)
+    assert apart.max() <= 2, "colours of the scale alone"
+    assert len(np.unique(error)) > 50
+    assert (dropped.max(axis=2) == dropped.min(axis=2)).all(), "no sample was dropped"
+    legend = hand.screen()[corner]
+    assert (legend != plain).mean() > 0.5
+    assert (legend.min(axis=2) > 180).sum() > 60, "white words"
+    (again,) = views(hand, "picture")
+    assert again.mean() > dropped.mean()
+    assert (hand.session.restarts, hand.session.samples) == (restarts, samples)
+
+
+@check
+def the_difference_is_white_where_nothing_changed(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    ctx.set_ref("Controls")
+    hand.there(lambda: hand.session.edit(samples=6))
+    hand.until(lambda: hand.session.is_done)
+    ctx.item_click("keep this picture")
+    ctx.item_click("show the difference")
+    hand.until(lambda: app.show.drawn == "difference")
+    assert np.ptp(hand.pixels()[..., :3].reshape(-1, 3), axis=0).max() == 0, "nothing changed"
+    restarts = hand.session.restarts
+    move(hand, "intensity##lamp", 3.0)
+    hand.settle()
+    assert hand.session.restarts == restarts
+    red = hand.pixels().astype(int)
+    assert (red[..., 0] > red[..., 2]).mean() > 0.95, "all is lighter than it was"
+    move(hand, "intensity##lamp", 1.0)
+    number, shape = ball(hand)
+    app.selected = number
+    ctx.yield_(3)
+    ctx.item_input_value(f"color##material {shape.material}/##X", 0.1)
+    hand.settle()
+    hand.until(lambda: hand.session.is_done and app.show.is_done(hand.session))
+    ctx.yield_(2)
+    assert app.show.drawn == "difference"
+    mixed = hand.pixels()[..., :3].astype(int)
+    white = (np.abs(mixed - 247) <= 1).all(axis=2)
+    assert 0.02 < white.mean() < 0.9
+    assert (mixed[..., 2] > mixed[..., 0] + 30).mean() > 0.05, "blue: darker than it was"
+    ctx.item_input_value("strongest", 5.0)
+    ctx.yield_(2)
+    assert np.abs(hand.pixels()[..., :3].astype(int) - 247).mean() < np.abs(mixed - 247).mean()
+    ctx.item_click("show the difference")
+    ctx.item_click("forget it")
+    hand.until(lambda: app.show.drawn == "picture")
+    app.selected = None
 
 
 def read_kept(picture: Picture) -> Any:

@@ -15,8 +15,9 @@ from glrt.ui.pace import Pace
 from glrt.ui.pick import Picked, middle, pick, reach
 from glrt.ui.picture import Picture
 from glrt.ui.preferences import Preferences, save_preferences
-from glrt.ui.progress import Look, Progress
+from glrt.ui.progress import Progress, look_at
 from glrt.ui.session import Session, State
+from glrt.ui.show import Show
 from glrt.ui.watch import Watch, watch_for
 from glrt.ui.write_scene import scene_with, write_scene
 
@@ -28,7 +29,7 @@ class App:
     """A session with its picture, and how the user wants to see it."""
 
     session: Session
-    picture: Picture
+    show: Show
     preferences: Preferences
     preferences_file: Path
     source: str  # what was opened: a path, or the name of a scene that comes with glrt
@@ -39,13 +40,11 @@ class App:
     save_path: str = "picture.png"
     scene_path: str = "scene.toml"
     selected: int | None = None  # number of an object
-    wipe: float = 0.5  # share of the picture's width that shows the kept one
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
     frame_seconds: float = 0.0
     progress: Progress = field(default_factory=Progress)
     watch: Watch | None = None  # of the scene file, if the scene came from one
     message: str = ""  # what was done last
-    shown: object = None  # what the picture was drawn from
     unsaved: bool = False  # preferences
 
     @property
@@ -177,33 +176,35 @@ class App:
         """Show what went wrong, if anything did."""
         self.session.problem = problem or self.session.problem
 
+    @property
+    def picture(self) -> Picture:
+        """What is on the screen."""
+        return self.show.picture
+
+    def advance(self) -> None:
+        """A frame's work: edits, samples, and what is shown of them."""
+        try:
+            self.show.advance(self.session, self.pace.seconds, self.preferences.samples_per_frame)
+            self.show.draw(self.session)
+        except GlrtError as error:  # no room for a second film, or a shader that somebody edits
+            self.show.view = "picture"
+            self.complain(str(error))
+
+    def keep(self) -> None:
+        """Keep the picture as A, to compare it with what comes."""
+        self.show.keep(self.session)
+
     def look(self, now: float) -> None:
         """Estimate the error where that is due."""
         session = self.session
-        if session.is_preview or not session.renderer:
+        renderer = session.renderer
+        if session.is_preview or not renderer or not session.samples:
             return
-        if self.progress.is_due(session.restarts, session.samples, now):
-            session.nonfinite = session.renderer.nonfinite()
-            error = session.image().error
-            if error is not None:
-                self.progress.record(Look(session.samples, session.rendering, error), now)
-
-    def draw_picture(self) -> None:
-        """Bring the newest samples to the screen; without a sample the old picture stays."""
-        session = self.session
-        if not session.renderer or not session.samples:
-            return None
-        settings = session.settings
-        progress = session.samples, session.restarts
-        content = (*progress, settings.exposure, settings.tonemap, session.weights)
-        if content != self.shown:
-            try:
-                film = session.renderer.weighed(session.weights)
-            except GlrtError as error:  # a shader file that somebody edits
-                return self.complain(str(error))
-            self.picture.draw(film, settings, session.is_preview)
-            self.shown = content
-        return None
+        picture = session.restarts, session.weights
+        if self.progress.is_due(picture, session.samples, now):
+            look = look_at(renderer.film, session.weights, session.rendering)
+            self.progress.record(look, now)
+            self.show.mean = look.mean if look else self.show.mean
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         """Turn by a drag, given as shares of the window's width and height."""

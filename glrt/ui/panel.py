@@ -10,6 +10,7 @@ from glrt.relight import MOST_LAYERS
 from glrt.scene import SKY_GROUP, Background, Camera, Light, Scene, with_lights
 from glrt.settings import Settings
 from glrt.ui.app import App
+from glrt.ui.compare import draw_compare, draw_view
 from glrt.ui.controls import Control, control_of_items, controls_of, replaced
 from glrt.ui.objects import draw_object, with_material
 from glrt.ui.preferences import Preferences
@@ -152,18 +153,7 @@ def _camera(app: App) -> None:
 
 def _display(app: App) -> None:
     _settings(app, DISPLAY)
-
-
-def _compare(app: App) -> None:
-    """Keep a picture, and wipe between it and what comes."""
-    if _button("keep this picture", bool(app.picture.name)):
-        app.picture.keep()
-    imgui.same_line()
-    if _button("forget it", bool(app.picture.kept_name)):
-        app.picture.forget()
-    if app.picture.kept_name:
-        imgui.set_next_item_width(hello_imgui.em_size(9.5))
-        _, app.wipe = imgui.slider_float("wipe", app.wipe, 0.0, 1.0, "%.2f")
+    draw_view(app)
 
 
 def _background(app: App) -> None:
@@ -245,7 +235,7 @@ _SECTIONS = (
     ("Display", _display, _OPEN),
     ("Camera", _camera, _OPEN),
     ("Object", draw_object, _OPEN),
-    ("Compare", _compare, _OPEN),
+    ("Compare", draw_compare, _OPEN),
     ("Background", _background, 0),
     ("Frame", _frame, 0),
     ("Files", _files, 0),

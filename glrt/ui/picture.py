@@ -1,5 +1,7 @@
 """The film as a texture that Dear ImGui can show."""
 
+from collections.abc import Callable
+
 import moderngl
 
 from glrt.display import Display
@@ -28,13 +30,19 @@ class Picture:
 
     def draw(self, film: moderngl.Texture, settings: Settings, is_preview: bool = False) -> None:
         """Expose, tone-map and encode; row 0 of the film comes to lie on top."""
-        if self._texture is None or self._texture.size != film.size:
-            self._allocate(film.size)
+        self.paint(film.size, lambda: self._display.draw(film, settings), is_preview)
+
+    def paint(
+        self, size: tuple[int, int], draw: Callable[[], None], is_preview: bool = False
+    ) -> None:
+        """Let something draw the whole picture."""
+        if self._texture is None or self._texture.size != size:
+            self._allocate(size)
         assert self._texture
         magnify = moderngl.LINEAR if is_preview else moderngl.NEAREST
         self._texture.filter = (moderngl.LINEAR, magnify)
         with self._gl.scope(self._target):
-            self._display.draw(film, settings)
+            draw()
 
     @property
     def kept_name(self) -> int:

@@ -1,10 +1,19 @@
 """The figures of a render: how far, how fast, how sure, and when it is good enough."""
 
+import math
+
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.needs import explain
 from glrt.ui.app import App
+from glrt.ui.progress import Look
+
+_TICKS = {  # of the error: an axis of less than a magnitude shows some of them too
+    share * 10.0**power: f"{share * 10.0 ** (power + 2):g} %"
+    for power in range(-5, 3)
+    for share in (1, 2, 5)
+}
 
 
 def draw_figures(app: App) -> None:
@@ -28,11 +37,11 @@ def figures(app: App) -> list[str]:
     lines = [
         f"{session.samples} of {session.settings.samples} samples{preview}",
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {_percent(progress.error)}, estimated",
+        f"error {_banded(progress.last)}, estimated",
         _forecast(app),
     ]
-    if session.nonfinite:
-        lines.append(f"{session.nonfinite} samples were not finite, and are left out")
+    if progress.last and progress.last.nonfinite:
+        lines.append(f"{progress.last.nonfinite:,} samples were not finite, and are left out")
     return lines
 
 
@@ -44,6 +53,17 @@ def _forecast(app: App) -> str:
     if seconds == 0:
         return f"{_percent(target)} is reached"
     return f"{_percent(target)} in about {_duration(seconds)} of rendering"
+
+
+def _banded(look: Look | None) -> str:
+    """The error, and the band that chance leaves it: to as many digits as tell its ends apart."""
+    if look is None:
+        return "not known yet"
+    error, low, high = (100 * part for part in look.band)
+    if not 0 < high - low < math.inf:
+        return f"{error:.2g} %"
+    digits = min(max(0, 1 - math.floor(math.log10(high - low))), 4)
+    return f"{error:.{digits}f} % ({low:.{digits}f} to {high:.{digits}f})"
 
 
 def _percent(error: float | None) -> str:
@@ -86,6 +106,7 @@ def _plot(app: App) -> None:
     implot.setup_axes("seconds of rendering", "error", fit, fit)
     implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
     implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
+    implot.setup_axis_ticks(implot.ImAxis_.y1.value, list(_TICKS), list(_TICKS.values()))
     if len(looks) > 1:
         seconds = np.array([look.seconds for look in looks])
         implot.plot_line("error", seconds, np.array([look.error for look in looks]))

@@ -1,17 +1,43 @@
 """How the error falls while a picture is rendered, and when it will be small enough."""
 
+from collections.abc import Hashable
 from typing import NamedTuple
+
+import numpy as np
+
+from glrt.film import Film
+from glrt.mix import mixed
+from glrt.relight import Weights
+from glrt.stats import Band, error_band
 
 GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
 PAUSE = 0.5  # seconds between two looks, at least
 
 
 class Look(NamedTuple):
-    """The estimated relative error after some samples and seconds of rendering."""
+    """What is known of a picture after some samples and seconds of rendering."""
 
     samples: int
     seconds: float
-    error: float
+    band: Band  # of the relative error
+    mean: float = 1.0  # radiance, over pixels and channels
+    nonfinite: int = 0  # samples that were dropped
+
+    @property
+    def error(self) -> float:
+        """The estimated relative error."""
+        return self.band.error
+
+
+def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
+    """Read a film as its light is weighed; None for one that knows no error yet."""
+    exposure = film.read()
+    radiance, stderr = mixed(exposure, weights)
+    band = error_band(radiance, stderr)
+    if band is None:
+        return None
+    mean = float(radiance.mean(dtype=np.float64))
+    return Look(film.samples, seconds, band, mean, int(exposure.dropped.sum()))
 
 
 class Progress:
@@ -20,28 +46,28 @@ class Progress:
     def __init__(self) -> None:
         """No look yet."""
         self.looks: list[Look] = []
-        self._picture = -1
+        self._picture: Hashable = None
         self._looked = 0.0
 
-    def is_due(self, picture: int, samples: int, now: float) -> bool:
+    def is_due(self, picture: Hashable, samples: int, now: float) -> bool:
         """Whether to look at the error now; another picture forgets the looks at the one before.
 
-        `picture` numbers pictures: it changes with each restart.
+        `picture` tells pictures apart: it changes with each restart, and each change of light.
         """
         if picture != self._picture:
             self._picture, self.looks = picture, []
         least = GROWTH * self.looks[-1].samples if self.looks else 2
         return samples >= least and now - self._looked >= PAUSE
 
-    def record(self, look: Look, now: float) -> None:
-        """Remember a look."""
+    def record(self, look: Look | None, now: float) -> None:
+        """Remember a look, and when it was, whether it told anything or not."""
         self._looked = now
-        self.looks.append(look)
+        self.looks += [look] if look else []
 
     @property
-    def error(self) -> float | None:
-        """The error at the last look."""
-        return self.looks[-1].error if self.looks else None
+    def last(self) -> Look | None:
+        """The last look."""
+        return self.looks[-1] if self.looks else None
 
     def remaining(self, target: float) -> float | None:
         """Seconds of rendering to an error, which falls with the root of time; None if unknown."""

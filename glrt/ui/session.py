@@ -51,11 +51,11 @@ class Session:
         self.history: History[State] = History()
         self.renderer: Renderer | None = None
         self.paused = False
+        self.waits = False  # for another picture, which is to get as many samples
         self.by_length = False  # layers by the length of paths, so that bounces are weighed
         self.alone: int | None = None  # the one length that is shown
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
-        self.nonfinite = 0  # samples that were dropped, at the last look
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
@@ -154,7 +154,7 @@ class Session:
         """A frame: bring edits to the renderer, then render for a time or `count` samples."""
         self._budget = seconds
         if self._is_settled() and self.renderer:
-            target = 1 if self.paused else self.settings.samples
+            target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
             if self.samples < target:
@@ -232,7 +232,6 @@ class Session:
         return self.renderer is not None
 
     def _apply(self) -> None:
-        _ = self._context.gl.error  # what others left in this context is no fault of the film
         wanted = self._wanted()
         if not self.renderer:
             self.renderer = self._open(wanted)

@@ -1,9 +1,12 @@
 """The picture in its window, and the mouse and the keys that move the camera."""
 
+import math
+
 from imgui_bundle import ImVec2, imgui
 
 from glrt.ui.app import App, Rectangle
 from glrt.ui.gizmo import draw_gizmo, is_held
+from glrt.ui.legend import draw_legend
 from glrt.ui.preferences import Action, Move
 
 _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
@@ -41,26 +44,49 @@ def draw_viewport(app: App) -> None:
         imgui.set_cursor_screen_pos(corner)
         texture = imgui.ImTextureRef(app.picture.name)
         imgui.image(texture, ImVec2(width, height), uv0=(0, 1), uv1=(1, 0))  # OpenGL's row 0 is low
-    if app.picture.kept_name:
+    is_wiped = bool(app.picture.kept_name) and app.show.drawn == "picture"
+    if is_wiped:
         _wipe(app)
     draw_gizmo(app, corner.x, corner.y, width, height)
     if not is_held(app):  # a button below the handles would keep the mouse from them
+        if is_wiped:
+            _wipe_handle(app)
         imgui.set_cursor_screen_pos(corner)
         imgui.invisible_button("picture", ImVec2(width, height), _EVERY_BUTTON)
         x, y = imgui.get_io().mouse_pos
         _mouse(app)
         _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
-    if app.session.busy:
-        _notice(app.session.busy, corner)
+    if app.show.drawn != "picture":
+        draw_legend(app.show, app.progress.last, corner + ImVec2(0, height), width)
+    if notice := app.show.notice(app.session):
+        _notice(notice, corner)
 
 
 def _wipe(app: App) -> None:
     """The kept picture over the left part, and the line where it ends."""
     left, top, width, height = app.rectangle
-    painter, edge = imgui.get_window_draw_list(), left + app.wipe * width
+    share = app.show.wipe
+    painter, edge = imgui.get_window_draw_list(), math.floor(left + share * width) + 0.5
     texture = imgui.ImTextureRef(app.picture.kept_name)
-    painter.add_image(texture, (left, top), (edge, top + height), (0, 1), (app.wipe, 0))
-    painter.add_line((edge, top), (edge, top + height), imgui.get_color_u32((1.0, 1.0, 1.0, 0.8)))
+    painter.add_image(texture, (left, top), (edge, top + height), (0, 1), (share, 0))
+    black, white = (imgui.get_color_u32((c, c, c, 1.0)) for c in (0.0, 1.0))
+    for color, thickness in ((black, 3.0), (white, 1.0)):  # seen on any picture
+        painter.add_line((edge, top), (edge, top + height), color, thickness)
+    for name, x in (("A", edge - imgui.get_font_size() * 1.6), ("B", edge)):
+        _notice(name, ImVec2(x, top + height - imgui.get_font_size() * 2.4))
+
+
+def _wipe_handle(app: App) -> None:
+    """Takes the mouse near the line, to drag it."""
+    left, top, width, height = app.rectangle
+    grip = imgui.get_font_size() * 0.7
+    imgui.set_cursor_screen_pos(ImVec2(left + app.show.wipe * width - grip / 2, top))
+    imgui.invisible_button("wipe", ImVec2(grip, height))
+    if imgui.is_item_hovered() or imgui.is_item_active():
+        imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ew.value)
+    if imgui.is_item_active():
+        share = (imgui.get_io().mouse_pos.x - left) / width
+        app.show.wipe = min(max(share, 0.0), 1.0)
 
 
 def draw_keys(app: App) -> None:

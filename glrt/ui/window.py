@@ -6,6 +6,7 @@ from collections.abc import Callable
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from glrt.context import Pipeline
+from glrt.false_colors import FalseColors
 from glrt.job import Interruption
 from glrt.resources import folder
 from glrt.scene import Scene
@@ -18,6 +19,7 @@ from glrt.ui.picture import Picture
 from glrt.ui.plots import draw_figures
 from glrt.ui.preferences import load_preferences, preferences_file
 from glrt.ui.session import Session
+from glrt.ui.show import Show
 from glrt.ui.viewport import draw_keys, draw_viewport
 from glrt.ui.watch import Watch, watch_for
 
@@ -98,7 +100,7 @@ class Window:
         self._rate = RATES[context.is_software]
         self.app = App(
             session=Session(scene, settings, context, pipeline=self._pipeline),
-            picture=Picture(context.gl),
+            show=Show(Picture(context.gl), FalseColors(context.gl)),
             preferences=preferences,
             preferences_file=preferences_file(),
             source=source,
@@ -119,12 +121,11 @@ class Window:
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
         self._style()
-        app.session.advance(app.pace.seconds, app.preferences.samples_per_frame)
-        app.draw_picture()
+        app.advance()
         app.look(now)
         app.follow_files(now)
         self._rendered = time.perf_counter() - now
-        self.params.fps_idling.enable_idling = app.session.is_done
+        self.params.fps_idling.enable_idling = app.show.is_done(app.session)
         self._keep(now)
         if self._interruption.signal:
             self.params.app_shall_exit = True
@@ -145,7 +146,7 @@ class Window:
 
     def _close(self) -> None:
         self.app.keep_preferences()
-        self.app.picture.release()
+        self.app.show.release()
         self.app.session.release()
 
 
