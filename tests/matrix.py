@@ -1,0 +1,130 @@
+"""The table of docs/anywhere.md: `python -m tests.matrix`. Route by pipeline by scene.
+
+Each way draws every scene in a process of its own, by the tier of `glrt render`. A cell says `=`
+where radiance and standard error have the bits of the first way, else how far they lie apart: the
+share of the pixels, and the root mean square over that of another seed.
+"""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.context import Choice, open_context
+from glrt.library import load, scene_names
+from glrt.pipelines import Resolved
+from glrt.renderer import Renderer
+from glrt.resources import folder
+from tests.old_driver import OLD_DRIVER
+from tests.screens import screen
+
+ROOT = Path(__file__).parents[1]
+METHODS = sorted((folder("scenes") / "methods").glob("*.toml"))
+SCENES = (*scene_names(), *(f"methods/{file.stem}" for file in METHODS))
+SIZE: dict[str, Any] = {"width": 48, "height": 32}
+SAMPLES = 4
+
+Pictures = Mapping[str, NDArray[np.float32]]
+
+
+class Way(NamedTuple):
+    """A route and a pipeline, perhaps on a driver that has nothing newer than OpenGL 4.1."""
+
+    route: Choice
+    pipeline: Resolved
+    is_old: bool = False
+
+    @property
+    def title(self) -> str:
+        """As the head of a column."""
+        return f"{self.route} {self.pipeline}{', OpenGL 4.1' if self.is_old else ''}"
+
+
+WAYS = (
+    Way("egl", "compute"),
+    Way("egl", "fragment"),
+    Way("osmesa", "compute"),
+    Way("osmesa", "fragment"),
+    Way("window", "compute"),
+    Way("window", "fragment"),
+    Way("egl", "fragment", is_old=True),
+    Way("osmesa", "fragment", is_old=True),
+    Way("window", "fragment", is_old=True),
+)
+
+
+def drawn(way: Way, scenes: Sequence[str]) -> dict[str, NDArray[np.float32]]:
+    """Every scene by this way, in a process of its own, and with another seed."""
+    with ExitStack() as stack:
+        file = Path(stack.enter_context(TemporaryDirectory())) / "drawn.npz"
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
+        environment |= OLD_DRIVER if way.is_old else {}
+        if way.route == "window" and shutil.which("Xvfb"):
+            environment["DISPLAY"] = stack.enter_context(screen())
+        words = [way.route, way.pipeline, str(file), *scenes]
+        subprocess.run(
+            [sys.executable, "-c", "from tests.matrix import draw; draw()", *words],
+            env=environment,
+            check=True,
+        )
+        with np.load(file) as found:
+            return dict(found)
+
+
+def draw() -> None:
+    """In the process: write the pictures by route and pipeline into a file."""
+    route, pipeline, file, *scenes = sys.argv[1:]
+    context = open_context(route, pipeline)  # type: ignore[arg-type]
+    pictures: dict[str, Any] = {"renderer": f"{context.renderer}, OpenGL {context.version}"}
+    for name in scenes:
+        for seed in (0, 1):
+            kind: Any = {"tier": "baked", "pipeline": pipeline, "seed": seed, **SIZE}
+            renderer = Renderer(load(name), context=context, **kind)
+            image = renderer.render(SAMPLES).image()
+            pictures[f"{name} {seed}"] = np.stack([image.radiance, image.stderr])
+            renderer.release()
+    np.savez(file, **pictures)
+
+
+def difference(name: str, found: Pictures, first: Pictures) -> str:
+    """`=`, or how far a picture lies from that of the first way."""
+    one, other, reseeded = found[f"{name} 0"], first[f"{name} 0"], first[f"{name} 1"]
+    if one.tobytes() == other.tobytes():
+        return "="
+    pixels = (one != other).any(axis=(0, -1)).mean()
+    apart, noise = (np.square(picture[0] - other[0]).mean() for picture in (one, reseeded))
+    return f"{pixels:.1%} of pixels, rms {np.sqrt(apart / noise):.2g}"
+
+
+def table(ways: Sequence[Way], scenes: Sequence[str]) -> Iterator[str]:
+    """Lines of Markdown: what drew, then a row a way, a column a scene."""
+    pictures = {way: drawn(way, scenes) for way in ways}
+    for name in sorted({str(found["renderer"]) for found in pictures.values()}):
+        yield f"- {name}"
+    yield f"| {' | '.join(['', *scenes])} |"
+    yield f"|---{len(scenes) * '|---'}|"
+    first = pictures[ways[0]]
+    for way, found in pictures.items():
+        cells = (difference(name, found, first) for name in scenes)
+        yield f"| {' | '.join([way.title, *cells])} |"
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(prog="python -m tests.matrix", description=__doc__)
+    parser.add_argument("scenes", nargs="*", default=SCENES)
+    for line in table(WAYS, parser.parse_args().scenes):
+        print(line)
+
+
+if __name__ == "__main__":
+    main()

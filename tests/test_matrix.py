@@ -1,0 +1,35 @@
+"""A share of the matrix of docs/anywhere.md: route by pipeline by scene."""
+
+import shutil
+from ctypes.util import find_library
+
+import numpy as np
+
+from tests.matrix import WAYS, Way, difference, drawn
+from tests.packages import needs_package
+
+SHARE = ["lens", "methods/glass"]
+
+
+def test_every_way_draws_the_same_bits() -> None:
+    """On software drivers; elsewhere far below the noise."""
+    needs_package(bool(find_library("EGL")), "libegl1")
+    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_package(bool(shutil.which("Xvfb")), "xvfb")
+    first = drawn(WAYS[0], SHARE)
+    for way in (Way("osmesa", "fragment"), Way("window", "fragment", is_old=True)):
+        found = drawn(way, SHARE)
+        is_software = all("llvmpipe" in str(made["renderer"]) for made in (first, found))
+        for name in SHARE:
+            told = difference(name, found, first)
+            assert told == "=" if is_software else float(told.split()[-1]) < 0.01
+
+
+def test_a_difference_is_told_by_its_pixels_and_its_size() -> None:
+    first = {f"a {seed}": np.full((2, 4, 5, 3), seed, np.float32) for seed in (0, 1)}
+    other = {"a 0": first["a 0"].copy()}
+    assert difference("a", other, first) == "="
+    other["a 0"][0, 0, 0] = 0.1
+    assert difference("a", other, first) == "5.0% of pixels, rms 0.022"
+    other["a 0"][:] = -0.0
+    assert difference("a", other, first) == "0.0% of pixels, rms 0"
