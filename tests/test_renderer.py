@@ -116,6 +116,17 @@ def test_crop_is_that_part_of_the_frame(
     assert same_bits(part.stderr, full.stderr[here].copy())
 
 
+def test_two_crops_joined_are_the_frame(context: Context) -> None:
+    size = {"width": 37, "height": 23}
+    parts = [
+        rendered(everything(), context, 4, crop=crop, **size)
+        for crop in ((0, 0, 13, 23), (13, 0, 24, 23))
+    ]
+    full = rendered(everything(), context, 4, **size)
+    assert same_bits(np.hstack([part.radiance for part in parts]), full.radiance)
+    assert same_bits(np.hstack([part.stderr for part in parts]), full.stderr)
+
+
 def test_small_frame_is_made_of_its_pixels(context: Context) -> None:
     full = rendered(everything(), context, 3, width=7, height=5)
     with rendering(everything(), context, width=7, height=5) as renderer:
