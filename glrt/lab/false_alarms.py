@@ -19,7 +19,8 @@ from glrt.compare import compare
 from glrt.comparison import Comparison, percent
 from glrt.context import Context, open_context
 from glrt.image import Image
-from glrt.lab.noisy_scenes import CASES, OTHERS, PLANTED, Case
+from glrt.lab.noisy_scenes import CASES, FOUND, OTHERS, PLANTED, SOBOL, Case
+from glrt.recipe import Recipe
 from glrt.renderer import Renderer
 
 Floats = NDArray[np.float32]
@@ -32,11 +33,13 @@ FINDS = ((64, 64), (64, 4096), (1024, 1024))  # samples of image and reference
 
 @dataclass(frozen=True)
 class Pool:
-    """Independent renders: means and variances of a sample, (renders, H, W, 3)."""
+    """Independent renders: means and variances of an observation, (renders, H, W, 3)."""
 
     means: Floats
     variances: Floats
     samples: int  # of each render
+    block: int = 1  # samples of an observation
+    recipe: Recipe | None = None  # of any of them
 
     def part(self, first: int, end: int | None = None) -> "Pool":
         """Some of the renders."""
@@ -51,8 +54,9 @@ class Pool:
         group = samples // self.samples
         means = self.means[index * group : (index + 1) * group].astype(np.float64)
         inner = self.variances[index * group : (index + 1) * group].mean(axis=0, dtype=np.float64)
-        stderr = np.sqrt((inner + means.var(axis=0)) / (samples - 1)).astype(np.float32)
-        return Image(means.mean(axis=0).astype(np.float32), stderr, samples)
+        variance = (inner + means.var(axis=0)) / (samples // self.block - 1)
+        mean, stderr = (array.astype(np.float32) for array in (means.mean(axis=0), variance**0.5))
+        return Image(mean, stderr, samples, self.recipe)
 
 
 def gather(context: Context, case: Case, samples: int, renders: int, seed: int) -> Pool:
@@ -62,15 +66,17 @@ def gather(context: Context, case: Case, samples: int, renders: int, seed: int) 
         "height": SIZE,
         "bounces": case.bounces,
         "method": case.method,
+        "sampler": case.sampler,
     }
     renderer = Renderer(case.scene, context=context, **settings)
     means, variances = (np.empty((renders, SIZE, SIZE, 3), np.float32) for _ in range(2))
+    block = renderer.settings.block
     for i in range(renders):
         renderer.update(seed=seed + i)
         image = renderer.render(samples).image()
-        means[i], variances[i] = image.radiance, np.square(image.stderr) * (samples - 1)
+        means[i], variances[i] = image.radiance, np.square(image.stderr) * (samples // block - 1)
     renderer.release()
-    return Pool(means, variances, samples)
+    return Pool(means, variances, samples, block, image.recipe)
 
 
 def compared(
@@ -143,6 +149,9 @@ class Experiment:
         self.pools = pools(CASES, 64, 4 * count + 80)
         self.of_16 = pools(CASES, 16, count)
         self.others = pools(OTHERS, 64, count)
+        self.of_sobol = pools(SOBOL, 64, 2 * count + 80)
+        lamp = {name: case for name, case in FOUND.items() if name not in CASES}
+        self.found = {**self.pools, **pools(lamp, 64, 32 * self.tenth + 80)}
         self.planted = {what: pools(cases, 64, 16 * self.tenth) for what, cases in PLANTED.items()}
 
     def false_alarms(self) -> list[list[str]]:
@@ -161,18 +170,20 @@ class Experiment:
             for samples in ((64, 64), (64, 4096)):
                 found = compared(self.others[name], rest, samples, None)
                 rows.append([name, methods, *_tally(samples, found)])
+        for name, pool in self.of_sobol.items():
+            images, rest = pool.part(0, self.count), pool.part(self.count)
+            for samples in ((64, 64), (64, 4096)):
+                found = compared(images, rest, samples)
+                rows.append([name, "same, sobol", *_tally(samples, found)])
         return rows
 
     def detections(self) -> list[list[str]]:
         """Of different pictures: what differs, scene, and the share found for each of FINDS."""
         rows = []
-        for name in ("diffuse", "caustic"):
-            pool = self.pools[name]
+        for name, pool in self.found.items():
             images, rest = pool.part(0, 16 * self.tenth), pool.part(16 * self.tenth)
             kinds = [(what, images, change) for what, change in CHANGES.items()]
-            kinds += [
-                (w, cases[name], _as_it_is) for w, cases in self.planted.items() if name in cases
-            ]
+            kinds += [(what, pools[name], _as_it_is) for what, pools in self.planted.items()]
             for what, a, change in kinds:
                 rows.append([name, what])
                 for samples in FINDS:

@@ -14,6 +14,7 @@ class Case:
     scene: Scene
     method: str
     bounces: int = 6
+    sampler: str = "independent"
 
 
 def room(ball: str, lamp: dict[str, Any], emission: float) -> Scene:
@@ -40,18 +41,21 @@ def room(ball: str, lamp: dict[str, Any], emission: float) -> Scene:
 
 
 def diffuse(shift: float = 0.0) -> Scene:
-    """Nothing but matte surfaces; the lamp, partly in view, is moved to the right by `shift`."""
+    """Nothing but matte surfaces, and the lamp partly in view.
+
+    Here and below, `shift` moves the lamp to the right.
+    """
     return room("red", {"center": [0.5 + shift, 2.2, 1.0], "radius": 0.4}, 8.0)
 
 
-def caustic() -> Scene:
+def caustic(shift: float = 0.0) -> Scene:
     """A glass ball under a small lamp: few paths carry its light to the floor."""
-    return room("glass", {"center": [0.9, 2.4, 0.6], "radius": 0.1}, 130.0)
+    return room("glass", {"center": [0.9 + shift, 2.4, 0.6], "radius": 0.1}, 130.0)
 
 
-def small_lamp() -> Scene:
+def small_lamp(shift: float = 0.0) -> Scene:
     """About one path in 2,500 finds the lamp by scattering alone."""
-    return room("red", {"center": [0.5, 2.0, 0.6], "radius": 0.05}, 500.0)
+    return room("red", {"center": [0.5 + shift, 2.0, 0.6], "radius": 0.05}, 500.0)
 
 
 CASES = {
@@ -64,10 +68,13 @@ OTHERS = {
     "caustic": replace(CASES["caustic"], method="nee"),
     "small lamp": replace(CASES["small lamp"], method="mis"),
 }
+SOBOL = {name: replace(CASES[name], sampler="sobol") for name in ("diffuse", "caustic")}
+FOUND = {**CASES, "small lamp, mis": OTHERS["small lamp"]}
+_MOVED = {"diffuse": diffuse, "caustic": caustic, "small lamp": small_lamp}
 PLANTED = {
-    "shadow moved": {"diffuse": Case(diffuse(0.05), "mis")},
-    "5 bounces for 6": {
-        "diffuse": replace(CASES["diffuse"], bounces=5),
-        "caustic": replace(CASES["caustic"], bounces=5),
+    "shadow moved": {
+        name: replace(case, scene=_MOVED[name.removesuffix(", mis")](0.05))
+        for name, case in FOUND.items()
     },
+    "5 bounces for 6": {name: replace(case, bounces=5) for name, case in FOUND.items()},
 }
