@@ -248,4 +248,82 @@ MUTANTS = [
         _edit("bvh.glsl", "t == hit.distance && shape < hit.shape", "false"),
         "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
+    Mutant(
+        "a ray that misses a box of the tree leaves out the node behind it, too",
+        _edit("bvh.glsl", "place + 1 : node.skip;", "place + 1 : node.skip + 1;"),
+        "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "strips of a lamp are chosen by their width, not by their angle",
+        _edit("strips.glsl", "sample_strip(view.x, quad.width, view.z, u.x)", "u.x"),
+        "test_strips.py::test_samples_are_even_over_strips_and_along_them",
+    ),
+    Mutant(
+        "a strip seen under more than a right angle takes its complement",
+        _edit("strips.glsl", "2.0 * half_angle : PI - 2.0 * half_angle", "2.0 * half_angle : 0.0"),
+        "test_strips.py::test_densities_sum_up_to_the_solid_angle",
+    ),
+    Mutant(
+        "few lamps are chosen evenly, and weighed as if by flux over squared distance",
+        _edit(
+            "light_choice.glsl",
+            "sum += light_weight(light_at(i - 1), ray);",
+            "sum += total / float(FEW_LIGHTS);",
+        ),
+        "test_light_choice.py::test_few_lamps_are_chosen_by_flux_over_squared_distance",
+    ),
+    Mutant(
+        "the table of lamps takes every alias",
+        _edit("light_choice.glsl", "rest < light.keep ? index : light.alias", "light.alias"),
+        "test_light_choice.py::test_a_lamp_is_chosen_as_often_as_its_density_says",
+    ),
+    Mutant(
+        "light beyond the last layer is lost",
+        _edit("layers.glsl", "i == min(layer, LAYERS - 1)", "i == layer"),
+        "test_relight.py::test_the_light_of_each_length_adds_up",
+    ),
+    Mutant(
+        "the display adds the halves of a layer as if both had as many samples",
+        _edit(
+            "mix.frag",
+            "one.rgb * (one.a / count) + other.rgb * (other.a / count)",
+            "0.5 * (one.rgb + other.rgb)",
+        ),
+        "test_relight.py::test_the_driver_shows_the_sum_that_files_hold",
+    ),
+    Mutant(
+        "fragments begin anew with each dispatch",
+        _edit(
+            "trace.frag",
+            "if (frame.first_sample == 0) return",
+            "if (frame.first_sample >= 0) return",
+        ),
+        "test_fragment.py::test_fragment_and_compute_give_the_same_bits",
+    ),
+    Mutant(
+        "fragments of a crop take the seeds of the corner of the frame",
+        _edit(
+            "trace.frag", "add_samples(pixel, frame.origin + texel)", "add_samples(pixel, texel)"
+        ),
+        "test_fragment.py::test_a_crop_by_fragments_is_the_part_of_the_frame",
+    ),
+    Mutant(
+        "all draws of a block take their points in one order",
+        _edit(
+            "sampler.glsl", "owen_scramble(self.point, pcg_hash(self.block ^ first))", "self.point"
+        ),
+        "test_sobol.py::test_the_points_of_two_pairs_of_draws_are_shuffled_apart",
+    ),
+    Mutant(
+        "the last two of four dimensions are the first two again",
+        _edit("sampler.glsl", "bool last = (self.dimension & 1u) == 0u;", "bool last = false;"),
+        "test_sobol.py::test_two_draws_in_turn_share_their_point",
+    ),
+    Mutant(
+        "blocks of a pixel share their scramble",
+        _edit(
+            "sampler.glsl", "pixel_seed(pixel, index / BLOCK, ~seed)", "pixel_seed(pixel, 0, ~seed)"
+        ),
+        "test_sobol.py::test_blocks_are_independent_of_their_neighbours",
+    ),
 ]

@@ -247,10 +247,13 @@ def test_more_groups_than_layers_share_the_last(context: Context) -> None:
     assert [layers[name] for name in names] == [0, 1, 2, 3, 4, 5, 5, 5]
     with layered(scene, context) as renderer:
         assert renderer.plan.layers == MOST_LAYERS
-        renderer.render(2)
+        traced = radiance(renderer.render(2))
         assert renderer.update(with_lights(scene, {"lamp 0": 2.0})) is Cost.RELIGHT
         together = with_lights(scene, dict.fromkeys(names[5:], 2.0))
         assert renderer.update(together) is Cost.RELIGHT
+        everything = with_lights(scene, dict.fromkeys(names, 2.0))
+        assert renderer.update(everything) is Cost.RELIGHT
+        assert np.allclose(radiance(renderer), 2 * traced, rtol=1e-4, atol=1e-6)
         assert renderer.update(with_lights(scene, {"lamp 7": 3.0})) is Cost.RESTART
 
 
@@ -329,8 +332,9 @@ def seen(renderer: Renderer, weights: Weights) -> Pixels:
 
 
 def test_the_driver_shows_the_sum_that_files_hold(context: Context) -> None:
+    """Of an odd number of samples: one half of them has more than the other."""
     with layered(room(2, 0.5), context, width=20, height=12) as renderer:
-        renderer.render(6)
+        renderer.render(3)
         renderer.update(room(2, 0.5, warm=0.2, background=3.0))
         assert np.allclose(
             seen(renderer, renderer.plan.weights), radiance(renderer), rtol=1e-5, atol=1e-7

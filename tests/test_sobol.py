@@ -101,6 +101,18 @@ def test_draws_of_one_sample_are_independent(call_glsl: CallGlsl) -> None:
         assert_fits(counts, np.full(256, n / 256))
 
 
+def test_the_points_of_two_pairs_of_draws_are_shuffled_apart(call_glsl: CallGlsl) -> None:
+    """The halves in which they lie, as -1 and 1: the sum over a block of their products.
+
+    Owen's shuffle keeps two points in turn together, which lie in both halves: eight terms of 2 or
+    -2, and not 16 or -16 in every block.
+    """
+    signs = [np.where(blocks(call_glsl, 4096, k)[..., 0] < 0.5, -1, 1) for k in (0, 2)]
+    assert all((sign.sum(axis=1) == 0).all() for sign in signs)
+    square = np.square((signs[0] * signs[1]).sum(axis=1))
+    assert_near(square.mean(), 32, np.sqrt(1792 / 4096))  # 4 times the square of a sum of 8 signs
+
+
 @pytest.mark.parametrize("step", ["neighbour", "block"])
 def test_blocks_are_independent_of_their_neighbours(call_glsl: CallGlsl, step: str) -> None:
     """The error of a block in the integral of x y, of neighbouring pixels and of blocks in turn."""
