@@ -10,6 +10,7 @@ from typing import Any
 
 from glrt import signals, streams
 from glrt.arguments import is_automatic, make_parser, refuse_later, settings_given
+from glrt.doubt import doubt
 from glrt.errors import GlrtError, RenderError, UsageError
 from glrt.files import reason
 from glrt.job import Interruption, Limits, peak_bytes, run, samples_limit, since_start
@@ -190,7 +191,7 @@ def _render(
     setup = since_start() - renderer.compile_seconds
     start = time.perf_counter()
     with _watch(arguments, limits) as watch:
-        error = run(renderer, limits, interruption, watch)
+        error, understatement = run(renderer, limits, interruption, watch)
     seconds = {
         "setup": setup,
         "compile": renderer.compile_seconds,
@@ -212,6 +213,8 @@ def _render(
             "samples. The picture is saved; give more --samples or --time.",
             1,
         )
+    if not arguments.quiet and (caution := doubt(understatement, limits.error)):
+        print(f"glrt: caution: {caution}", file=sys.stderr)
     return 0
 
 

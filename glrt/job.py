@@ -7,7 +7,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
+from glrt.doubt import understatement
+from glrt.image import Pixels
 from glrt.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
 from glrt.signals import handled
@@ -26,6 +29,13 @@ class Limits:
     deadline: float | None = None
     error: float | None = None
     first_look: int = FIRST_LOOK
+
+
+class Ending(NamedTuple):
+    """What is known of the error at the end of a render."""
+
+    error: float | None  # as estimated; None below two observations
+    understatement: float | None = None  # of an error that was judged reached: see glrt/doubt.py
 
 
 class Interruption:
@@ -51,8 +61,8 @@ def run(
     limits: Limits,
     interruption: Interruption,
     watch: Callable[[Renderer], None] | None = None,
-) -> float | None:
-    """Render to the first limit; returns the estimated error, None below two samples.
+) -> Ending:
+    """Render to the first limit.
 
     `watch` is called after each dispatch, to show progress. Each pixel gets a sample at least,
     unless the interruption comes before; a frame that is not complete at the end is left out.
@@ -64,20 +74,25 @@ def run(
         late = limits.deadline is not None and since_start() >= limits.deadline
         return interruption.signal is None and not (late and renderer.samples)
 
+    part: tuple[Pixels, int] | None = None
     for look in _looks(limits):
         if interruption.signal is not None:
             break
         renderer.render(look, goes_on)
         if renderer.samples < look:
             break
-        if limits.error is not None and _is_reached(renderer.image().error, limits.error):
-            break
-    return renderer.image().error if renderer.samples else None
+        if limits.error is not None:
+            image = renderer.image()
+            is_judged = look >= limits.first_look or look == limits.samples
+            if is_judged and _is_reached(image.error, limits.error):
+                return Ending(image.error, understatement(*part, image) if part else None)
+            part = image.radiance, image.samples
+    return Ending(renderer.image().error if renderer.samples else None)
 
 
 def _looks(limits: Limits) -> Iterator[int]:
-    """The sample counts at which to look at the error, and the last one."""
-    look = limits.first_look
+    """The sample counts at which to look at the error, one before the first, and the last one."""
+    look = max(limits.first_look // 2, 1)
     while limits.error is not None and look < limits.samples:
         yield look
         look *= 2

@@ -43,7 +43,7 @@ ORDER = [
         "tonemap",
         "recipe",
     ),
-    *("image", "library", "compare_noise", "comparison", "compare", "compare_picture"),
+    *("image", "doubt", "library", "compare_noise", "comparison", "compare", "compare_picture"),
     *("context", "kernel", "probe", "selftest", "pipelines", "film", "mix", "display"),
     *("false_colors", "schedule"),
     *(

@@ -102,8 +102,9 @@ class Lab:
     def rendering(
         self, scene: Scene, kind: type[Renderer] = Renderer, **settings: Any
     ) -> Iterator[Renderer]:
-        """A renderer, by the tier that `glrt render` uses."""
-        renderer = kind(scene, context=self.context, tier="baked", **settings)
+        """A renderer, by the tier that `glrt render` uses, whose samples each tell of the noise."""
+        wanted = {"sampler": "independent", **settings}
+        renderer = kind(scene, context=self.context, tier="baked", **wanted)
         try:
             yield renderer
         finally:
