@@ -250,7 +250,7 @@ MUTANTS = [
     ),
     Mutant(
         "a ray that misses a box of the tree leaves out the node behind it, too",
-        _edit("bvh.glsl", "place + 1 : node.skip;", "place + 1 : node.skip + 1;"),
+        _edit("bvh.glsl", "? 1 : 1 + below;", "? 1 : 2 + below;"),
         "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
