@@ -82,6 +82,12 @@ def test_points_are_medians_with_quartiles() -> None:
     assert point.milliseconds == (3000, 2000, 4000)
 
 
+def test_flip_is_the_mean_of_the_rounds_that_asked() -> None:
+    looks = [Run("m", [Look(1, 1.0, 0.01, flip)], 0.0) for flip in (0.2, None, 0.3)]
+    assert curve_of("m", looks).points[0].flip == pytest.approx(0.25)
+    assert curve_of("m", [looks[1]]).points[0].flip is None
+
+
 def test_the_front_is_what_nothing_beats() -> None:
     draw = np.random.default_rng(2)
     points = [tuple(pair) for pair in np.round(draw.random((200, 2)), 2).tolist()]

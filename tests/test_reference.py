@@ -8,12 +8,14 @@ import pytest
 
 from glrt.context import Context
 from glrt.lab import reference
-from glrt.lab.reference import Reference, closed_form, reference_for
+from glrt.lab.reference import OtherNumbers, Reference, closed_form, reference_for
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import settings_for
 from glrt.stats import relative_error
+from tests.alarms import assert_near
 from tests.builders import MATTE, box_of_quads, glass, lamp, quad, scene_of, sphere
+from tests.renders import assert_agree
 
 BALL = sphere([0, 0, -3], 1, "matte")
 LIT = scene_of([BALL, sphere([0, 2, -2], 0.5, "lamp")], {"matte": MATTE, "lamp": lamp(5.0)})
@@ -112,6 +114,54 @@ def test_a_reference_comes_from_the_cache_the_second_time(
     reference_for(LIT, small(LIT, width=9), context, 0.5, 5)
     reference_for(furnace(even=lamp(0.5, 0.5)), small(LIT), context, 0.5, 5)
     assert len(list(cache.iterdir())) == 3
+
+
+# --- random numbers ------------------------------------------------------------------------
+
+
+def noise_of(kind: type[Renderer], context: Context, seed: int, sampler: str) -> Any:
+    """A picture of 16 samples less its mean over seeds, in deviations: (64, 64)."""
+    settings = small(LIT, width=64, height=64, method="naive", sampler=sampler)
+    renderer = kind(LIT, settings, context, seed=seed)
+    image = renderer.render(16).image()
+    truth = Renderer(LIT, settings_for(settings, method="nee", seed=99), context)
+    noise = image.radiance[..., 0] - truth.render(1024).image().radiance[..., 0].astype(float)
+    renderer.release()
+    truth.release()
+    return noise
+
+
+def correlations(a: Any, b: Any, block: int) -> tuple[float, float]:
+    """Of the means of blocks of pixels that are lit by chance, and its deviation without any."""
+    side = len(a) // block
+    means = [x.reshape(side, block, side, block).mean(axis=(1, 3)).ravel() for x in (a, b)]
+    lit = means[0] != 0
+    return float(np.corrcoef(means[0][lit], means[1][lit])[0, 1]), float(lit.sum() ** -0.5)
+
+
+@pytest.mark.parametrize("sampler", ["independent", "sobol"])
+def test_references_share_no_noise_with_pictures_of_the_same_seed(
+    context: Context, sampler: str
+) -> None:
+    """Pixels and means of blocks; two renderers of pictures share all of it."""
+    for seed in (0, reference.SEEDS[0]):
+        picture = noise_of(Renderer, context, seed, sampler)
+        other = noise_of(OtherNumbers, context, seed, sampler)
+        for block in (1, 4):
+            value, deviation = correlations(picture, other, block)
+            assert_near(value, 0, deviation)
+            assert correlations(picture, picture, block)[0] > 0.999
+
+
+def test_references_show_the_same_picture(context: Context) -> None:
+    """Another family of numbers, the same mean."""
+    pictures = []
+    for kind in (Renderer, OtherNumbers):
+        renderer = kind(LIT, small(LIT, width=32, height=32), context)
+        pictures.append(renderer.render(1024).image())
+        renderer.release()
+    assert not np.array_equal(pictures[0].radiance, pictures[1].radiance)
+    assert_agree(pictures[0], pictures[1], within=0.05)
 
 
 @pytest.mark.parametrize("damage", [b"", b"no archive", None])

@@ -53,9 +53,11 @@ def _verdict(
 def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
     """Lines: the bounces with their proof, every method with its reason, and what to take."""
     height, width, _ = verdict.reference.radiance.shape
+    sampler = verdict.candidates[0].settings.sampler
     yield (
-        f"For an error of {percent(verdict.error)} (relative RMS), measured on {width} x {height} "
-        f"pixels against a reference with {percent(verdict.reference.error)} of its own:"
+        f"For an error of {percent(verdict.error)} (relative RMS) by sampler {sampler}, measured "
+        f"on {width} x {height} pixels against a reference with "
+        f"{percent(verdict.reference.error)} of its own:"
     )
     yield ""
     yield "bounces  light of longer paths"

@@ -51,6 +51,7 @@ def rows(experiment: Experiment) -> Iterator[dict[str, Any]]:
                 "rays": rays * point.samples,
                 **_with_limits("milliseconds", point.milliseconds),
                 **_with_limits("error", point.error),
+                "flip": point.flip,
                 "on_front": (curve.name, point.samples) in best,
             }
 

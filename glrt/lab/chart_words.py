@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from glrt.lab.curves import LEVELS, Curve, Interval, front
-from glrt.lab.experiment import Experiment
+from glrt.lab.experiment import SAMPLER, Experiment
 
 
 def percent(share: float) -> str:
@@ -75,17 +75,19 @@ def sentences(experiment: Experiment) -> Iterator[str]:
 
 def table(experiment: Experiment) -> Iterator[str]:
     """The curves as Markdown."""
-    levels = " | ".join(f"ms to {percent(level)}" for level in LEVELS)
-    yield f"| variant | rays a sample | error at the end | bias | slope | {levels} |"
-    yield "|---" * (5 + len(LEVELS)) + "|"
+    columns = ["variant", "rays a sample", "error at the end", "bias", "slope"]
+    columns += [f"ms to {percent(level)}" for level in LEVELS]
+    asked = _has_flip(experiment)
+    columns += ["FLIP at the end"] if asked else []
+    yield f"| {' | '.join(columns)} |"
+    yield "|---" * len(columns) + "|"
     for curve, rays in zip(experiment.curves, experiment.rays, strict=True):
         last = curve.points[-1]
         end = f"{percent(last.error.value)} at {last.samples}"
-        times = " | ".join(_time(curve.milliseconds_to(level)) for level in LEVELS)
-        yield (
-            f"| {curve.name} | {rays:.3g} | {end} | {_bias(curve.bias)} "
-            f"| {_slope(curve.slope)} | {times} |"
-        )
+        cells = [curve.name, f"{rays:.3g}", end, _bias(curve.bias), _slope(curve.slope)]
+        cells += [_time(curve.milliseconds_to(level)) for level in LEVELS]
+        cells += ["-" if last.flip is None else f"{last.flip:.2g}"] if asked else []
+        yield f"| {' | '.join(cells)} |"
 
 
 def _introduction(experiment: Experiment) -> Iterator[str]:
@@ -98,9 +100,22 @@ def _introduction(experiment: Experiment) -> Iterator[str]:
         "numbers: times are medians; errors and slopes have 95 % intervals over the rounds, of "
         "which one in twenty misses the truth by chance. A time after `~` lies beyond what was "
         "measured. Black in the charts is what nothing else beats in both time and error; on the "
-        "line of an error stands how many times as fast the fastest gets there."
+        "line of an error stands how many times as fast the fastest gets there. Random numbers are "
+        f"`{SAMPLER}` where the name of a variant does not say otherwise."
     )
     yield ""
+    if _has_flip(experiment):
+        yield (
+            "FLIP says how different a picture looks from the reference to someone who flips "
+            "between their PNG files, where 67 pixels fill a degree: from 0, the same, to 1, black "
+            "beside white (Andersson et al. 2020). One picture is asked, and the noise of the "
+            "reference is in it."
+        )
+        yield ""
+
+
+def _has_flip(experiment: Experiment) -> bool:
+    return any(p.flip is not None for curve in experiment.curves for p in curve.points)
 
 
 def _winner(curves: Sequence[Curve], level: float) -> str:

@@ -31,6 +31,7 @@ class Point(NamedTuple):
     samples: int
     milliseconds: Interval  # quartiles, not 95 %
     error: Interval
+    flip: float | None = None  # mean over the rounds that asked
 
 
 @dataclass(frozen=True)
@@ -125,7 +126,9 @@ def _point(looks: Sequence[Look]) -> Point:
         statistics.quantiles(times, n=4, method="inclusive") if len(times) > 1 else 3 * times
     )
     time = Interval(statistics.median(times), quartiles[0], quartiles[2])
-    return Point(looks[0].samples, time, squared_interval([look.squared_error for look in looks]))
+    error = squared_interval([look.squared_error for look in looks])
+    flips = [look.flip for look in looks if look.flip is not None]
+    return Point(looks[0].samples, time, error, statistics.fmean(flips) if flips else None)
 
 
 def _slope(runs: Sequence[Run], points: Sequence[Point], bias: Interval) -> Interval | None:

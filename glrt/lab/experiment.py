@@ -18,6 +18,7 @@ from glrt.selftest import usable_rounds
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
 
+SAMPLER = "independent"  # of all variants but those that are named after another
 REFERENCE_ERROR = 0.005
 REFERENCE_SHARE = 0.5  # of the time of the rounds, at most, that the reference may take beside it
 
@@ -57,7 +58,7 @@ def measure_scene(
     name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path, tell: Tell
 ) -> Experiment:
     """Measure a scene, going on from the rounds that the file holds already."""
-    settings = frame_of(scene, plan.height)
+    settings = settings_for(frame_of(scene, plan.height), sampler=SAMPLER)
     variants = [
         variant
         for variant in variants_of(scene, settings)

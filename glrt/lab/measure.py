@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.context import Context
+from glrt.lab.flip import flip, is_installed
 from glrt.lab.reference import Reference
 from glrt.lab.variants import Variant
 from glrt.renderer import Renderer
@@ -28,6 +29,7 @@ class Look(NamedTuple):
     samples: int  # a pixel
     seconds: float
     squared_error: float
+    flip: float | None = None  # how different it looks, where that was asked
 
 
 class Run(NamedTuple):
@@ -60,15 +62,17 @@ class Bench:
     def round(self, number: int, seconds: float) -> Iterator[Round]:
         """Run each variant once, all in about `seconds`; yields the runs so far after each.
 
-        The number chooses order and seeds.
+        The number chooses order and seeds. Round 0 asks FLIP, where it is installed: of a mean
+        over pixels one picture tells enough, and it takes longer than most looks.
         """
+        asks_flip = number == 0 and is_installed()
         names = list(self._renderers)
         random.Random(number).shuffle(names)
         runs: Round = []
         for name in names:
             self._renderers[name].update(seed=number + 1)
             share = seconds / len(names)
-            runs.append(_run(name, self._renderers[name], self._reference, share))
+            runs.append(_run(name, self._renderers[name], self._reference, share, asks_flip))
             yield runs
 
     def release(self) -> None:
@@ -77,7 +81,9 @@ class Bench:
             renderer.release()
 
 
-def _run(name: str, renderer: Renderer, reference: Reference, seconds: float) -> Run:
+def _run(
+    name: str, renderer: Renderer, reference: Reference, seconds: float, asks_flip: bool
+) -> Run:
     looks: list[Look] = []
     spent = 0.0
     samples = 1
@@ -87,7 +93,8 @@ def _run(name: str, renderer: Renderer, reference: Reference, seconds: float) ->
         spent += time.perf_counter() - start
         image = renderer.image()
         squared = reference.squared_error(image.radiance)
-        looks.append(Look(samples, spent, squared))
+        look = flip(image.radiance, reference.radiance) if asks_flip else None
+        looks.append(Look(samples, spent, squared, look))
         is_over = 2 * spent > seconds and len(looks) >= LEAST_LOOKS
         if is_over or samples == MAX_SAMPLES:
             noise = reference.relative(np.square(image.stderr, dtype=np.float64))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from glrt import files
+from glrt.lab import flip
 from glrt.lab.measure import Look, Round, Run
 from glrt.lab.reference import Reference
 from glrt.lab.variants import Variant
@@ -17,7 +18,7 @@ def key_of(scene: Scene, variants: Sequence[Variant], reference: Reference, plac
     """Names what rounds must share to stand on one chart."""
     ways = [(variant.name, variant.settings.model_dump(mode="json")) for variant in variants]
     truth = hashlib.sha256(reference.radiance.tobytes()).hexdigest()
-    parts = [scene_to_dict(scene), ways, truth, place]
+    parts = [scene_to_dict(scene), ways, truth, place, flip.is_installed()]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
 
 
