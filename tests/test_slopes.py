@@ -56,6 +56,7 @@ def test_slopes_are_a_half_and_the_floor_is_the_bias(context: Context, tmp_path:
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(900)
 @pytest.mark.usefixtures("unhurried")
 def test_in_a_room_too_and_floors_are_what_other_pictures_differ_by(
     context: Context, tmp_path: Path
@@ -63,10 +64,10 @@ def test_in_a_room_too_and_floors_are_what_other_pictures_differ_by(
     """Floors against pictures of 16,384 samples that have nothing to do with the chart."""
     scene = load("methods/diffuse")
     result = measure_scene(
-        "room", scene, Plan(16, 8, 0.1), context, tmp_path / "r", lambda *_: None
+        "room", scene, Plan(24, 24, 0.1), context, tmp_path / "r", lambda *_: None
     )
     assert_halves(slopes_of(result.curves))
-    size = {"width": 16, "height": 16, "seed": 71}
+    size = {"width": 24, "height": 24, "seed": 71}
     truth = rendered(scene, context, 16384, **size, bounces=128, method="nee").radiance
     scale = np.square(truth, dtype=np.float64) + 0.01 * truth.mean(dtype=np.float64) ** 2
     for variant, curve in zip(result.variants, result.curves, strict=True):
