@@ -43,6 +43,25 @@ def test_noise_alone_falls_with_the_square_root() -> None:
     assert curve.seen_bias == 0
 
 
+def test_intervals_of_slopes_hold_the_truth_where_errors_are_skewed() -> None:
+    """500 fits to 5 runs with rare large errors: 95 % +- 1 % hold -0.5, and 4 deviations beside."""
+    draw = np.random.default_rng(1)
+
+    def look(samples: int) -> Look:
+        spread = 0.8 / samples**0.25
+        skewed = math.exp(draw.normal(0, spread) - 0.5 * spread**2)  # its mean is 1
+        return Look(samples, 1e-3 * samples, skewed / samples)
+
+    slopes = []
+    for _ in range(500):
+        five = [Run("m", [look(n) for n in SAMPLES], 0.0) for _ in range(5)]
+        slope = curve_of("m", five, least_bias=1.0).slope
+        assert slope is not None
+        slopes.append(slope)
+    assert np.mean([s.low <= -0.5 <= s.high for s in slopes]) == pytest.approx(0.95, abs=0.04)
+    assert np.mean([s.value for s in slopes]) == pytest.approx(-0.5, abs=0.004)
+
+
 def test_a_bias_is_a_flat_tail_that_is_told_apart_from_the_slope() -> None:
     curve = curve_of("method", runs(1.0, 0.02))
     assert curve.is_biased

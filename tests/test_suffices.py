@@ -81,7 +81,7 @@ def test_a_scene_that_reflects_nothing_needs_one_bounce_and_the_cheapest_method(
     scene = scene_of([sphere([0, 0, -3], 1, "lamp"), sphere([1, 0, -2], 0.5, "black")], black)
     verdict = verdict_on(scene, 0.2, context)
     assert verdict.least_bounces == 1
-    assert all(c.bias.value == 0 for c in verdict.candidates)
+    assert all(abs(c.bias.squared) <= 4 * c.bias.stderr for c in verdict.candidates)
     assert verdict.best is not None
 
 

@@ -132,19 +132,25 @@ def _point(looks: Sequence[Look]) -> Point:
 
 
 def _slope(runs: Sequence[Run], points: Sequence[Point], bias: Interval) -> Interval | None:
-    """Mean of the slopes of all runs, each a least-squares line; None with too few points."""
+    """A line through the logarithms of points, by least squares; None with too few points.
+
+    Its interval is the jackknife's: Student's over what each run adds to a fit without it. Not the
+    mean of fits to single runs, in which the logarithm of rare large errors flattens the line.
+    """
     floor = bias.value if bias.low > 0 else 0.0
     places = [i for i, p in enumerate(points) if p.error.value > max(_NOISE_RULES * floor, 0.0)]
     if len(places) < _LEAST_POINTS:
         return None
-    slopes = []
-    for run in runs:
-        looks = [run.looks[place] for place in places]
-        if any(look.squared_error <= 0 for look in looks):
-            return None
-        samples, squares = np.log([(look.samples, look.squared_error) for look in looks]).T
-        slopes.append(float(np.polyfit(samples, 0.5 * squares, 1)[0]))
-    return mean_interval(slopes)
+    samples = np.log([points[place].samples for place in places])
+    squares = np.array([[run.looks[place].squared_error for place in places] for run in runs])
+    count = len(runs)
+    means = [squares.mean(axis=0)]
+    if count > 1:
+        means += [np.delete(squares, left_out, axis=0).mean(axis=0) for left_out in range(count)]
+    if np.min(means) <= 0:
+        return None
+    whole, *others = (float(np.polyfit(samples, 0.5 * np.log(mean), 1)[0]) for mean in means)
+    return mean_interval([count * whole - (count - 1) * other for other in others] or [whole])
 
 
 def _between(before: Point | None, after: Point, error: float) -> float:
