@@ -10,11 +10,6 @@ from glrt.errors import UsageError
 from glrt.settings import RenderSettings, Settings
 from glrt.version import VERSION
 
-LATER = {
-    "--resume": "adding samples to an older picture",
-}
-
-
 AUTO = "auto"  # as --method: chosen by a measurement
 
 
@@ -78,7 +73,8 @@ _HELP: dict[str, dict[str, Any]] = {
         "description": "Render a scene without a window.",
         "epilog": "The first limit reached of --samples, --time and --error ends the render; "
         "--time or --error without --samples lifts the sample limit to 1048576. Ctrl-C saves "
-        "what was rendered. Exit codes: 0 done, 1 --error not reached, 2 bad usage or scene, "
+        "what was rendered; a long render saves every minute, and --resume goes on from its .exr. "
+        "Exit codes: 0 done, 1 --error not reached, 2 bad usage or scene, "
         "3 no usable OpenGL, 4 the render failed, 130 and 143 interrupted.",
     },
     "view": {
@@ -121,7 +117,9 @@ _SCENE = "a scene file, the name of a scene that comes with glrt, or a picture r
 
 
 def _add_render(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("scene", metavar="SCENE", help=_SCENE)
+    parser.add_argument(
+        "scene", metavar="SCENE", nargs="?", help=f"{_SCENE}; with --resume optional"
+    )
     parser.add_argument(
         "-o",
         dest="outputs",
@@ -137,7 +135,11 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     )
     _add_context(parser)
     _add_pipeline(parser)
-    parser.add_argument("--resume", metavar="FILE", help=argparse.SUPPRESS)
+    parser.add_argument(
+        "--resume",
+        metavar="FILE.exr",
+        help="go on from this picture, by its scene and settings, up to --samples in all",
+    )
     parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
 
@@ -284,13 +286,3 @@ def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:
 def is_automatic(arguments: argparse.Namespace) -> bool:
     """Whether the method is to be chosen by what the error asks for."""
     return getattr(arguments, "method", None) == AUTO
-
-
-def refuse_later(arguments: argparse.Namespace) -> None:
-    """UsageError for what the format of the command line knows and this version does not do."""
-    given = {
-        "--resume": getattr(arguments, "resume", None) is not None,
-    }
-    for option, is_given in given.items():
-        if is_given:
-            raise UsageError(f"{option} ({LATER[option]}) is not in glrt {VERSION}; leave it out.")

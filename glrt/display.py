@@ -44,3 +44,13 @@ class Display:
         """Free program and quad."""
         self._quad.release()
         self._program.release()
+
+
+def displayed(
+    gl: moderngl.Context, picture: moderngl.Texture, settings: Settings
+) -> np.ndarray[Any, Any]:
+    """`Display.read`, once."""
+    display = Display(gl)
+    codes = display.read(picture, settings)
+    display.release()
+    return codes

@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 import moderngl
 import numpy as np
 
-from glrt.errors import RenderError
+from glrt.errors import RenderError, UsageError
+from glrt.gathered import Gathered
 
 Array = np.ndarray[Any, np.dtype[np.float32]]
 
@@ -20,6 +21,13 @@ class Exposure(NamedTuple):
     part: Array  # mean of the samples after the last whole observation
     share: Array  # (H, W): of all finite samples, those in `part`
     layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
+
+    def gathered(self, samples: int) -> Gathered | None:
+        """All but the mean, with so many samples a pixel; None if that is not all: for layers."""
+        if self.layers.size:
+            return None
+        begun = np.rint(self.share * (samples - self.dropped))
+        return Gathered(self.variance, self.dropped, self.observations, self.part, begun)
 
 
 class Film:
@@ -86,6 +94,22 @@ class Film:
         whole = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
         begun = self._read_begun(self.samples - mean[..., 3])
         return Exposure(*(part.copy() for part in (*whole, *begun, self._read_layers())))
+
+    def write(self, samples: int, mean: Array, gathered: Gathered) -> None:
+        """Take up what another film has read: so many samples of each pixel.
+
+        UsageError for a film with layers, which no picture holds.
+        """
+        if self.layer_count:
+            raise UsageError("layers of light are kept here, which a picture does not hold")
+        rows = {
+            "mean": np.dstack([mean, gathered.dropped]),
+            "variance": np.dstack([gathered.variance, gathered.observations]),
+            "block": np.dstack([gathered.part, gathered.begun]),
+        }
+        for name, texture in self._pairs[0].items():
+            texture.write(np.ascontiguousarray(rows[name], np.float32))
+        self.samples = samples
 
     def release(self) -> None:
         """Free the textures."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glrt import files
 from glrt.errors import SceneError, UsageError
+from glrt.gathered import Gathered, from_channels, to_channels
 from glrt.recipe import Recipe
 from glrt.settings import Settings, ToneMap
 from glrt.stats import relative_error
@@ -31,13 +32,15 @@ class Image:
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
-    recipe. Raises ValueError for arrays of another shape or type.
+    recipe. `gathered` is what a render needs to go on from it, if that is known. Raises ValueError
+    for arrays of another shape or type.
     """
 
     radiance: Pixels
     stderr: Pixels
     samples: int
     recipe: Recipe | None = None
+    gathered: Gathered | None = None
 
     def __post_init__(self) -> None:
         for pixels in (self.radiance, self.stderr):
@@ -88,7 +91,10 @@ class Image:
         if stderr is None or stderr.shape != radiance.shape:
             stderr = np.full_like(radiance, np.nan)
         recipe = _parsed(header.get(RECIPE_KEY), path)
-        return cls(radiance, stderr, recipe.samples if recipe else 0, recipe)
+        if recipe is None:
+            return cls(radiance, stderr, 0)
+        film = from_channels(channels, stderr, recipe.samples, recipe.settings.block)
+        return cls(radiance, stderr, recipe.samples, recipe, film)
 
     def _write_exr(self, path: Path) -> None:
         import OpenEXR  # type: ignore[import-not-found]
@@ -96,7 +102,10 @@ class Image:
         header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
         if self.recipe:
             header[RECIPE_KEY] = self.recipe.to_json()
-        channels = {"RGB": self.radiance, "stderr": self.stderr}
+        channels: dict[str, NDArray[Any]] = {"RGB": self.radiance, "stderr": self.stderr}
+        if self.recipe and self.gathered:
+            block = self.recipe.settings.block
+            channels |= to_channels(self.gathered, self.stderr, self.samples, block)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
         OpenEXR.File(header, contiguous).write(str(path))

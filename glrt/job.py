@@ -72,12 +72,15 @@ def run(
         if watch:
             watch(renderer)
         late = limits.deadline is not None and since_start() >= limits.deadline
-        return interruption.signal is None and not (late and renderer.samples)
+        return interruption.signal is None and not (late and renderer.samples > begun)
 
     part: tuple[Pixels, int] | None = None
+    begun = renderer.samples
     for look in _looks(limits):
         if interruption.signal is not None:
             break
+        if look < begun:
+            continue
         renderer.render(look, goes_on)
         if renderer.samples < look:
             break

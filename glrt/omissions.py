@@ -45,3 +45,11 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "nothing hides the sky"
     if method != "cook" and scene.camera.defocus_angle > 0:
         yield "everything is in focus"
+
+
+def left_out(settings: Settings, missing: list[str]) -> str:
+    """A sentence that names what `omissions` found."""
+    return (
+        f"Method {settings.method} leaves light out, which no estimated error contains: "
+        f"{'; '.join(missing)}."
+    )

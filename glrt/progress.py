@@ -19,15 +19,15 @@ class Watch(Protocol):
 
 
 @contextmanager
-def progress_bar(limits: Limits) -> Iterator[Watch]:
-    """A bar on stderr; it vanishes when the render ends."""
+def progress_bar(limits: Limits, begun: int = 0) -> Iterator[Watch]:
+    """A bar on stderr, for a render that has so many samples; it vanishes when the render ends."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
     columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.fields[rest]}"))
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("render", total=1.0, done="compiling", rest="")
-        forecast = Forecast(limits)
+        forecast = Forecast(limits, begun)
 
         def watch(renderer: Renderer) -> None:
             state: dict[str, Any] = forecast.after(renderer)
@@ -39,9 +39,10 @@ def progress_bar(limits: Limits) -> Iterator[Watch]:
 class Forecast:
     """How far a render is, and how long it will take, by samples, time and error."""
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: Limits, begun: int = 0) -> None:
         """Start the clock."""
         self._limits = limits
+        self._begun = begun
         self._start = time.perf_counter()
         self._age = since_start()
         self._looked = self._start
@@ -63,10 +64,11 @@ class Forecast:
 
     def _total_seconds(self, samples: float, seconds: float) -> float:
         """Seconds to the first limit: the error falls with the square root of the samples."""
-        rate = samples / seconds
-        candidates = [self._limits.samples / rate]
+        rate = max(samples - self._begun, 1e-9) / seconds
+        candidates = [(self._limits.samples - self._begun) / rate]
         if self._limits.deadline is not None:
             candidates.append(self._limits.deadline - self._age)
         if self._limits.error and self._error:
-            candidates.append(seconds * math.pow(self._error / self._limits.error, 2))
+            needed = samples * math.pow(self._error / self._limits.error, 2)
+            candidates.append((needed - self._begun) / rate)
         return min(candidates)

@@ -9,7 +9,7 @@ import numpy as np
 
 from glrt.blocks import Tier, tier_for
 from glrt.context import Choice, Context, Pipeline, open_context
-from glrt.display import Display
+from glrt.display import displayed
 from glrt.errors import UsageError
 from glrt.film import Film
 from glrt.image import Image
@@ -19,7 +19,8 @@ from glrt.needs import has_tree, needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.pipelines import Arrays, compiled, resolve, scene_text, sources, upload
 from glrt.recipe import Recipe, traced
-from glrt.relight import Layering, Weights, are_trivial, plan_for
+from glrt.relight import ONE, Layering, Weights, are_trivial, plan_for
+from glrt.resume import fitting
 from glrt.scene import Scene
 from glrt.schedule import (
     HEADLESS_LIMIT,
@@ -124,11 +125,11 @@ class Renderer:
             return cost
         most_samples = self._most_samples(*after)
         (self.scene, self.settings), self.plan = after, plan_for(*after, layering)
-        before_texts = self._texts()
+        before_texts = [shader.text for shader in self._shaders]
         with self.context.gl:
             self._upload(most_samples)
             self._film.restart(*self.size, self.settings.block, self.plan.layers)
-            if self._texts() == before_texts:
+            if [shader.text for shader in self._shaders] == before_texts:
                 return Cost.RESTART
             self._kernel.release()
             self._compile()
@@ -178,25 +179,21 @@ class Renderer:
         with self.context.gl:
             film = self._film.read()
         weights = weights or self.plan.weights
-        recipe = Recipe(
-            scene=self.scene,
-            settings=self.settings,
-            samples=self.samples,
-            version=VERSION,
-            renderer=self.context.renderer,
-            tier=self.tier,
-            pipeline=self.pipeline,
-            traced=traced(self.plan, weights),
-        )
-        return Image(*mixed(film, weights), self.samples, recipe)
+        gathered = film.gathered(self.samples) if are_trivial(weights) else None
+        return Image(*mixed(film, weights), self.samples, self._recipe(weights), gathered)
+
+    def resume(self, image: Image) -> "Renderer":
+        """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
+        gathered = fitting(image, self._recipe((ONE,)))
+        self._schedule.drop()
+        with self.context.gl:
+            self._film.write(image.samples, image.radiance, gathered)
+        return self
 
     def display(self) -> np.ndarray[Any, Any]:
         """The picture so far through the display pass: (H, W, 3) uint8 sRGB, row 0 on top."""
         with self.context.gl:
-            display = Display(self.context.gl)
-            codes = display.read(self.weighed(self.plan.weights), self.settings)
-            display.release()
-        return codes
+            return displayed(self.context.gl, self.weighed(self.plan.weights), self.settings)
 
     def nonfinite(self) -> int:
         """How many samples were dropped because they were not finite."""
@@ -206,20 +203,28 @@ class Renderer:
     def release(self) -> None:
         """Free what the driver holds, the context too unless it was given."""
         with self.context.gl:
-            self._film.release()
-            self._kernel.release()
-            self._mixer.release()
-            for resource in self._resources.values():
-                resource.release()
+            for part in (self._film, self._kernel, self._mixer, *self._resources.values()):
+                part.release()
         if self._owns_context:
             self.context.gl.release()
+
+    def _recipe(self, weights: Weights) -> Recipe:
+        return Recipe(
+            scene=self.scene,
+            settings=self.settings,
+            samples=self.samples,
+            version=VERSION,
+            renderer=self.context.renderer,
+            tier=self.tier,
+            pipeline=self.pipeline,
+            traced=traced(self.plan, weights),
+        )
 
     def _most_samples(self, scene: Scene, settings: Settings) -> int:
         """How many samples a dispatch may take; SceneError if not one."""
         iterations = iterations_per_sample(scene, settings)
         self._rounds = usable_rounds(self.context, iterations)
-        least = iterations_per_sample(scene, settings, tree_rounds=0)
-        return most_samples(iterations, self._rounds, least)
+        return most_samples(iterations, self._rounds, iterations_per_sample(scene, settings, 0))
 
     def _upload(self, most_samples: int) -> None:
         """Give the driver the scene, and write the kernel for it."""
@@ -243,9 +248,6 @@ class Renderer:
     def _parts(self, arrays: Arrays) -> dict[str, str]:
         """Texts that stand in for shader files."""
         return {"blocks.glsl": scene_text(self.context.gl, self.pipeline, arrays, self.tier)}
-
-    def _texts(self) -> list[str]:
-        return [shader.text for shader in self._shaders]
 
     def _compile(self) -> None:
         start = time.perf_counter()

@@ -127,17 +127,18 @@ def cost_of_change(before: Settings, after: Settings) -> Cost:
     """The dearest class among the fields that differ."""
     order = list(Cost)
     changed = [
-        Cost(_extra(name)["cost"])
+        cost_of(name)
         for name in Settings.model_fields
         if getattr(before, name) != getattr(after, name)
     ]
     return max(changed, key=order.index, default=Cost.FREE)
 
 
-def _extra(name: str) -> dict[str, Any]:
+def cost_of(name: str) -> Cost:
+    """The class of a field of Settings."""
     extra = Settings.model_fields[name].json_schema_extra
     assert isinstance(extra, dict)
-    return extra
+    return Cost(str(extra["cost"]))
 
 
 def _advice(problem: Any) -> str:

@@ -28,6 +28,12 @@ def tell(text: str) -> None:
         silence(sys.stderr)
 
 
+def fail(message: str, code: int) -> int:
+    """Tell why the command fails, in one paragraph; returns the exit code."""
+    tell(f"glrt: {' '.join(message.split())}")
+    return code
+
+
 def settle(stream: IO[str]) -> None:
     """Write out what is pending; silence a stream that does not take it."""
     try:

@@ -81,7 +81,8 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
     "unknown tone curve": ("render {scene} -o {tmp}/a.png --tonemap filmic", ["--tonemap", "agx"]),
     "unknown context": ("render {scene} -o {tmp}/a.png --context vulkan", ["--context", "osmesa"]),
     "unknown sampler": ("render {scene} -o {tmp}/a.png --sampler halton", ["--sampler", "sobol"]),
-    "resume of later": ("render {scene} -o {tmp}/a.png --resume b.exr", ["--resume"]),
+    "resume of nothing": ("render {scene} -o {tmp}/a.png --resume {tmp}/no.exr", ["no.exr"]),
+    "resume of another's": ("render -o {tmp}/a.png --resume {tmp}/a.exr", ["a.exr", "recipe"]),
     "unknown pipeline": ("render {scene} -o {tmp}/a.png --pipeline mesh", ["'mesh'", "fragment"]),
     "picture without recipe": (
         "render {tmp}/foreign.png -o {tmp}/a.png",

@@ -1,0 +1,86 @@
+"""What a film has gathered beside its mean: with it a picture is rendered on, to the same bits.
+
+An EXR file tells mean and standard error. From these alone the variance comes back to a few units
+in the last place. Those units are kept in channels of their own, and what is rarer, only where it
+is there: dropped samples, and an observation that has begun.
+"""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float32]
+Channels = dict[str, NDArray[Any]]
+
+VARIANCE, PART = "film.variance", "film.part"
+DROPPED, MISSING, BEGUN = "film.dropped", "film.missing", "film.begun"
+
+
+class Gathered(NamedTuple):
+    """Of each pixel of a film; arrays (H, W) float32, or as noted."""
+
+    variance: Array  # (H, W, 3): of one observation
+    dropped: Array  # samples that were not finite
+    observations: Array  # whole ones
+    part: Array  # (H, W, 3): mean of the finite samples of the observation that has begun
+    begun: Array  # how many those are
+
+
+def to_channels(film: Gathered, stderr: Array, samples: int, block: int) -> Channels:
+    """Channels that `from_channels` reads back; `block` are the samples of an observation.
+
+    Arrays (H, W, 3) and (H, W), in float32 and uint32.
+    """
+    is_whole = samples % block == 0
+    near = _variance(stderr, film.observations, is_whole)
+    units = film.variance.view(np.int32) - near.view(np.int32)
+    folded = (units << 1) ^ (units >> 31)  # 0, -1, 1, -2 as 0, 1, 2, 3: most bits are 0
+    channels: Channels = {VARIANCE: folded.view(np.uint32)}
+    counts = {DROPPED: film.dropped, MISSING: samples // block - film.observations}
+    channels |= {name: c.astype(np.uint32) for name, c in counts.items() if c.any()}
+    return channels if is_whole else channels | {PART: film.part, BEGUN: film.begun}
+
+
+def from_channels(
+    channels: Mapping[str, NDArray[Any]], stderr: Array, samples: int, block: int
+) -> Gathered | None:
+    """What `to_channels` was given; None where a channel is missing or has another size.
+
+    `channels` are planes (H, W), as `film.variance.R` and `film.dropped`.
+    """
+    size, is_whole = stderr.shape[:2], samples % block == 0
+    planes = {name: plane for name, plane in channels.items() if plane.shape == size}
+    none = np.zeros(size, np.float32)
+    dropped, missing = (planes.get(name, none).astype(np.float32) for name in (DROPPED, MISSING))
+    observations = np.float32(samples // block) - missing
+    folded, part = _stacked(planes, VARIANCE), _stacked(planes, PART)
+    begun = planes.get(BEGUN)
+    if is_whole:
+        part, begun = np.zeros_like(stderr), none
+    if folded is None or folded.dtype != np.uint32 or part is None or begun is None:
+        return None
+    units = (folded >> 1).view(np.int32) ^ -(folded & 1).view(np.int32)
+    near = _variance(stderr, observations, is_whole).view(np.int32)
+    variance = (near + units).view(np.float32)
+    return Gathered(variance, dropped, observations, part, begun)
+
+
+def _variance(stderr: Array, observations: Array, is_whole: bool) -> Array:
+    """That of one observation, v = e^2 (k - 1), to the rounding of float32.
+
+    In float32 step by step, so that it is the same on every machine. 0 where the error says no more
+    than something else too: with fewer than two observations, or a part of one.
+    """
+    count = observations[..., None]
+    with np.errstate(over="ignore", invalid="ignore"):
+        variance = stderr * stderr * (count - np.float32(1))
+    return np.where(is_whole & (count >= 2), variance, np.float32(0)).astype(np.float32)
+
+
+def _stacked(planes: Mapping[str, NDArray[Any]], layer: str) -> NDArray[Any] | None:
+    names = [f"{layer}.{channel}" for channel in "RGB"]
+    if not all(name in planes for name in names):
+        return None
+    return np.stack([planes[name] for name in names], axis=-1)

@@ -1,0 +1,157 @@
+"""The command `render`: a scene to files, with figures and an exit code for scripts."""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from glrt import signals
+from glrt.arguments import is_automatic
+from glrt.cautions import cautions
+from glrt.doubt import doubt
+from glrt.errors import RenderError
+from glrt.image import check_writable
+from glrt.job import Interruption, Limits, peak_bytes, run, since_start
+from glrt.keeper import Keeper
+from glrt.omissions import left_out, omissions
+from glrt.order import Order, opened, order
+from glrt.renderer import Renderer
+from glrt.streams import fail
+
+Watch = Callable[[Renderer], None]
+
+
+def render(arguments: argparse.Namespace) -> int:
+    """`glrt render`: the exit code says whether the picture is what was asked for."""
+    wanted = order(arguments)
+    for output in arguments.outputs:
+        check_writable(output)
+    for text in [] if arguments.quiet else cautions(wanted.scene, wanted.settings):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    if is_automatic(arguments):
+        from glrt.lab.advice import choose
+
+        chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
+        wanted = Order(wanted.scene, *chosen)
+    with Interruption().watched() as interruption:
+        return _render(arguments, wanted, interruption)
+
+
+def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interruption) -> int:
+    limits = wanted.limits
+    renderer, keeper = opened(wanted, arguments), Keeper(arguments.outputs)
+    begun = renderer.samples
+    setup = since_start() - renderer.compile_seconds
+    start = time.perf_counter()
+    with _watch(arguments, limits, keeper, begun) as watch:
+        try:
+            estimate, understatement = run(renderer, limits, interruption, watch)
+        except RenderError as error:
+            raise RenderError(f"{error} {keeper.advice}".strip()) from error
+    seconds = {
+        "setup": setup,
+        "compile": renderer.compile_seconds,
+        "render": time.perf_counter() - start,
+    }
+    if not renderer.samples:
+        return fail(signals.NOTHING, _signal_code(interruption))
+    keeper.keep(renderer.image())
+    _tell(arguments, renderer, begun, seconds, estimate)
+    if interruption.signal is not None:
+        text = f"interrupted after {renderer.samples} samples, which are saved"
+        return fail(text, _signal_code(interruption))
+    if limits.error is not None and (estimate is None or estimate > limits.error):
+        text = "unknown" if estimate is None else f"{estimate:.3g}"
+        return fail(
+            f"--error {limits.error:g} was not reached: it is {text} after {renderer.samples} "
+            "samples. The picture is saved; give more --samples or --time.",
+            1,
+        )
+    if not arguments.quiet and (caution := doubt(understatement, limits.error)):
+        print(f"glrt: caution: {caution}", file=sys.stderr)
+    return 0
+
+
+def _signal_code(interruption: Interruption) -> int:
+    return signals.INTERRUPTED + (interruption.signal or 0)
+
+
+@contextmanager
+def _watch(
+    arguments: argparse.Namespace, limits: Limits, keeper: Keeper, begun: int
+) -> Iterator[Watch]:
+    """What is called after each dispatch: saves now and then, and shows progress on a terminal."""
+    if arguments.quiet or not sys.stderr.isatty():
+        yield keeper.after
+        return
+    from glrt.progress import progress_bar
+
+    with progress_bar(limits, begun) as show:
+
+        def watch(renderer: Renderer) -> None:
+            show(renderer)
+            keeper.after(renderer)
+
+        yield watch
+
+
+def _tell(
+    arguments: argparse.Namespace,
+    renderer: Renderer,
+    begun: int,
+    seconds: dict[str, float],
+    error: float | None,
+) -> None:
+    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    width, height = renderer.size
+    new = renderer.samples - begun
+    rate = new * width * height / max(seconds["render"], 1e-9)
+    if arguments.json:
+        print(json.dumps(_figures(arguments, renderer, seconds, rate, error)), flush=True)
+    elif not arguments.quiet:
+        known = "" if error is None else f", estimated error {100 * error:.2g} %"
+        names = ", ".join(arguments.outputs)
+        more = f" ({new} of them new)" if begun else ""
+        print(
+            f"Wrote {names}: {width} x {height}, {renderer.samples} samples{more} in "
+            f"{seconds['render']:.1f} s ({rate / 1e6:.2f} million samples/s){known}.",
+            file=sys.stderr,
+        )
+        if dropped := renderer.nonfinite():
+            print(
+                f"{dropped:,} samples were dropped: they were not finite, or longer than the "
+                "driver runs loops. Where they are many the picture is biased: use fewer bounces.",
+                file=sys.stderr,
+            )
+        if missing := omissions(renderer.scene, renderer.settings):
+            print(left_out(renderer.settings, missing), file=sys.stderr)
+
+
+def _figures(
+    arguments: argparse.Namespace,
+    renderer: Renderer,
+    seconds: dict[str, float],
+    rate: float,
+    error: float | None,
+) -> dict[str, Any]:
+    settings = renderer.settings
+    return {
+        "scene": arguments.scene or arguments.resume,
+        "width": settings.width,
+        "height": settings.height,
+        "samples": renderer.samples,
+        "bounces": settings.bounces,
+        "method": settings.method,
+        "seed": settings.seed,
+        "pipeline": renderer.pipeline,
+        "context": renderer.context.route,
+        "renderer": renderer.context.renderer,
+        "seconds": {name: round(value, 6) for name, value in seconds.items()},
+        "samples_per_second": round(rate, 1),
+        "error": error,
+        "nonfinite": renderer.nonfinite(),
+        "peak_bytes": peak_bytes(),
+    }
