@@ -161,7 +161,7 @@ def test_a_frame_in_parts_gives_the_same_bits(context: Context, shape: dict[str,
             return True
 
         renderer.render(3, note)
-        whole = Renderer(everything(), context=context, **{"width": 16, "height": 16, **shape})
+        whole = Renderer(everything(), renderer.settings, context)
         whole.step(3)
         assert len(dispatches) >= 12
         assert dispatches == sorted(dispatches)
