@@ -43,6 +43,18 @@ def write_text(path: Path, text: str) -> None:
     write_whole(path, lambda file: _write_text(file, text))
 
 
+def make_folder(folder: Path, *names: str) -> None:
+    """Make the folder for these files, and try whether they can be written; else `UsageError`."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(
+            f"Cannot make the folder {folder}: {reason(error)}. Choose another with -o."
+        ) from None
+    for name in names:
+        check_writable(folder / name)
+
+
 def read_at_most(path: Path, most: int) -> bytes:
     """What a file holds. Raises OSError for what is no file, or longer than `most` bytes."""
     check_regular(path)

@@ -29,7 +29,8 @@ def chart_scenes(arguments: argparse.Namespace) -> int:
     check_matplotlib()
     plan = _plan(arguments)
     scenes = _scenes(arguments.scenes)
-    folder = _folder(arguments.output)
+    folder = Path(arguments.output)
+    files.make_folder(folder, "chart.md")
     with Interruption().watched() as interruption:
         try:
             with _progress(arguments.quiet) as tell:
@@ -87,16 +88,6 @@ def _scenes(sources: Sequence[str]) -> dict[str, Scene]:
             raise UsageError(f"Two scenes are called {name}: their charts would share a file.")
         scenes[name] = load(source)
     return scenes
-
-
-def _folder(path: str) -> Path:
-    folder = Path(path)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"Cannot make the folder {path}: {files.reason(error)}.") from None
-    files.check_writable(folder / "chart.md")
-    return folder
 
 
 @contextmanager

@@ -61,7 +61,7 @@ def render_gallery(
     `settings` are fields of Settings; the rest is each scene's own. Raises `UsageError` for a
     folder that cannot be written and a bad setting, `SceneError` for a scene that does not exist.
     """
-    _prepare(folder)
+    files.make_folder(folder, "index.html")
     gl = context or open_context()
     pictures = []
     for number, name in enumerate(names, start=1):
@@ -88,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(arguments: argparse.Namespace) -> None:
     names = _known(arguments.only or scene_names())
-    _prepare(arguments.folder)
+    files.make_folder(arguments.folder, "index.html")
     if arguments.sheet:
         check_sheet(arguments.sheet)
     settings = {} if arguments.samples is None else {"samples": arguments.samples}
@@ -106,16 +106,6 @@ def _known(names: Sequence[str]) -> list[str]:
                 f"--only: {unknown('scene', name, scenes, 'Scenes that come with glrt')}"
             )
     return list(dict.fromkeys(names))
-
-
-def _prepare(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(
-            f"Cannot make the folder {folder}: {files.reason(error)}. Choose another with -o."
-        ) from None
-    files.check_writable(folder / "index.html")
 
 
 def _render(folder: Path, name: str, context: Context, settings: dict[str, Any]) -> Picture:

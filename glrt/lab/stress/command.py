@@ -52,15 +52,8 @@ def _prepared(folder: Path | None, cases: Sequence[Case]) -> Path:
     if folder is None:
         raise UsageError("say where to put table and charts: glrt stress -o DIR.")
     check_matplotlib()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(
-            f"Cannot make the folder {folder}: {files.reason(error)}. Choose another with -o."
-        ) from None
     charts = [f"{case.name}.svg" for case in cases]
-    for name in (report.TABLE, report.FIGURES, report.OVERVIEW, *charts):
-        files.check_writable(folder / name)
+    files.make_folder(folder, report.TABLE, report.FIGURES, report.OVERVIEW, *charts)
     return folder
 
 
