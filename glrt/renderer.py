@@ -130,6 +130,7 @@ class Renderer:
             self._upload(most_samples)
             self._film.restart(*self.size, self.settings.block, self.plan.layers)
             if [shader.text for shader in self._shaders] == before_texts:
+                self._schedule.restart(self._tiles, most_samples, after[1].bounces)
                 return Cost.RESTART
             self._kernel.release()
             self._compile()
@@ -241,9 +242,7 @@ class Renderer:
         constants = needs_of(self.plan.scene, self.plan.settings).constants()
         constants |= self.plan.constants()
         self._shaders = sources(self.pipeline, constants, self._parts(arrays))
-        self._tiles = tile_count(*self.size)
-        self.most_samples = most_samples
-        self._schedule = Schedule(self._tiles, most_samples)
+        self._tiles, self.most_samples = tile_count(*self.size), most_samples
 
     def _parts(self, arrays: Arrays) -> dict[str, str]:
         """Texts that stand in for shader files."""
@@ -251,6 +250,7 @@ class Renderer:
 
     def _compile(self) -> None:
         start = time.perf_counter()
+        self._schedule = Schedule(self._tiles, self.most_samples)
         self._kernel = compiled(self.context.gl, self._shaders)
         self._dispatch(Portion(0, 0, 1))  # drivers compile in the first; this one adds nothing
         self.context.gl.finish()

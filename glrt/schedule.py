@@ -105,6 +105,7 @@ class Schedule:
         self._most = most_samples
         self._tried = FIRST_TILES / GROWTH  # the most work so far: samples x tiles
         self._cost = 0.0  # seconds for one tile and sample
+        self._bounces = 0  # of the longest paths that are known
         self.drop()
 
     @property
@@ -115,6 +116,16 @@ class Schedule:
     def drop(self) -> None:
         """Forget the frame that has begun: the next portion starts another."""
         self._samples = self._done = 0
+
+    def restart(self, tiles: int, most_samples: int, bounces: int) -> None:
+        """Another picture by the same kernel: what dispatches took is worth knowing still.
+
+        Unless paths get longer: then it begins carefully.
+        """
+        if bounces > self._bounces:
+            self._tried, self._cost = FIRST_TILES / GROWTH, 0.0
+        self._tiles, self._bounces = tiles, bounces
+        self.limit(most_samples)
 
     def limit(self, most_samples: int) -> None:
         """Begin the frame again: no dispatch may take more samples than these."""

@@ -49,8 +49,8 @@ class Source:
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
         files = _Files(parts or {})
         lines = [Line(line, "prelude") for line in head] + files.expand(entry, "the kernel")
-        structs = _STRUCT.findall("\n".join(line.text for line in lines))
-        self.lines = [Line(_precise(text, structs), origin) for text, origin in lines]
+        texts = _precise("\n".join(line.text for line in lines)).split("\n")
+        self.lines = [Line(text, line.origin) for text, line in zip(texts, lines, strict=True)]
 
     @property
     def text(self) -> str:
@@ -90,11 +90,11 @@ def _text_of(path: Path) -> str:
     return _texts[path]
 
 
-def _precise(line: str, structs: list[str]) -> str:
-    """The line with `precise` before a local that it initialises and before inout parameters."""
-    kinds = "|".join([*_FLOATS, *structs])
-    line = re.sub(rf"^(\s+)({kinds})(\s+\w+\s*=)", r"\1precise \2\3", line)
-    return re.sub(rf"\binout ({kinds})\b", r"precise inout \1", line)
+def _precise(text: str) -> str:
+    """The text with `precise` before initialised float and struct locals, and inout parameters."""
+    kinds = "|".join([*_FLOATS, *_STRUCT.findall(text)])
+    text = re.sub(rf"^([ \t]+)({kinds})([ \t]+\w+[ \t]*=)", r"\1precise \2\3", text, flags=re.M)
+    return re.sub(rf"\binout ({kinds})\b", r"precise inout \1", text)
 
 
 def _declare(constant: tuple[str, bool | int]) -> str:

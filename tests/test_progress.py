@@ -25,6 +25,16 @@ def test_looks_come_with_growing_samples_and_pauses() -> None:
     assert progress.is_due(1, int(100 * GROWTH), 10.0 + PAUSE)
 
 
+def test_a_picture_that_is_done_is_looked_at_once_more() -> None:
+    progress = Progress()
+    assert progress.is_due(1, 100, 10.0)
+    progress.record(seen(100, 1.0, 0.5), 10.0)
+    assert not progress.is_due(1, 101, 20.0)
+    assert progress.is_due(1, 101, 20.0, is_done=True)
+    progress.record(seen(101, 1.0, 0.5), 20.0)
+    assert not progress.is_due(1, 101, 30.0, is_done=True)
+
+
 def test_another_picture_forgets_the_one_before() -> None:
     progress = Progress()
     progress.record(seen(100, 1.0, 0.5), 0.0)

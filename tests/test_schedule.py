@@ -101,6 +101,20 @@ def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
     assert sum(frame[0][0].samples for frame in all_frames) == 100
 
 
+def test_the_next_picture_of_a_kernel_begins_with_what_is_known() -> None:
+    """As a camera that moves wants it: each frame is another picture."""
+    schedule = Schedule(1000, 64)
+    schedule.restart(1000, 64, bounces=5)
+    assert schedule.next_portion(64, 1.0).tiles <= FIRST_TILES
+    while not schedule.record(portion := schedule.next_portion(1, 1.0), 1e-4 * FIRST_TILES):
+        pass
+    tried = portion.tiles
+    schedule.restart(250, 64, bounces=5)
+    assert schedule.next_portion(1, 1.0).tiles == min(250, GROWTH * tried)
+    schedule.restart(250, 64, bounces=6)
+    assert schedule.next_portion(1, 1.0).tiles <= FIRST_TILES, "longer paths: who knows"
+
+
 def test_a_frame_of_more_samples_than_are_left_is_dropped() -> None:
     schedule = Schedule(100_000, 100)
     frames(schedule, device(1e-9), 200)

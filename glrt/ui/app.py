@@ -201,7 +201,7 @@ class App:
         if session.is_preview or not renderer or not session.samples:
             return
         picture = session.restarts, session.weights
-        if self.progress.is_due(picture, session.samples, now):
+        if self.progress.is_due(picture, session.samples, now, session.is_done):
             look = look_at(renderer.film, session.weights, session.rendering)
             self.progress.record(look, now)
             self.show.mean = look.mean if look else self.show.mean

@@ -15,6 +15,8 @@ _TICKS = {  # of the error: an axis of less than a magnitude shows some of them 
     for share in (1, 2, 5)
 }
 
+_EMPTY = (0.1, 100.0, 0.01, 1.0)  # seconds and errors of a plot that has no line yet
+
 
 def draw_figures(app: App) -> None:
     """The content of the window below the picture."""
@@ -101,7 +103,7 @@ def _plot(app: App) -> None:
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
         return
-    fit = implot.AxisFlags_.auto_fit.value
+    fit = implot.AxisFlags_.auto_fit.value if len(looks) > 1 else 0
     implot.setup_legend(implot.Location_.north_east.value)
     implot.setup_axes("seconds of rendering", "error", fit, fit)
     implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
@@ -112,4 +114,6 @@ def _plot(app: App) -> None:
         implot.plot_line("error", seconds, np.array([look.error for look in looks]))
         along, down = app.progress.slope()
         implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
+    else:
+        implot.setup_axes_limits(*_EMPTY, implot.Cond_.always.value)
     implot.end_plot()

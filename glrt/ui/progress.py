@@ -49,14 +49,17 @@ class Progress:
         self._picture: Hashable = None
         self._looked = 0.0
 
-    def is_due(self, picture: Hashable, samples: int, now: float) -> bool:
+    def is_due(self, picture: Hashable, samples: int, now: float, is_done: bool = False) -> bool:
         """Whether to look at the error now; another picture forgets the looks at the one before.
 
-        `picture` tells pictures apart: it changes with each restart, and each change of light.
+        `picture` tells pictures apart: it changes with each restart, and each change of light. One
+        that `is_done` is looked at once more: its error is that of all its samples.
         """
         if picture != self._picture:
             self._picture, self.looks = picture, []
         least = GROWTH * self.looks[-1].samples if self.looks else 2
+        if is_done and self.looks:
+            least = self.looks[-1].samples + 1
         return samples >= least and now - self._looked >= PAUSE
 
     def record(self, look: Look | None, now: float) -> None:
