@@ -35,8 +35,9 @@ gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) glrt.lab.gallery
 
-bench: ## measure how fast the kernel and its variants are, and other renderers
-	@$(BOOTSTRAP) render
+bench: ## measure how fast the kernel, its variants and the window are, and other renderers
+	@$(BOOTSTRAP) test
+	$(IN_ENVIRONMENT) glrt.ui.tour drag
 	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.1
 	$(IN_ENVIRONMENT) glrt.lab.crowds
 	$(IN_ENVIRONMENT) glrt.lab.rivals

@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.context import Choice, open_context
+from glrt.lab.screens import screen
 from glrt.library import load, scene_names
 from glrt.pipelines import Resolved
 from glrt.renderer import Renderer
 from glrt.resources import folder
 from tests.old_driver import OLD_DRIVER
-from tests.screens import screen
 
 ROOT = Path(__file__).parents[1]
 METHODS = sorted((folder("scenes") / "methods").glob("*.toml"))

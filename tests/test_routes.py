@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from glrt.lab.screens import screen
 from tests.images import same_bits
 from tests.packages import needs_package
 from tests.renders import METHODS
-from tests.screens import screen
 
 DRAW = """
 import sys

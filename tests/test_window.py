@@ -17,10 +17,10 @@ from pathlib import Path
 
 import pytest
 
+from glrt.lab.screens import screen
 from tests.old_driver import OLD_DRIVER
 from tests.packages import needs_package
 from tests.processes import glrt
-from tests.screens import screen
 
 ROOT = Path(__file__).parents[1]
 CHECKS = [

@@ -12,7 +12,7 @@ from glrt.ui.progress import Look
 _TICKS = {  # of the error: an axis of less than a magnitude shows some of them too
     share * 10.0**power: f"{share * 10.0 ** (power + 2):g} %"
     for power in range(-5, 3)
-    for share in (1, 2, 5)
+    for share in (1, 2, 3, 5, 7)
 }
 
 _EMPTY = (0.1, 100.0, 0.01, 1.0)  # seconds and errors of a plot that has no line yet

@@ -1,21 +1,27 @@
 """The window, driven by a script: `python -m glrt.ui.tour drag`, or `film FILE.webp`.
 
-`drag` measures frames while the camera turns; `film` makes the README's moving picture. Both want a
-display; without a screen, that of `xvfb-run -a -s "-screen 0 1280x840x24"`.
+`drag` measures frames while the camera turns; `film` makes the README's moving picture. Without a
+display both use an X server without a screen, Xvfb.
 """
 
 import argparse
+import os
+import shutil
+import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt.lab.screens import screen
 from glrt.library import load
 from glrt.scene import Scene, with_lights
 from glrt.settings import settings_for
+from glrt.ui.preferences import Preferences
 
 DRAG = 60  # frames
 WARM = 30  # frames before them, in which kernels are compiled and times learnt
@@ -34,34 +40,57 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
     parser.add_argument("--scene", default="cornell", help="what is shown (default: cornell)")
     parsed = parser.parse_args(arguments)
-    if parsed.task == "drag":
-        print(told(measure_drag(parsed.scene)))
-    else:
-        make_film(parsed.file)
+    has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
+    if not has_display and not shutil.which("Xvfb"):
+        print("glrt: without a display the window's figures need Xvfb", file=sys.stderr)
+        return 3
+    with nullcontext() if has_display else screen("1280x840") as name:
+        os.environ.update({"DISPLAY": name} if name else {})
+        if parsed.task == "drag":
+            print("\n".join(told(*measure_drag(parsed.scene))))
+        else:
+            make_film(parsed.file)
     return 0
 
 
-def measure_drag(scene: str, width: int = 640, height: int = 480) -> list[float]:
-    """Seconds of each frame of a camera drag."""
-    seconds: list[float] = []
+class Frame(NamedTuple):
+    """A frame of a camera drag."""
+
+    seconds: float
+    size: tuple[int, int]  # pixels of the picture meanwhile
+    samples: float  # of each of them
+
+
+def measure_drag(scene: str, width: int = 640, height: int = 480) -> tuple[str, list[Frame]]:
+    """The frames of a camera drag, and what drew them."""
+    frames: list[Frame] = []
+    drawn_by: list[str] = []
 
     def script(window: Any) -> Script:
         for _ in range(WARM):
             yield
+        renderer = window.app.session.renderer
         for _ in range(DRAG):
             start = time.perf_counter()
             window.app.turn(STEP, 0.0, about_camera=False)
             yield
-            seconds.append(time.perf_counter() - start)
+            frames.append(Frame(time.perf_counter() - start, renderer.size, renderer.work))
+        drawn_by.append(renderer.context.renderer)
 
     play(load(scene), script, width=width, height=height)
-    return seconds
+    return f"{scene}, {width} x {height}, {drawn_by[0]}", frames
 
 
-def told(seconds: list[float]) -> str:
-    """Percentiles in milliseconds."""
-    parts = [f"p{share} {1e3 * np.percentile(seconds, share):.0f} ms" for share in SHARES]
-    return f"{len(seconds)} frames of a camera drag: {', '.join(parts)}"
+def told(place: str, frames: list[Frame]) -> Iterator[str]:
+    """A table in Markdown."""
+    seconds = [frame.seconds for frame in frames]
+    shares = [f"{1e3 * np.percentile(seconds, share):.0f} ms" for share in SHARES]
+    width, height = sorted(frame.size for frame in frames)[len(frames) // 2]
+    samples = sum(frame.samples for frame in frames) / len(frames)
+    yield f"| camera drag of {len(frames)} frames | p50 | p95 | p99 | meanwhile |"
+    yield "|---|---|---|---|---|"
+    cells = [place, *shares, f"{width} x {height} pixels, {samples:.1f} samples a frame"]
+    yield f"| {' | '.join(cells)} |"
 
 
 def make_film(file: Path) -> None:
@@ -109,7 +138,12 @@ def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None
 
     window = Window(scene.title or "", scene, settings_for(scene.render, **settings))
     window.params.ini_disable = True
-    running = script(window)
+
+    def acted() -> Script:
+        window.app.preferences = Preferences()  # whatever the user prefers
+        yield from script(window)
+
+    running = acted()
 
     def go_on() -> None:
         if next(running, "end") == "end":
