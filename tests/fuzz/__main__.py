@@ -21,7 +21,7 @@ def main() -> None:
         table = kinds(Path(folder), context)
         for name, (inputs, check) in table.items():
             start = time.perf_counter()
-            ends = hunt(inputs, check, chosen.count // len(table), chosen.seed)
+            ends = hunt(inputs, check, -(-chosen.count // len(table)), chosen.seed)
             told = ", ".join(f"{count} {end}" for end, count in sorted(ends.items()))
             peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
             seconds = time.perf_counter() - start

@@ -45,11 +45,14 @@ def broken(draw: st.DrawFn, content: bytes) -> bytes:
 
 
 def check_picture(content: bytes, whole: Path) -> bool:
-    """Read as a recipe and as an image, or refused with one paragraph; whether both were read."""
+    """Read as a recipe and as an image, or refused with one paragraph; whether all was read.
+
+    A PNG file has no radiance to be read as an image: it is always refused as one.
+    """
     path = whole.with_stem("chance")
     path.write_bytes(content)
-    are_read = [_is_read(reader, path) for reader in (load_recipe, Image.load)]
-    return all(are_read)
+    has_recipe, is_image = (_is_read(reader, path) for reader in (load_recipe, Image.load))
+    return has_recipe and (is_image or path.suffix == ".png")
 
 
 def check_recipe(text: bytes) -> bool:
