@@ -35,6 +35,8 @@ ON_OLD_DRIVERS = (
     "a_picture_is_saved_with_its_recipe_and_opened_again",
     "a_kept_picture_is_compared_by_a_wipe",
     "a_compilation_is_announced_while_the_old_picture_stays",
+    "an_object_is_edited_in_the_panel",
+    "views_cost_no_sample_and_have_a_legend",
 )
 
 
