@@ -1,5 +1,6 @@
 """What has been gathered: running mean and variance of each pixel, in ping-pong textures."""
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import moderngl
@@ -9,6 +10,7 @@ from glrt.errors import RenderError, UsageError
 from glrt.gathered import Gathered
 
 Array = np.ndarray[Any, np.dtype[np.float32]]
+BAND_PIXELS = 1 << 19  # read at a time: 8 MiB of a texture
 
 
 class Exposure(NamedTuple):
@@ -22,10 +24,8 @@ class Exposure(NamedTuple):
     share: Array  # (H, W): of all finite samples, those in `part`
     layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
 
-    def gathered(self, samples: int) -> Gathered | None:
-        """All but the mean, with so many samples a pixel; None if that is not all: for layers."""
-        if self.layers.size:
-            return None
+    def gathered(self, samples: int) -> Gathered:
+        """All but mean and layers, with so many samples a pixel."""
         begun = np.rint(self.share * (samples - self.dropped))
         return Gathered(self.variance, self.dropped, self.observations, self.part, begun)
 
@@ -86,14 +86,26 @@ class Film:
         """The layers so far, side by side: over one half of the observations, below the other."""
         return self._pairs[0].get("layers")
 
-    def read(self) -> Exposure:
-        """Copy the film into memory."""
+    def read(self, rows: slice = slice(None)) -> Exposure:
+        """Copy the film, or some of its rows, into memory."""
         if not self.samples:
             raise RenderError("the film is empty: render a sample first")
-        mean, variance = (self._read(self._pairs[0][name]) for name in ("mean", "variance"))
-        whole = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3]
-        begun = self._read_begun(self.samples - mean[..., 3])
-        return Exposure(*(part.copy() for part in (*whole, *begun, self._read_layers())))
+        first, end, _ = rows.indices(self.size[1])
+        textures = self._pairs[0]
+        mean, variance = (self._read(textures[n], first, end) for n in ("mean", "variance"))
+        begun = self._read_begun(self.samples - mean[..., 3], first, end)
+        parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3], *begun
+        copies = (part.copy() for part in (*parts, self._read_layers(first, end)))
+        return Exposure(*copies)
+
+    def dropped(self) -> int:
+        """How many samples were not finite, of all pixels."""
+        return sum(int(self.read(rows).dropped.sum()) for rows in self.bands())
+
+    def bands(self) -> Iterator[slice]:
+        """The rows of the film, some at a time: to work on them takes little memory."""
+        rows = max(1, BAND_PIXELS // self.size[0])
+        return (slice(first, first + rows) for first in range(0, self.size[1], rows))
 
     def write(self, samples: int, mean: Array, gathered: Gathered) -> None:
         """Take up what another film has read: so many samples of each pixel.
@@ -137,21 +149,27 @@ class Film:
             raise RenderError(f"{problem} ({state})")
         return texture
 
-    def _read_begun(self, finite: Array) -> tuple[Array, Array]:
+    def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
         """The observation that has begun: its mean, and its share of so many finite samples."""
         if self.samples % self.block == 0:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
-        begun = self._read(self._pairs[0]["block"])
+        begun = self._read(self._pairs[0]["block"], first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
-    def _read_layers(self) -> Array:
+    def _read_layers(self, first: int, end: int) -> Array:
         (width, height), count = self.size, self.layer_count
-        whole = np.frombuffer(self.layers.read() if self.layers else b"", np.float32)
-        return whole.reshape(2, height, count, width, 4).swapaxes(1, 2)
+        if not self.layers:
+            return np.zeros((2, 0, end - first, width, 4), np.float32)
+        halves = [self._read(self.layers, up + first, up + end) for up in (0, height)]
+        return np.stack(halves).reshape(2, end - first, count, width, 4).swapaxes(1, 2)
 
-    def _read(self, texture: moderngl.Texture) -> Array:
-        width, height = self.size
-        return np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
+    def _read(self, texture: moderngl.Texture, first: int, end: int) -> Array:
+        """Rows of a texture, (rows, width, 4): by a framebuffer, of which a part can be read."""
+        rows = self._gl.framebuffer([texture])
+        part = (0, first, texture.width, end - first)
+        data = rows.read(part, components=4, alignment=1, dtype="f4")
+        rows.release()
+        return np.frombuffer(data, np.float32).reshape(end - first, texture.width, 4)
 
 
 def standard_error(film: Exposure) -> Array:

@@ -28,15 +28,31 @@ class Gathered(NamedTuple):
     begun: Array  # how many those are
 
 
+def nothing_gathered(height: int, width: int) -> Gathered:
+    """Zeros, which take no memory before they are written over."""
+    pixels, colors = (height, width), (height, width, 3)
+    shapes = colors, pixels, pixels, colors, pixels
+    return Gathered(*(np.zeros(shape, np.float32) for shape in shapes))
+
+
+def keep(film: Gathered, rows: slice, part: Gathered) -> None:
+    """Put some rows in their place; zeros are left, so that what is rare takes little memory."""
+    for array, band in zip(film, part, strict=True):
+        if band.any():
+            array[rows] = band
+
+
 def to_channels(film: Gathered, stderr: Array, samples: int, block: int) -> Channels:
     """Channels that `from_channels` reads back; `block` are the samples of an observation.
 
     Arrays (H, W, 3) and (H, W), in float32 and uint32.
     """
     is_whole = samples % block == 0
-    near = _variance(stderr, film.observations, is_whole)
-    units = film.variance.view(np.int32) - near.view(np.int32)
-    folded = (units << 1) ^ (units >> 31)  # 0, -1, 1, -2 as 0, 1, 2, 3: most bits are 0
+    folded = np.empty(stderr.shape, np.int32)
+    for row, kept in enumerate(folded):
+        near = _variance(stderr[row], film.observations[row], is_whole)
+        units = film.variance[row].view(np.int32) - near.view(np.int32)
+        kept[:] = (units << 1) ^ (units >> 31)  # 0, -1, 1, -2 as 0, 1, 2, 3: most bits are 0
     channels: Channels = {VARIANCE: folded.view(np.uint32)}
     counts = {DROPPED: film.dropped, MISSING: samples // block - film.observations}
     channels |= {name: c.astype(np.uint32) for name, c in counts.items() if c.any()}

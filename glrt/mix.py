@@ -4,6 +4,7 @@ import moderngl
 import numpy as np
 
 from glrt.film import Array, Exposure, Film, standard_error
+from glrt.gathered import Gathered, keep, nothing_gathered
 from glrt.kernel import drawing
 from glrt.relight import MOST_LAYERS, NONE, Weights, are_trivial
 from glrt.shader import Source
@@ -11,8 +12,25 @@ from glrt.shader import Source
 _VERSION = "410 core"
 
 
-def mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
+def mixed(film: Film, weights: Weights) -> tuple[Array, Array, Gathered | None]:
     """Radiance and its standard error, (H, W, 3) float32 each, of a film under weights.
+
+    And what the film has gathered beside them: None if they do not tell its mean, or not alone.
+    """
+    width, height = film.size
+    radiance, error = np.empty((2, height, width, 3), np.float32)
+    is_all = are_trivial(weights) and not film.layer_count
+    gathered = nothing_gathered(height, width) if is_all else None
+    for rows in film.bands():
+        exposure = film.read(rows)
+        radiance[rows], error[rows] = _mixed(exposure, weights)
+        if gathered:
+            keep(gathered, rows, exposure.gathered(film.samples))
+    return radiance, error, gathered
+
+
+def _mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
+    """The same of some rows.
 
     Errors of layers are correlated. So the error of a sum is taken from the sums over two halves
     of the observations, a and b: |a - b| sqrt(n_a n_b) / n. A pixel's is rough, of one degree of

@@ -177,11 +177,10 @@ class Renderer:
 
     def image(self, weights: Weights | None = None) -> Image:
         """The picture so far, with its standard error and its recipe; `weights` show it so."""
-        with self.context.gl:
-            film = self._film.read()
         weights = weights or self.plan.weights
-        gathered = film.gathered(self.samples) if are_trivial(weights) else None
-        return Image(*mixed(film, weights), self.samples, self._recipe(weights), gathered)
+        with self.context.gl:
+            radiance, stderr, gathered = mixed(self._film, weights)
+        return Image(radiance, stderr, self.samples, self._recipe(weights), gathered)
 
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
@@ -199,7 +198,7 @@ class Renderer:
     def nonfinite(self) -> int:
         """How many samples were dropped because they were not finite."""
         with self.context.gl:
-            return int(self._film.read().dropped.sum())
+            return self._film.dropped()
 
     def release(self) -> None:
         """Free what the driver holds, the context too unless it was given."""

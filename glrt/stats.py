@@ -4,12 +4,14 @@ An estimate is a pixel's mean with the standard error of that mean; all sums are
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+BAND = 1 << 20  # values in work at a time: copies in float64 stay small beside the image
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
 TWO_SIDED_95 = 1.959964  # standard deviations about the mean within which 95 % lie
 
@@ -21,8 +23,8 @@ def relative_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
     None where `stderr` holds NaN: there are fewer than two observations. A black image without
     noise has error 0.
     """
-    ratio = _relative_variance(radiance, stderr)
-    return None if ratio is None else math.sqrt(ratio.mean())
+    total = sum(float(ratio.sum()) for ratio in _relative_variances(radiance, stderr))
+    return None if math.isnan(total) else math.sqrt(total / np.size(radiance))
 
 
 class Band(NamedTuple):
@@ -40,11 +42,11 @@ def error_band(radiance: ArrayLike, stderr: ArrayLike) -> Band | None:
     the standard error s of the error's logarithm is half that of the mean, over the mean, and the
     band is error * exp(+-1.96 s). Light that no sample has met is in no estimate, nor in the band.
     """
-    ratio = _relative_variance(radiance, stderr)
-    if ratio is None:
-        return None
-    pixels = ratio.mean(axis=-1)
+    parts = _relative_variances(radiance, stderr)
+    pixels = np.concatenate([ratio.mean(axis=-1) for ratio in parts])
     mean = float(pixels.mean())
+    if math.isnan(mean):
+        return None
     if mean in (0.0, math.inf) or pixels.size < 2:
         return Band(math.sqrt(mean), math.sqrt(mean), math.sqrt(mean))
     spread = float(pixels.std(ddof=1)) / math.sqrt(pixels.size) / mean / 2
@@ -52,16 +54,17 @@ def error_band(radiance: ArrayLike, stderr: ArrayLike) -> Band | None:
     return Band(math.sqrt(mean), math.sqrt(mean) / factor, math.sqrt(mean) * factor)
 
 
-def _relative_variance(radiance: ArrayLike, stderr: ArrayLike) -> NDArray[np.float64] | None:
-    """stderr^2 / (radiance^2 + 0.01 * mean(radiance)^2), in the arrays' shape; None for NaN."""
-    variance = np.square(np.asarray(stderr, np.float64))
-    if np.isnan(variance).any():
-        return None
-    value = np.asarray(radiance, np.float64)
-    scale = np.square(value) + DARK * value.mean() ** 2
-    ratio = np.where(variance > 0, np.inf, 0.0)
-    np.divide(variance, scale, out=ratio, where=scale > 0)
-    return ratio
+def _relative_variances(radiance: ArrayLike, stderr: ArrayLike) -> Iterator[NDArray[np.float64]]:
+    """stderr^2 / (radiance^2 + 0.01 * mean(radiance)^2), some rows at a time; NaN stays."""
+    values, errors = np.atleast_1d(radiance), np.atleast_1d(stderr)
+    rows = max(1, BAND * len(values) // max(1, values.size))
+    parts = [slice(first, first + rows) for first in range(0, len(values), rows)]
+    dark = DARK * (sum(values[p].sum(dtype=np.float64) for p in parts) / values.size) ** 2
+    for part in parts:
+        variance = np.square(errors[part], dtype=np.float64)
+        scale = np.square(values[part], dtype=np.float64) + dark
+        ratio = np.where(variance > 0, np.inf, variance)
+        yield np.divide(variance, scale, out=ratio, where=scale > 0)
 
 
 def p_value(z: float) -> float:

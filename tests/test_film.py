@@ -1,5 +1,6 @@
 """The film: means that keep their digits, samples that are dropped, textures that change places."""
 
+import tracemalloc
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -8,9 +9,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from glrt.context import Context
 from glrt.errors import RenderError
 from glrt.film import Exposure, Film, standard_error
 from glrt.kernel import Kernel
+from glrt.library import load
 from glrt.needs import needs_of
 from glrt.pack import pack_frame, pack_scene
 from glrt.settings import settings_for
@@ -18,6 +21,7 @@ from glrt.shader import Source
 from tests.builders import lamp, scene_of, sphere
 from tests.conftest import CallGlsl
 from tests.numerics import Array
+from tests.renders import rendering
 from tests.test_rng import drawn
 from tests.wgsl.seeds import pcg
 
@@ -274,6 +278,33 @@ def test_row_0_is_the_top_of_the_picture(film: Film, step: Step) -> None:
     assert film.read().mean.shape == (HEIGHT, WIDTH, 3)
     assert rows.mean() < (HEIGHT - 1) / 2  # the ball lies above the middle, to the right
     assert columns.mean() > (WIDTH - 1) / 2
+
+
+def test_rows_of_a_film_are_those_of_the_whole(film: Film, step: Step) -> None:
+    step(film, 3)
+    whole = film.read()
+    for rows in (slice(0, 1), slice(2, HEIGHT), slice(None, 3), slice(HEIGHT - 1, HEIGHT + 9)):
+        part = film.read(rows)
+        for name in ("mean", "variance", "dropped", "observations", "part", "share"):
+            assert np.array_equal(getattr(part, name), getattr(whole, name)[rows])
+
+
+def test_reading_a_picture_takes_little_memory_beside_it(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What numpy and moderngl hold at most, as Python counts it."""
+    monkeypatch.setattr("glrt.film.BAND_PIXELS", 1 << 12)
+    monkeypatch.setattr("glrt.stats.BAND", 1 << 12)
+    with rendering(load("sky"), context, width=512, height=256) as renderer:
+        renderer.render(32)
+        tracemalloc.start()
+        image = renderer.image()
+        error = image.error
+        held, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    assert error
+    assert held >= image.radiance.nbytes + image.stderr.nbytes
+    assert peak < 1.3 * (image.radiance.nbytes + image.stderr.nbytes)
 
 
 def test_an_empty_film_can_not_be_read(film: Film, step: Step) -> None:

@@ -186,6 +186,20 @@ def fresh_mean(scene: Scene, context: Context) -> float:
         return float(radiance(renderer.render(16)).mean())
 
 
+@pytest.mark.parametrize("layering", ["none", "groups"])
+def test_a_picture_read_by_bands_is_that_read_at_once(
+    context: Context, monkeypatch: pytest.MonkeyPatch, layering: Layering
+) -> None:
+    with layered(room(2), context, layering) as renderer:
+        renderer.render(33)
+        renderer.update(room(2, warm=0.2) if layering == "groups" else None)
+        at_once = renderer.image()
+        monkeypatch.setattr("glrt.film.BAND_PIXELS", 7 * renderer.size[0])
+        by_bands = renderer.image()
+    assert by_bands.radiance.tobytes() == at_once.radiance.tobytes()
+    assert by_bands.stderr.tobytes() == at_once.stderr.tobytes()
+
+
 def test_layers_sum_up_to_the_picture(context: Context) -> None:
     with layered(room(2, 0.5), context) as renderer:
         renderer.render(32)

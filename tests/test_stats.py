@@ -49,6 +49,18 @@ def test_one_nan_in_stderr_means_that_there_is_no_error_yet() -> None:
     assert relative_error(np.ones(SHAPE), stderr) is None
 
 
+def test_the_error_does_not_depend_on_how_much_is_in_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(1)
+    radiance, stderr = rng.uniform(0, 2, (2, 37, 5, 3)).astype(np.float32)
+    whole = relative_error(radiance, stderr), error_band(radiance, stderr)
+    monkeypatch.setattr("glrt.stats.BAND", 100)  # 6 rows
+    assert relative_error(radiance, stderr) == pytest.approx(whole[0], rel=1e-12)
+    assert error_band(radiance, stderr) == pytest.approx(whole[1], rel=1e-12)
+    stderr[-1, -1, -1] = np.nan
+    assert relative_error(radiance, stderr) is None
+    assert error_band(radiance, stderr) is None
+
+
 def test_a_black_image_without_noise_has_error_zero() -> None:
     assert relative_error(np.zeros(SHAPE), np.zeros(SHAPE)) == 0.0
 

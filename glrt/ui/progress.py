@@ -31,13 +31,12 @@ class Look(NamedTuple):
 
 def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
     """Read a film as its light is weighed; None for one that knows no error yet."""
-    exposure = film.read()
-    radiance, stderr = mixed(exposure, weights)
+    radiance, stderr, _ = mixed(film, weights)
     band = error_band(radiance, stderr)
     if band is None:
         return None
     mean = float(radiance.mean(dtype=np.float64))
-    return Look(film.samples, seconds, band, mean, int(exposure.dropped.sum()))
+    return Look(film.samples, seconds, band, mean, film.dropped())
 
 
 class Progress:
