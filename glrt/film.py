@@ -10,7 +10,7 @@ from glrt.errors import RenderError, UsageError
 from glrt.gathered import Gathered
 
 Array = np.ndarray[Any, np.dtype[np.float32]]
-BAND_PIXELS = 1 << 19  # read at a time: 8 MiB of a texture
+BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
 
 
 class Exposure(NamedTuple):

@@ -49,11 +49,11 @@ sys.exit(os.waitstatus_to_exitcode(status) != 0)
 """
 
 
-def start_of(program: Sequence[str]) -> Start | None:
+def start_of(program: Sequence[str], work: Sequence[str] = WORK) -> Start | None:
     """Run it to its end; None if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder, "first.exr")
-        command = [sys.executable, "-S", "-c", LAUNCH, *program, *WORK, "-o", str(output)]
+        command = [sys.executable, "-S", "-c", LAUNCH, *program, *work, "-o", str(output)]
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode or not output.exists():
             return None
