@@ -2,9 +2,11 @@
 
 from typing import Any
 
+from glrt.garbage import leave_imports_alone
 from glrt.signals import leave_at_once_while_loading
 
 leave_at_once_while_loading()
+leave_imports_alone()
 
 from glrt.compare import compare
 from glrt.comparison import Comparison

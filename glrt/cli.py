@@ -5,7 +5,7 @@ import json
 import sys
 from collections.abc import Callable
 
-from glrt import signals, streams
+from glrt import garbage, signals, streams
 from glrt.arguments import make_parser, settings_given
 from glrt.errors import GlrtError, RenderError
 from glrt.files import reason
@@ -20,6 +20,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns its exit code. `arguments` are those of the process by default."""
     streams.open_missing()
     signals.loaded()
+    garbage.loaded()
     try:
         with signals.handled(signals.interrupt):
             code = _run(arguments)

@@ -88,8 +88,7 @@ class Film:
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film, or some of its rows, into memory."""
-        if not self.samples:
-            raise RenderError("the film is empty: render a sample first")
+        self._check_exposed()
         first, end, _ = rows.indices(self.size[1])
         textures = self._pairs[0]
         mean, variance = (self._read(textures[n], first, end) for n in ("mean", "variance"))
@@ -100,7 +99,9 @@ class Film:
 
     def dropped(self) -> int:
         """How many samples were not finite, of all pixels."""
-        return sum(int(self.read(rows).dropped.sum()) for rows in self.bands())
+        self._check_exposed()
+        ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
+        return sum(int(self._read(self.mean, *rows)[..., 3].sum()) for rows in ends)
 
     def bands(self) -> Iterator[slice]:
         """The rows of the film, some at a time: to work on them takes little memory."""
@@ -148,6 +149,10 @@ class Film:
         if (state := self._gl.error) != "GL_NO_ERROR":
             raise RenderError(f"{problem} ({state})")
         return texture
+
+    def _check_exposed(self) -> None:
+        if not self.samples:
+            raise RenderError("the film is empty: render a sample first")
 
     def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
         """The observation that has begun: its mean, and its share of so many finite samples."""

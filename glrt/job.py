@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from glrt.doubt import understatement
-from glrt.image import Pixels
+from glrt.image import Image, Pixels
 from glrt.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
 from glrt.signals import handled
@@ -32,9 +32,9 @@ class Limits:
 
 
 class Ending(NamedTuple):
-    """What is known of the error at the end of a render."""
+    """The picture at the end of a render, and what else is known of its error."""
 
-    error: float | None  # as estimated; None below two observations
+    image: Image | None  # None if there is no sample
     understatement: float | None = None  # of an error that was judged reached: see glrt/doubt.py
 
 
@@ -88,9 +88,9 @@ def run(
             image = renderer.image()
             is_judged = look >= limits.first_look or look == limits.samples
             if is_judged and _is_reached(image.error, limits.error):
-                return Ending(image.error, understatement(*part, image) if part else None)
+                return Ending(image, understatement(*part, image) if part else None)
             part = image.radiance, image.samples
-    return Ending(renderer.image().error if renderer.samples else None)
+    return Ending(renderer.image() if renderer.samples else None)
 
 
 def _looks(limits: Limits) -> Iterator[int]:

@@ -48,7 +48,7 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
     start = time.perf_counter()
     with _watch(arguments, limits, keeper, begun) as watch:
         try:
-            estimate, understatement = run(renderer, limits, interruption, watch)
+            image, understatement = run(renderer, limits, interruption, watch)
         except RenderError as error:
             raise RenderError(f"{error} {keeper.advice}".strip()) from error
     seconds = {
@@ -56,9 +56,10 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
         "compile": renderer.compile_seconds,
         "render": time.perf_counter() - start,
     }
-    if not renderer.samples:
+    if image is None:
         return fail(signals.NOTHING, _signal_code(interruption))
-    keeper.keep(renderer.image())
+    estimate = image.error
+    keeper.keep(image)
     _tell(arguments, renderer, begun, seconds, estimate)
     if interruption.signal is not None:
         text = f"interrupted after {renderer.samples} samples, which are saved"

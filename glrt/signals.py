@@ -48,12 +48,17 @@ def interrupt(number: int, _frame: FrameType | None) -> NoReturn:
     raise Interrupted(number)
 
 
+def is_command() -> bool:
+    """Whether this process is the command `glrt`, not a program that imports it."""
+    return any(Path(word).stem == "glrt" for word in sys.orig_argv[1:3])
+
+
 def leave_at_once_while_loading() -> None:
     """Where the process is the command: no traceback from an import that Ctrl-C meets.
 
     Imports take most of the first half second. Nothing is open yet that must be closed.
     """
-    if any(Path(word).stem == "glrt" for word in sys.orig_argv[1:3]):
+    if is_command():
         for number in _WATCHED:
             if signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, _leave)

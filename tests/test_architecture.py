@@ -18,6 +18,7 @@ ORDER = [
         "version",
         "errors",
         "signals",
+        "garbage",
         "streams",
         "resources",
         "files",

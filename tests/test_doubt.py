@@ -97,8 +97,9 @@ def test_a_caustic_is_doubted_and_a_matte_ball_is_not(context: Context, sampler:
     """Both are judged at 64 samples: half of them must have been looked at before."""
     caustic = ended(CASES["caustic"].scene, context, 0.2, sampler=sampler)
     matte = ended(MATTE, context, 0.2, sampler=sampler)
-    assert caustic.error is not None
-    assert caustic.error < 0.2
+    assert caustic.image
+    assert caustic.image.error
+    assert caustic.image.error < 0.2
     assert caustic.understatement is not None
     assert caustic.understatement > DOUBTFUL
     assert matte.understatement is not None
@@ -109,7 +110,8 @@ def test_an_error_that_was_not_reached_is_not_doubted(context: Context) -> None:
     size = {"width": 8, "height": 8}
     with rendering(MATTE, context, **size) as renderer:
         ending = run(renderer, Limits(64, error=1e-6), Interruption())
-    assert ending.error is not None
+    assert ending.image
+    assert ending.image.error
     assert ending.understatement is None
 
 

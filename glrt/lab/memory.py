@@ -1,7 +1,7 @@
 """How much memory a picture takes, and what accounts for it: whole processes, one after the other.
 
 `cornell` at 1 sample a pixel, saved as EXR. What a picture of 8 x 8 pixels takes is the interpreter
-and the driver; a film has all its textures twice; a picture is radiance and standard error.
+and the driver; a film has all its textures twice; a picture is what a render can go on from.
 """
 
 import argparse
@@ -18,7 +18,8 @@ from glrt.version import VERSION
 
 SMALL = 8  # pixels a side
 TEXEL = 16  # bytes of RGBA32F
-PICTURE = 24  # bytes a pixel: two times three floats
+PICTURE = 40  # bytes a pixel: radiance, standard error, variance, observations
+BEGUN = 16  # of an observation that has begun, as with one of Sobol's points: its mean and samples
 
 
 class Row(NamedTuple):
@@ -43,7 +44,8 @@ def measure(size: int, sampler: Sampler) -> Row:
     small, large = (_start(pixels, sampler) for pixels in (SMALL, size))
     block = settings_for(load("cornell").render, sampler=sampler).block
     textures = 2 * (2 if block == 1 else 3)  # twice: mean, variance, the block that has begun
-    film, picture = textures * TEXEL * size**2, PICTURE * size**2
+    film = textures * TEXEL * size**2
+    picture = (PICTURE + (BEGUN if block > 1 else 0)) * size**2
     return Row(size, sampler, large[0], large[1], small[1], film, picture)
 
 

@@ -4,6 +4,7 @@
 the first turn, which fills the caches of drivers, is not counted.
 """
 
+import os
 import statistics
 import subprocess
 import sys
@@ -54,10 +55,15 @@ def start_of(program: Sequence[str], work: Sequence[str] = WORK) -> Start | None
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder, "first.exr")
         command = [sys.executable, "-S", "-c", LAUNCH, *program, *work, "-o", str(output)]
-        done = subprocess.run(command, capture_output=True, text=True)
+        done = subprocess.run(command, env=_environment(), capture_output=True, text=True)
         if done.returncode or not output.exists():
             return None
     return Start(*map(float, done.stdout.split()))
+
+
+def _environment() -> dict[str, str]:
+    """That of this process, but Python may keep what it compiles, as where glrt is installed."""
+    return {name: v for name, v in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
 
 def table(found: Mapping[str, Start]) -> Iterator[str]:
