@@ -41,6 +41,7 @@ bench: ## measure how fast the kernel, its variants and the window are, and othe
 	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.1
 	$(IN_ENVIRONMENT) glrt.lab.crowds
 	$(IN_ENVIRONMENT) glrt.lab.memory
+	$(IN_ENVIRONMENT) glrt.lab.roofline
 	$(IN_ENVIRONMENT) glrt.lab.rivals
 	$(IN_ENVIRONMENT) glrt.lab.efficiency
 

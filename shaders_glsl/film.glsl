@@ -55,7 +55,7 @@ void add_sample(inout Pixel pixel, vec3 x, int index) {
     if (is_finite(x)) {
         pixel.mean = next_mean(pixel.mean, x, float(index + 1) - pixel.dropped);
         pixel.begun += 1.0;
-        pixel.block = next_mean(pixel.block, x, pixel.begun);
+        pixel.block = BLOCK > 1 ? next_mean(pixel.block, x, pixel.begun) : x;
     } else {
         pixel.dropped += 1.0;
     }
