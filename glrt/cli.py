@@ -15,6 +15,8 @@ from glrt.scene import Scene
 from glrt.signals import INTERRUPTED
 from glrt.streams import fail
 
+SMALLER = "A smaller picture, or a --crop, needs less."
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns its exit code. `arguments` are those of the process by default."""
@@ -33,7 +35,9 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         streams.silence(sys.stdout)
         return 0
-    except (OSError, MemoryError) as error:
+    except MemoryError as error:
+        return fail(f"out of memory: {reason(error)}. {SMALLER}", RenderError.exit_code)
+    except OSError as error:
         streams.settle(sys.stdout)
         return fail(f"{_what_failed(error)}: {reason(error)}", RenderError.exit_code)
 
@@ -56,7 +60,7 @@ def _run(arguments: list[str] | None) -> int:
     return commands[parsed.command](parsed)
 
 
-def _what_failed(error: OSError | MemoryError) -> str:
+def _what_failed(error: OSError) -> str:
     name = getattr(error, "filename", None)
     return f"the command failed at {name}" if name else "the command failed"
 

@@ -7,18 +7,24 @@ The hidden window is what Windows, macOS and an X server offer.
 import ctypes
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import moderngl
 
-from glrt.errors import ContextError
+from glrt.errors import ContextError, RenderError
 
 Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]
 ROUTES = ("egl", "window", "osmesa")  # in this order: the last is never hardware
 COMPUTE, FRAGMENT = 430, 410  # the versions of OpenGL that the two pipelines need
+_RESETS = {  # values of glGetGraphicsResetStatus: whose fault it was
+    0x8253: "over this render",
+    0x8254: "over another program's work",
+    0x8255: "for a reason of its own",
+}
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi")
 _OSMESA_LIBRARIES = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
 ADVICE = (
@@ -53,6 +59,25 @@ class Context:
     def is_software(self) -> bool:
         """Whether the processor draws."""
         return any(word in self.renderer.lower() for word in _SOFTWARE)
+
+    def finish(self) -> None:
+        """Wait until the driver has done all work. RenderError if it lost this context over it."""
+        self.gl.finish()
+        if (status := self._reset_status()) in _RESETS:
+            raise RenderError(
+                f"the driver reset the graphics device {_RESETS[status]}: all that it held is "
+                "gone. Another program may have crashed it, or a dispatch took too long; then a "
+                "smaller picture, or a --crop, may do."
+            )
+
+    @cached_property
+    def _reset_status(self) -> Callable[[], int]:
+        """glGetGraphicsResetStatus; where a driver does not have it, all is taken to be well."""
+        if self.gl.version_code < 450 and "GL_KHR_robustness" not in self.gl.extensions:
+            return lambda: 0
+        loader = self.gl.mglo._context  # moderngl has no method for it
+        address = loader.load_opengl_function("glGetGraphicsResetStatus")
+        return ctypes.CFUNCTYPE(ctypes.c_uint)(address) if address else lambda: 0
 
 
 def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Context:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from glrt.errors import RenderError
+from glrt.files import reason
 from glrt.image import Image
 from glrt.renderer import Renderer
 from glrt.streams import tell
@@ -30,7 +31,10 @@ class Keeper:
         start = self._clock()
         if start < self._due or renderer.samples <= self.kept:
             return
-        failures = self._save(renderer.image())
+        try:
+            failures = self._save(renderer.image())
+        except MemoryError as error:
+            failures = [f"No memory to save the picture: {reason(error)}."]
         if failures:
             tell(f"glrt: {failures[0]} The render goes on, and is saved again in the end.")
         else:

@@ -252,7 +252,7 @@ class Renderer:
         self._schedule = Schedule(self._tiles, self.most_samples)
         self._kernel = compiled(self.context.gl, self._shaders)
         self._dispatch(Portion(0, 0, 1))  # drivers compile in the first; this one adds nothing
-        self.context.gl.finish()
+        self.context.finish()
         self.compile_seconds = time.perf_counter() - start
         self.longest_dispatch = 0.0  # seconds, apart from this first one
 
@@ -260,7 +260,7 @@ class Renderer:
         """Samples of every pixel at once; none if they prove too many."""
         for portion in whole_frame(samples, self._tiles):
             self._dispatch(portion)
-        self.context.gl.finish()
+        self.context.finish()
         if self._fits(samples):
             self._film.advance(samples)
 
@@ -285,7 +285,7 @@ class Renderer:
         start = time.perf_counter()
         with self.context.gl:
             self._dispatch(portion)
-            self.context.gl.finish()
+            self.context.finish()
             taken = time.perf_counter() - start
             self.longest_dispatch = max(self.longest_dispatch, taken)
             if self._fits(portion.samples) and self._schedule.record(portion, taken):
