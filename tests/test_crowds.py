@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from glrt.context import Context
+from glrt.lab import crowds
 from glrt.lab.crowds import FIRST, crowd, main, measure, table
+from glrt.renderer import Renderer
 from glrt.scene import Sphere
 
 
@@ -41,3 +43,18 @@ def test_a_crowd_beyond_the_loop_limit_is_measured_with_a_tree_alone(
     assert main(["--spheres", "6000", "--size", "8", "--rounds", "2"]) == 0
     (line,) = (line for line in capsys.readouterr().out.splitlines() if "6,000" in line)
     assert line.split("|")[3].strip() == "refused"
+
+
+def test_the_loop_is_in_constants_up_to_as_many_balls_as_are_asked_for(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tiers: list[str] = []
+    seconds = crowds._seconds
+
+    def noted(renderer: Renderer) -> float:
+        tiers.append(renderer.tier)
+        return seconds(renderer)
+
+    monkeypatch.setattr(crowds, "_seconds", noted)
+    measure(context, [39, 40], size=8, rounds=2, constants=39)
+    assert tiers == 2 * ["generic", "generic", "baked", "generic"]  # by tree, then one by one

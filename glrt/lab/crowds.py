@@ -16,7 +16,8 @@ from unittest.mock import patch
 
 import numpy as np
 
-from glrt import needs
+from glrt import blocks, needs
+from glrt.blocks import MOST_BAKED
 from glrt.context import Context, open_context
 from glrt.errors import GlrtError, SceneError
 from glrt.job import peak_bytes
@@ -27,6 +28,7 @@ from glrt.version import VERSION
 
 COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
 FIRST = 485  # the crowd that others are compared with
+CONSTANTS = 128  # balls: 3 s of compiling, which grows with their square
 
 
 def crowd(count: int, seed: int = 1) -> Scene:
@@ -69,16 +71,19 @@ class Row(NamedTuple):
     growth: tuple[float, float, float] | None  # of the tree's time over that of FIRST spheres
 
 
-def measure(context: Context, counts: Sequence[int], size: int, rounds: int) -> list[Row]:
-    """Interleave all crowds, with a tree and without."""
+def measure(
+    context: Context, counts: Sequence[int], size: int, rounds: int, constants: int = CONSTANTS
+) -> list[Row]:
+    """Interleave all crowds, with a tree and without: there in constants up to so many balls."""
     tree, loop, setup = {}, {}, {}
     for count in counts:
         scene = crowd(count)
         start = time.perf_counter()
-        tree[count] = _renderer(context, scene, size, from_=1)
+        tree[count] = _renderer(context, scene, size, tree_from=1)
         setup[count] = time.perf_counter() - start
         try:
-            loop[count] = _renderer(context, scene, size, from_=count + 1)
+            baked = constants + 1  # and the floor
+            loop[count] = _renderer(context, scene, size, tree_from=count + 1, most_baked=baked)
         except SceneError:
             continue
     runs: dict[tuple[str, int], list[float]] = {}
@@ -91,9 +96,14 @@ def measure(context: Context, counts: Sequence[int], size: int, rounds: int) -> 
     return [_row(count, setup[count], runs) for count in counts]
 
 
-def _renderer(context: Context, scene: Scene, size: int, from_: int) -> Renderer:
-    """A renderer that uses a tree from so many spheres on, in the tier that a render gets."""
-    with patch.object(needs, "TREE_FROM", from_):
+def _renderer(
+    context: Context, scene: Scene, size: int, tree_from: int, most_baked: int = MOST_BAKED
+) -> Renderer:
+    """A renderer that uses a tree from so many spheres on, and constants up to so many shapes."""
+    with (
+        patch.object(needs, "TREE_FROM", tree_from),
+        patch.object(blocks, "MOST_BAKED", most_baked),
+    ):
         return Renderer(scene, context=context, tier="baked", width=size, height=size)
 
 
@@ -145,7 +155,7 @@ def main(arguments: list[str] | None = None) -> int:
     parsed = _parser().parse_args(arguments)
     try:
         context = open_context()
-        rows = measure(context, parsed.spheres, parsed.size, parsed.rounds)
+        rows = measure(context, parsed.spheres, parsed.size, parsed.rounds, parsed.constants)
     except GlrtError as error:
         print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
         return error.exit_code
@@ -162,6 +172,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--spheres", type=int, nargs="+", metavar="N", default=list(COUNTS))
     add("--size", type=int, default=96, metavar="N", help="pixels a side (default: 96)")
     add("--rounds", type=int, default=9, metavar="N", help="runs of each (default: 9)")
+    told = f"most balls to bake for the loop over all (default: {CONSTANTS})"
+    add("--constants", type=int, default=CONSTANTS, metavar="N", help=told)
     return parser
 
 
