@@ -32,7 +32,8 @@ def first(tmp_path_factory: pytest.TempPathFactory) -> "tuple[Path, dict[str, ob
     """A folder with one render of cornell in three formats, and its line of JSON."""
     folder = tmp_path_factory.mktemp("first")
     outputs = [word for suffix in ("exr", "png", "npy") for word in ("-o", folder / f"a.{suffix}")]
-    done = glrt("render", "cornell", *outputs, *SMALL, "--seed", "7", "--json")
+    asked = (*SMALL, "--sampler", "independent")  # four samples that know their error
+    done = glrt("render", "cornell", *outputs, *asked, "--seed", "7", "--json")
     assert done.returncode == 0, done.stderr
     return folder, json.loads(done.stdout)
 
@@ -55,6 +56,7 @@ def test_json_is_one_line_with_the_promised_figures(
     assert (figures["width"], figures["height"], figures["samples"]) == (24, 16, 4)
     assert figures["nonfinite"] == 0
     assert figures["pipeline"] == "compute"
+    assert isinstance(figures["error"], float)
     assert figures["error"] == pytest.approx(Image.load(first[0] / "a.exr").error)
     seconds = figures["seconds"]
     assert isinstance(seconds, dict)
@@ -78,7 +80,7 @@ def test_render_from_a_recipe_gives_the_same_bits(
 def test_render_from_a_relit_picture_gives_the_same_bits(context: Context, tmp_path: Path) -> None:
     scene = with_lights(load("lamps"), {"rose": 0.0})
     renderer = Renderer(scene, context=context, layering="groups", width=24, height=16)
-    renderer.render(3).update(with_lights(scene, {"rose": 0.7, "blue": 0.3}))
+    renderer.render(32).update(with_lights(scene, {"rose": 0.7, "blue": 0.3}))
     relit = renderer.image()
     renderer.release()
     relit.save(tmp_path / "relit.exr")
@@ -86,6 +88,7 @@ def test_render_from_a_relit_picture_gives_the_same_bits(context: Context, tmp_p
     assert done.returncode == 0, done.stderr
     again = Image.load(tmp_path / "again.exr")
     assert np.array_equal(again.radiance, relit.radiance)
+    assert again.error is not None
     assert np.array_equal(again.stderr, relit.stderr)
 
 

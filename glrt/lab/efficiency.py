@@ -25,7 +25,7 @@ from glrt.stats import DARK
 
 SWITCHES: dict[str, dict[str, Any]] = {
     "defaults": {},
-    "sobol": {"sampler": "sobol"},
+    "independent": {"sampler": "independent"},
     "no roulette": {"roulette": False},
     "nee": {"method": "nee"},
     "naive": {"method": "naive"},

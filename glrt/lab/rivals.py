@@ -104,7 +104,8 @@ class Contest:
                 rivals = [self._mitsuba(name, scene, level, seconds)]
             runs = interleaved([*ours, *rivals], self._rounds, seconds)
             yield from _rows(name, runs, bool(rivals), level)
-            ours = [stack.enter_context(self._glrt(scene, "naive", roulette=False))]
+            alike: dict[str, Any] = {"roulette": False, "sampler": "independent"}
+            ours = [stack.enter_context(self._glrt(scene, "naive", **alike))]
             rivals = [self._peer(WGSL, scene, WGSL)] if WGSL in self._peers else []
             rounds = max(self._rounds // 3, 2)  # they differ in speed alone
             runs = interleaved([*ours, *rivals], rounds, seconds)

@@ -63,9 +63,12 @@ class Candidate:
     seconds_per_sample: float  # of the whole frame
 
     def samples_to(self, error: float) -> int | None:
-        """Samples until bias and noise together are below an error; None if the bias is not."""
+        """Samples until bias and noise together are below an error; None if the bias is not.
+
+        A whole observation at least: of a few points of a block, the variance is not known.
+        """
         room = error**2 - self.bias.most**2
-        return max(1, math.ceil(self.variance / room)) if room > 0 else None
+        return max(self.settings.block, math.ceil(self.variance / room)) if room > 0 else None
 
     def seconds_to(self, error: float) -> float:
         """Seconds for those samples; infinite if there are none."""

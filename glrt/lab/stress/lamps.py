@@ -1,19 +1,24 @@
 """Lamps: small ones, many of them, one that hangs close below a ceiling."""
 
 import math
-from collections.abc import Mapping
 from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 
+from glrt.lab.edited import Edit, edited
 from glrt.lab.stress.scenes import lamp as emitter
 from glrt.lab.stress.scenes import matte, plane, quad, scene_of
 from glrt.lab.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import Method
-from glrt.shader import read
+
+# Points on quads evenly by area, where `nee` else takes them by solid angle.
+BY_AREA = edited(
+    Edit("light.glsl", "if (WEIGHT_BOTH) {", "if (true) {"),
+    Edit("light.glsl", "!WEIGHT_BOTH", "false"),
+)
 
 
 def lamp(lab: Lab) -> Sweep:
@@ -129,7 +134,7 @@ def ceiling(lab: Lab) -> Sweep:
     samples = lab.count(1024, 64)
     kinds: dict[str, tuple[Method, type[Renderer]]] = {
         "nee, points by angle": ("nee", Renderer),
-        "nee, points by area": ("nee", ByArea),
+        "nee, points by area": ("nee", BY_AREA),
         "mis": ("mis", Renderer),
         "naive": ("naive", Renderer),
     }
@@ -156,18 +161,6 @@ def ceiling(lab: Lab) -> Sweep:
         bound=chances,
         wrong=sorted(set(wrong)),
     )
-
-
-class ByArea(Renderer):
-    """Chooses points on quads evenly by area, where another renderer does by solid angle."""
-
-    def _parts(self, arrays: Mapping[str, Array]) -> dict[str, str]:
-        text = read("light.glsl")
-        for angle, area in (("if (WEIGHT_BOTH) {", "if (true) {"), ("!WEIGHT_BOTH", "false")):
-            if text.count(angle) != 1:
-                raise KeyError(f"light.glsl holds `{angle}` {text.count(angle)} times, not once")
-            text = text.replace(angle, area)
-        return {**super()._parts(arrays), "light.glsl": text}
 
 
 def _gap_scene(gap: float) -> Scene:

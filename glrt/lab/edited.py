@@ -1,0 +1,33 @@
+"""Renderers whose shaders differ from glrt's: what a choice in them gives."""
+
+from typing import NamedTuple
+
+from glrt.pipelines import Arrays
+from glrt.renderer import Renderer
+from glrt.shader import read
+
+
+class Edit(NamedTuple):
+    """Another text in place of one that stands in a shader file, once or more often."""
+
+    file: str
+    old: str
+    new: str
+
+
+def edited(*edits: Edit) -> type[Renderer]:
+    """A renderer with these edits, in turn; `KeyError` if one has no place."""
+    texts: dict[str, str] = {}
+    for edit in edits:
+        text = texts.get(edit.file) or read(edit.file)
+        if edit.old not in text:
+            raise KeyError(f"{edit.file} does not hold `{edit.old}`")
+        texts[edit.file] = text.replace(edit.old, edit.new)
+
+    class Edited(Renderer):
+        """With other texts for some shader files."""
+
+        def _parts(self, arrays: Arrays) -> dict[str, str]:
+            return {**super()._parts(arrays), **texts}
+
+    return Edited
