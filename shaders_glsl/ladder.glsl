@@ -22,10 +22,12 @@ bool is_followed(Material material) {
 float whole_power(float x, int n) {
     float result = 1.0;
     float square = x;
-    for (int rest = n; rest > 0; rest /= 2) {
+    int rest = n;
+    for (; rest > 0; rest /= 2) {
         if (rest % 2 == 1) result *= square;
         square *= square;
     }
+    note_end(0, rest);
     return result;
 }
 

@@ -86,11 +86,13 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
         gather(path, direct, light.layer, path.depth + 1);
         return;
     }
-    for (int i = 0; i < light_count(); ++i) {
+    int i = 0;
+    for (; i < light_count(); ++i) {
         int shape = light_at(i).shape;
         vec3 direct = weight * point_light(vertex, from, shape);
         gather(path, direct, material_at(point_lamp(shape).material).layer, path.depth + 1);
     }
+    note_end(i, light_count());
 }
 
 // Scatters at a surface, after gathering direct light there; false when the path ends.

@@ -288,3 +288,33 @@ def test_models_render_the_scenes_that_come_with_glrt(context: Context, method: 
     for name in ("cornell", "metals", "lens"):
         picture = rendered(load(name), context, 4, method=method, width=24, height=16)
         assert picture.radiance.mean() > 0.05
+
+
+@pytest.mark.parametrize("model", [1, 2])
+def test_a_loop_that_a_driver_cuts_is_noticed(
+    call_glsl: CallGlsl, context: Context, model: int
+) -> None:
+    """Of the lamps that a model adds up, and of the power in it: its path ends there."""
+    if not context.is_software:
+        pytest.skip("this machine renders on hardware")
+    lamps = [sphere([0.1 * i, 2, 0], 0.01, "lamp") for i in range(20)]
+    scene = scene_of(lamps, {"lamp": lamp(1.0)})
+    shaded = """
+        Ray from = Ray(vec3(0.0, 0.1 * float(x & 1u), 0.0), vec3(0.0, -1.0, 0.0), NO_SHAPE, false);
+        mat3 around = frame_around(vec3(0.0, 1.0, 0.0));
+        Vertex vertex = Vertex(around, vec3(0.0, 0.0, 1.0), material_at(0));
+        Sampler rng = make_sampler(x);
+        Path path = start_path(from);
+        shade(path, vertex, from, rng);"""
+    used_up = "for (int k = 0; k < 100000; ++k) x = pcg_hash(x + uint(k));"
+    power = "float p = whole_power(0.5, 9 + int(x & 1u));"
+    for body, value in ((shaded, "path.radiance.x"), (power, "p")):
+        for before, is_cut in (("", 0.0), (used_up, 1.0)):
+            found = call_glsl(
+                f"vec2({value}, loop_was_cut ? 1.0 : 0.0)",
+                "vec2",
+                setup=f"loop_was_cut = false; uint x = 7u; {before} {body}",
+                scene=scene,
+                constants={"MODEL": model, "HAS_SPHERE_LIGHT": True},
+            )[0]
+            assert found[1] == is_cut

@@ -13,7 +13,7 @@ from glrt.settings import settings_for
 from tests.builders import plane, scene_of, sphere
 from tests.conftest import CallGlsl
 from tests.numerics import BELOW_ONE, Array
-from tests.renders import rendered
+from tests.renders import assert_agree, rendered
 from tests.test_light import LAMPS, MANY
 
 
@@ -163,6 +163,22 @@ def test_a_dark_lamp_keeps_its_chance(call_glsl: CallGlsl) -> None:
     args = {"setup": setup, "origin": np.zeros((2, 3)), "u": u}
     chosen = call_glsl("index", "int", scene=scene_of(objects, LAMPS), **args)
     assert chosen.tolist() == [0, 1]
+
+
+@pytest.mark.parametrize("count", [MOST_NEAR, 2 * MOST_NEAR, 300])
+def test_many_lamps_bring_the_light_that_scattering_finds(context: Context, count: int) -> None:
+    """Small balls under a ceiling; measured: errors of 0.03 with 32 of them, 0.06, and 0.07."""
+    random = np.random.default_rng(count)
+    places = random.uniform([-2, 0.6, -4], [2, 0.9, -2], (count, 3))
+    lamps = [sphere(place, 2 / count**0.5 / 10, "lamp") for place in places]
+    walls = [plane([0, y, 0], [0, -y, 0], "matte") for y in (-1, 1)]
+    scene = scene_of([*walls, plane([0, 0, -4.5], [0, 0, 1], "matte"), *lamps], LAMPS)
+    size = {"width": 32, "height": 32, "bounces": 3}
+    by_choice = rendered(scene, context, 1024, seed=1, **size)
+    by_scattering = rendered(scene, context, 1024, seed=2, method="naive", **size)
+    assert_agree(by_choice, by_scattering, within=0.05)
+    assert by_choice.error is not None
+    assert by_choice.error < 0.1
 
 
 def test_a_corridor_needs_a_third_of_the_samples(
