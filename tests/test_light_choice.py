@@ -9,11 +9,11 @@ from glrt.context import Context
 from glrt.needs import MOST_NEAR, needs_of
 from glrt.pack import alias_table, light_probabilities, pack_scene
 from glrt.scene import Scene
-from glrt.settings import settings_for
+from glrt.settings import Cost, settings_for
 from tests.builders import plane, scene_of, sphere
 from tests.conftest import CallGlsl
 from tests.numerics import BELOW_ONE, Array
-from tests.renders import assert_agree, rendered
+from tests.renders import assert_agree, rendered, rendering
 from tests.test_light import LAMPS, MANY
 
 
@@ -142,6 +142,13 @@ def test_more_lamps_than_that_are_chosen_by_the_table() -> None:
         scene = balls(count)
         assert needs_of(scene, settings_for(scene.render)).few_lights == few
         assert needs_of(scene, settings_for(scene.render, method="naive")).few_lights == 0
+
+
+def test_another_lamp_compiles_where_lamps_are_weighed(context: Context) -> None:
+    """Their number is a constant of the kernel; of many, and of what gives no light, it is not."""
+    for count, cost in ((2, Cost.RECOMPILE), (MOST_NEAR + 1, Cost.RESTART)):
+        with rendering(balls(count), context) as renderer:
+            assert renderer.update(balls(count + 1)) is cost
 
 
 def test_the_lamp_just_left_is_not_chosen(call_glsl: CallGlsl) -> None:
