@@ -32,8 +32,7 @@ def load_recipe(source: str | Path) -> tuple[Scene, Settings | None]:
     recipe = recipe_of(source)
     if recipe is None:
         return read_scene(_find(source)), None
-    taken = recipe.samples or recipe.settings.samples
-    return recipe.scene, recipe.settings.model_copy(update={"samples": taken})
+    return recipe.scene, recipe.taken
 
 
 def recipe_of(source: str | Path) -> Recipe | None:

@@ -58,6 +58,11 @@ class Recipe(Frozen):
     pipeline: str = Field("compute", description="the kind of shader")
     traced: Traced | None = Field(None, description="other light than the scene's, and weights")
 
+    @property
+    def taken(self) -> Settings:
+        """The settings with the samples that were really taken."""
+        return self.settings.model_copy(update={"samples": self.samples or self.settings.samples})
+
     def to_json(self) -> str:
         """One line of ASCII that `from_json` reads back without loss."""
         table = self.model_dump(mode="json", exclude={"scene": True, "traced": True})

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from glrt.ui import keys
 from glrt.ui.preferences import (
     Preferences,
     load_preferences,
@@ -24,13 +25,32 @@ def test_no_file_means_defaults(tmp_path: Path) -> None:
     assert load_preferences(tmp_path / "none.json") == (Preferences(), "")
 
 
-@pytest.mark.parametrize("text", ["{", '{"mode": "swim"}', "[]", '{"nose": 1}', "\ud800"])
+BROKEN = ["{", '{"mode": "swim"}', "[]", '{"nose": 1}', "\ud800", "", "null", "[" * 100_000]
+BINDINGS = ['{"home": ["w"]}', '{"home": ["nose"]}', '{"dance": ["x"]}', '{"home": "h"}', "3"]
+
+
+@pytest.mark.parametrize("text", [*BROKEN, *(f'{{"bindings": {text}}}' for text in BINDINGS)])
 def test_a_broken_file_is_told_and_not_used(tmp_path: Path, text: str) -> None:
     file = tmp_path / "view.json"
     file.write_bytes(text.encode("utf-8", "surrogatepass"))
     preferences, problem = load_preferences(file)
     assert preferences == Preferences()
     assert str(file) in problem
+
+
+def test_what_is_right_in_a_file_is_used(tmp_path: Path) -> None:
+    file = tmp_path / "view.json"
+    file.write_text('{"theme": "light", "scale": -1, "bindings": {"home": ["nose"]}}')
+    preferences, problem = load_preferences(file)
+    assert preferences == Preferences(theme="light")
+    assert "scale" in problem
+    assert "nose" in problem
+    assert "\n" not in problem
+
+
+def test_keys_that_a_file_does_not_name_are_the_usual_ones() -> None:
+    bindings = Preferences(bindings={"home": ("h",), "frame": ()}).bindings
+    assert bindings == {**keys.DEFAULTS, "home": ("h",), "frame": ()}
 
 
 def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path) -> None:

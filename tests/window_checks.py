@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 import re
 from functools import partial
 from pathlib import Path
@@ -12,16 +13,20 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.false_colors import ERROR
+from glrt.image import read_recipe
+from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.resources import folder
 from glrt.scene import Camera, Scene
+from glrt.scene_file import read_scene
 from glrt.settings import Cost
-from glrt.ui import orbit, panel
+from glrt.ui import dialogs, orbit, panel
 from glrt.ui.controls import Control, replaced
 from glrt.ui.gizmo import is_held
 from glrt.ui.orbit import axes
 from glrt.ui.picture import Picture
 from glrt.ui.plots import figures
+from glrt.ui.preferences import Preferences
 from tests.hand import SMALL, Hand, check
 
 # Each control by its label in the panel: the control, and what to do to it.
@@ -182,6 +187,44 @@ def keys_that_are_typed_into_a_box_move_nothing(hand: Hand) -> None:
     assert hand.session.problem == ""
 
 
+def press(hand: Hand, key: imgui.Key, modifiers: int = 0) -> None:
+    hand.ctx.key_press(key.value | modifiers)
+    hand.ctx.yield_(3)
+
+
+@check
+def keys_are_chosen_in_the_panel(hand: Hand) -> None:
+    app, ctx, start = hand.window.app, hand.ctx, hand.session.scene.camera
+    ctx.set_ref("Controls")
+    ctx.item_open("Keys")
+    ctx.item_click("keys/Home##home 0")
+    press(hand, imgui.Key.h)
+    assert list(app.preferences.bindings["home"]) == ["h"]
+    ctx.item_click("keys/+##home 1")
+    press(hand, imgui.Key.f5, imgui.Key.mod_ctrl.value)
+    assert list(app.preferences.bindings["home"]) == ["h", "ctrl+f5"]
+    assert hand.session.scene.camera == start
+    drag(hand, 60, 20)
+    press(hand, imgui.Key.h)
+    assert hand.session.scene.camera == start
+    hand.until(app.preferences_file.exists, frames=1000)
+    hand.until(lambda: "ctrl+f5" in app.preferences_file.read_text(), frames=1000)
+    ctx.item_click("keys/W##forward 0")
+    press(hand, imgui.Key.h)
+    assert "H already means" in hand.session.problem
+    assert app.preferences.bindings["forward"] == ("w", "up_arrow")
+    assert hand.session.scene.camera == start
+    ctx.item_click("keys/F##frame 0")
+    press(hand, imgui.Key.escape)
+    ctx.item_click("keys/F##frame 0")
+    ctx.item_click("keys/remove##awaited")
+    assert app.preferences.bindings["frame"] == ()
+    ctx.item_click("reset keys")
+    ctx.yield_(2)
+    assert app.preferences.bindings == Preferences().bindings
+    ctx.item_close("Keys")
+
+
 @check
 def the_picture_never_goes_black(hand: Hand) -> None:
     usual = hand.pixels()[..., :3].mean()
@@ -242,14 +285,94 @@ def a_picture_is_saved_with_its_recipe_and_opened_again(hand: Hand) -> None:
         hand.there(partial(app.open, str(file)))
         hand.settle()
         assert (hand.session.scene.camera.fov, hand.session.settings.samples) == (25.0, 3)
-        hand.there(partial(app.open, "cornell"))
-        hand.there(lambda: hand.session.edit(**SMALL))
-        hand.session.opened = hand.session.state
+        reopen(hand)
 
 
 def replaced_fov(hand: Hand, fov: float) -> Scene:
     scene = hand.session.scene
     return replaced(scene, camera=replaced(scene.camera, fov=fov))
+
+
+@check
+def a_recipe_is_copied_and_pasted(hand: Hand) -> None:
+    hand.ctx.item_open("//Controls/Files")
+    hand.there(lambda: hand.session.edit(replaced_fov(hand, 31.0), bounces=2, exposure=1.5))
+    hand.settle()
+    hand.ctx.item_click("//Controls/copy recipe")
+    hand.begin()
+    hand.ctx.item_click("//Controls/paste recipe")
+    hand.settle()
+    settings = hand.session.settings
+    assert (hand.session.scene.camera.fov, settings.bounces, settings.exposure) == (31.0, 2, 1.5)
+    hand.there(lambda: imgui.set_clipboard_text("no recipe"))
+    hand.ctx.item_click("//Controls/paste recipe")
+    assert hand.session.problem.startswith("The clipboard")
+    reopen(hand)
+
+
+def reopen(hand: Hand) -> None:
+    """The scene that the window was opened with, small again."""
+    hand.there(partial(hand.window.app.open, "cornell"))
+    hand.there(lambda: hand.session.edit(**SMALL))
+    hand.session.opened = hand.session.state
+
+
+@check
+def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
+    """A program that stands in for zenity: it answers what a file says."""
+    app, folder, path = hand.window.app, Path.cwd() / "dialogs", os.environ["PATH"]
+    folder.mkdir()
+    answer, program = folder / "answer", folder / "zenity"
+    program.write_text(f"#!/bin/sh\nuntil [ -s {answer} ]; do sleep 0.02; done\ncat {answer}\n")
+    program.chmod(0o755)
+    os.environ["PATH"] = f"{folder}:{path}"
+    hand.ctx.item_open("//Controls/Files")
+    hand.ctx.set_ref("Controls")
+
+    def choose(button: str, file: Path) -> None:
+        answer.unlink(missing_ok=True)
+        hand.ctx.item_click(button)
+        samples = hand.session.samples
+        hand.until(lambda: hand.session.samples > samples)
+        assert app.dialogs.is_open
+        (folder / "new").write_text(f"{file}\n")
+        (folder / "new").rename(answer)
+        hand.until(lambda: not app.dialogs.is_open, frames=1000)
+
+    try:
+        choose("...##scene file", folder / "cornell.toml")
+        assert read_scene(folder / "cornell.toml") == hand.session.scene.model_copy(
+            update={"render": hand.session.scene.render.model_copy(update=SMALL)}
+        )
+        choose("...##save", folder / "shot.exr")
+        assert read_recipe(folder / "shot.exr").scene == hand.session.scene
+        choose("...##open", folder / "shot.exr")
+        assert app.source == str(folder / "shot.exr")
+        hand.ctx.item_click("...##open")
+        hand.there(app.dialogs.close)
+        assert not app.dialogs.is_open
+    finally:
+        os.environ["PATH"] = path
+        hand.there(app.dialogs.close)
+    reopen(hand)
+
+
+@check
+def without_dialogs_the_boxes_serve(hand: Hand) -> None:
+    app, ctx, before = hand.window.app, hand.ctx, dialogs.PROGRAMS
+    dialogs.PROGRAMS = ()  # type: ignore[assignment]
+    ctx.item_open("//Controls/Files")
+    ctx.yield_(2)
+    assert not ctx.item_exists("//Controls/...##open")
+    ctx.item_click("//Controls/##scene file")
+    ctx.key_chars_replace_enter(str(Path.cwd() / "typed.toml"))
+    ctx.yield_(2)
+    assert read_scene(Path.cwd() / "typed.toml") == load("cornell").model_copy(
+        update={"render": load("cornell").render.model_copy(update=SMALL)}
+    )
+    dialogs.PROGRAMS = before
+    assert app.message.startswith("Saved")
+    reopen(hand)
 
 
 @check
@@ -443,9 +566,7 @@ def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
     hand.until(lambda: "edited.toml" in hand.session.problem)
     file.write_text(text)
     hand.until(lambda: hand.session.problem == "")
-    hand.there(partial(app.open, "cornell"))
-    hand.there(lambda: hand.session.edit(**SMALL))
-    hand.session.opened = hand.session.state
+    reopen(hand)
 
 
 @check

@@ -4,13 +4,18 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from imgui_bundle import imgui
+
 from glrt.errors import GlrtError
 from glrt.library import load, load_recipe, scene_file_of
+from glrt.recipe import Recipe
 from glrt.scene import Camera, Scene, Shape, Vector
-from glrt.settings import settings_for
+from glrt.settings import RenderSettings, settings_for
 from glrt.shader import files_anew
 from glrt.ui import orbit
 from glrt.ui.controls import replaced
+from glrt.ui.dialogs import Dialogs
+from glrt.ui.keys import Action
 from glrt.ui.pace import Pace
 from glrt.ui.pick import Picked, middle, pick, reach
 from glrt.ui.picture import Picture
@@ -46,6 +51,9 @@ class App:
     watch: Watch | None = None  # of the scene file, if the scene came from one
     message: str = ""  # what was done last
     unsaved: bool = False  # preferences
+    awaited: tuple[Action, int] | None = None  # the key that is to be chosen: which of an action
+    is_deaf: bool = False  # to keys, until they are let go
+    dialogs: Dialogs = field(default_factory=Dialogs)
 
     @property
     def camera(self) -> Camera:
@@ -83,17 +91,36 @@ class App:
         """Another scene, or the scene, view and settings of a picture."""
         try:
             scene, recipe = load_recipe(source)
-            settings = settings_for(recipe or scene.render, crop=None)
         except GlrtError as error:
             return self.complain(str(error))
-        self.source, self.pivot = source, scene.camera.look_at
-        self.session.opened = State(scene, settings)
-        self.session.edit(scene, **dict(settings))
-        self.selected = None
-        self.watch = watch_for(source)
+        self._take(scene, recipe or scene.render)
+        self.source, self.watch = source, watch_for(source)
         self.scene_path = source if self.watch else self.scene_path
         self.message = f"Opened {source}"
         return None
+
+    def paste_recipe(self) -> None:
+        """The scene, view and settings that a recipe in the clipboard tells."""
+        try:
+            recipe = Recipe.from_json(imgui.get_clipboard_text(), "The clipboard")
+        except GlrtError as error:
+            return self.complain(str(error))
+        self._take(recipe.scene, recipe.taken)
+        self.source, self.watch, self.message = "", None, "Opened the recipe in the clipboard"
+        return None
+
+    def copy_recipe(self) -> None:
+        """Put the recipe of the picture into the clipboard, as one line of JSON."""
+        recipe = self.session.image().recipe
+        assert recipe
+        imgui.set_clipboard_text(recipe.to_json())
+        self.message = "Copied the recipe of this picture"
+
+    def _take(self, scene: Scene, settings: RenderSettings) -> None:
+        self.session.opened = State(scene, settings_for(settings, crop=None))
+        self.session.problem = ""
+        self.session.edit(scene, **dict(self.session.opened.settings))
+        self.pivot, self.selected = scene.camera.look_at, None
 
     def follow_files(self, now: float) -> None:
         """Take in what another program has changed: the scene file, or the shaders."""
@@ -124,17 +151,18 @@ class App:
         self.message = f"Read {self.source} again"
         return None
 
-    def save_scene(self) -> None:
-        """Write the scene as it is to the path in its text box."""
-        whole, path = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
+    def save_scene(self, path: str = "") -> None:
+        """Write the scene as it is to a path, by default to the one in its text box."""
+        self.scene_path = path or self.scene_path
+        whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
         try:
-            model = scene_file_of(self.source)
-            has_comments = write_scene(whole, path, model)
+            model = scene_file_of(self.source) if self.source else None
+            has_comments = write_scene(whole, file, model)
         except GlrtError as error:
             return self.complain(str(error))
-        self.source, self.watch = str(path), watch_for(str(path))
+        self.source, self.watch = str(file), watch_for(str(file))
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
-        self.message = f"Saved {path}{lost}"
+        self.message = f"Saved {file}{lost}"
         return None
 
     @property
@@ -161,8 +189,9 @@ class App:
         if depth > 0:
             self.place(replaced(self.camera, focus_distance=depth))
 
-    def save(self) -> None:
-        """Write the picture, with its recipe, to the path in the text box."""
+    def save(self, path: str = "") -> None:
+        """Write the picture, with its recipe, to a path, by default to the one in its text box."""
+        self.save_path = path or self.save_path
         if not self.session.renderer or not self.session.samples:
             return self.complain("There is no picture yet.")
         try:
@@ -226,6 +255,7 @@ class App:
 
     def wheel(self, clicks: float) -> None:
         """Towards the pivot; in fly mode straight on."""
+        clicks *= self.preferences.wheel_speed
         if self.preferences.mode == "orbit":
             return self.place(orbit.dollied(self.camera, self.pivot, clicks))
         return self.place(orbit.moved(self.camera, 0, 0, 0.1 * clicks * self.reach))

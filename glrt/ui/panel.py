@@ -5,13 +5,14 @@ from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 
-from glrt.library import scene_names
 from glrt.relight import MOST_LAYERS
 from glrt.scene import SKY_GROUP, Background, Camera, Light, Scene, with_lights
 from glrt.settings import Settings
 from glrt.ui.app import App
 from glrt.ui.compare import draw_compare, draw_view
 from glrt.ui.controls import Control, control_of_items, controls_of, replaced
+from glrt.ui.files import draw_files
+from glrt.ui.key_table import draw_key_table
 from glrt.ui.objects import draw_object, with_material
 from glrt.ui.preferences import Preferences
 from glrt.ui.session import Session
@@ -69,6 +70,10 @@ def _commands(app: App) -> None:
     imgui.same_line()
     if _button("redo", session.history.can_redo):
         session.redo()
+    if app.message:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_disabled(app.message)
+        imgui.pop_text_wrap_pos()
 
 
 def _button(label: str, enabled: bool) -> bool:
@@ -177,35 +182,6 @@ def _frame(app: App) -> None:
     _settings(app, FRAME)
 
 
-def _files(app: App) -> None:
-    """Scenes to open, and where the picture goes."""
-    names = scene_names()
-    index = names.index(app.source) if app.source in names else -1
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    chosen, index = imgui.combo("scene", index, names)
-    if chosen:
-        app.open(names[index])
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    _, app.open_path = imgui.input_text("##open", app.open_path)
-    imgui.same_line()
-    if _button("open", bool(app.open_path)):
-        app.open(app.open_path)
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    _, app.save_path = imgui.input_text("##save", app.save_path)
-    imgui.same_line()
-    if _button("save", app.session.samples > 0):
-        app.save()
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    _, app.scene_path = imgui.input_text("##scene file", app.scene_path)
-    imgui.same_line()
-    if imgui.button("save scene"):
-        app.save_scene()
-    imgui.set_item_tooltip(
-        "A TOML file of the scene as it is now; comments of a file that it replaces go"
-    )
-    imgui.text_disabled(app.message)
-
-
 def _window(app: App) -> None:
     shown = [c for c in PREFERENCES if c.name not in ("mode", *FREE_SAMPLES)]
     _preferences(app, shown)
@@ -238,6 +214,7 @@ _SECTIONS = (
     ("Compare", draw_compare, _OPEN),
     ("Background", _background, 0),
     ("Frame", _frame, 0),
-    ("Files", _files, 0),
+    ("Files", draw_files, 0),
+    ("Keys", draw_key_table, 0),
     ("Window", _window, 0),
 )

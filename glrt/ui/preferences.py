@@ -6,30 +6,18 @@ import sys
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, field_validator
 
 from glrt.errors import RenderError
-from glrt.files import write_whole
+from glrt.files import reason, write_text
 from glrt.settings import Cost, Frozen
+from glrt.ui import keys
+from glrt.ui.keys import DEFAULTS, Bindings
 
 Mode = Literal["orbit", "fly"]
 Theme = Literal["dark", "light"]
-Move = Literal["forward", "back", "left", "right", "up", "down"]
-Action = Move | Literal["home", "frame", "pause", "undo", "redo"]
 
-KEYS: dict[Action, tuple[str, ...]] = {
-    "forward": ("w", "up_arrow"),
-    "back": ("s", "down_arrow"),
-    "left": ("a", "left_arrow"),
-    "right": ("d", "right_arrow"),
-    "up": ("e",),
-    "down": ("q",),
-    "home": ("home",),
-    "frame": ("f",),
-    "pause": ("space",),
-    "undo": ("ctrl+z",),
-    "redo": ("ctrl+y", "ctrl+shift+z"),
-}
+_MEND = "Correct or delete it to be rid of this message."
 
 
 def _preference(
@@ -66,10 +54,26 @@ class Preferences(Frozen):
     walk_speed: float = _preference(
         0.6, "step of the keys, in distances to the pivot a second", "", (0.05, 5), gt=0, le=100
     )
+    wheel_speed: float = _preference(
+        1.0,
+        "how far a click of the wheel goes, against a tenth of the way",
+        "",
+        (0.1, 5),
+        gt=0,
+        le=9,
+    )
     invert: bool = _preference(False, "a drag upwards looks down")
     theme: Theme = _preference("dark", "colours of the window")
     scale: float = _preference(1.0, "size of the text", slider=(0.75, 3), ge=0.5, le=4)
-    bindings: dict[Action, tuple[str, ...]] = Field(KEYS, description="keys of each action")
+    bindings: Bindings = Field(DEFAULTS, description="keys of each action, where not the usual")
+
+    @field_validator("bindings")
+    @classmethod
+    def _mean_one_thing_each(cls, given: Bindings) -> Bindings:
+        bindings = {**DEFAULTS, **given}
+        if problem := keys.problem(bindings):
+            raise ValueError(problem)
+        return bindings
 
 
 def preferences_file() -> Path:
@@ -84,14 +88,22 @@ def preferences_file() -> Path:
 
 
 def load_preferences(file: Path) -> tuple[Preferences, str]:
-    """What the file says and "", or the defaults and what is wrong with it."""
+    """What the file says, the defaults where it is wrong, and what is wrong with it; "" if fine."""
     try:
-        return Preferences.model_validate(json.loads(file.read_text("utf-8"))), ""
+        given = json.loads(file.read_text("utf-8"))
     except FileNotFoundError:
         return Preferences(), ""
-    except (OSError, ValueError, ValidationError) as error:
-        problem = str(error).splitlines()[0]
-        return Preferences(), f"{file} is not used: {problem}. Delete it to be rid of this message."
+    except (OSError, ValueError, RecursionError) as error:
+        return Preferences(), f"{file} is not used: {reason(error)}. {_MEND}"
+    if not isinstance(given, dict):
+        return Preferences(), f"{file} is not used: it holds no table of preferences. {_MEND}"
+    try:
+        return Preferences.model_validate(given), ""
+    except ValidationError as error:
+        wrong = {str(problem["loc"][0]): str(problem["msg"]) for problem in error.errors()}
+    good = {key: value for key, value in given.items() if key not in wrong}
+    told = "; ".join(f"{key}: {text.removeprefix('Value error, ')}" for key, text in wrong.items())
+    return Preferences.model_validate(good), f"Some of {file} is not used: {told}. {_MEND}"
 
 
 def save_preferences(preferences: Preferences, file: Path) -> str:
@@ -99,11 +111,7 @@ def save_preferences(preferences: Preferences, file: Path) -> str:
     text = preferences.model_dump_json(indent=2, exclude_defaults=True) + "\n"
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(file, lambda path: _write(path, text))
+        write_text(file, text)
     except (OSError, RenderError) as error:
         return f"The preferences cannot be kept: {error}"
     return ""
-
-
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8")

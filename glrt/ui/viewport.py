@@ -6,8 +6,9 @@ from imgui_bundle import ImVec2, imgui
 
 from glrt.ui.app import App, Rectangle
 from glrt.ui.gizmo import draw_gizmo, is_held
+from glrt.ui.key_table import is_choosing, key_named
+from glrt.ui.keys import Action, Move
 from glrt.ui.legend import draw_legend
-from glrt.ui.preferences import Action, Move
 
 _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "forward": (0, 0, 1),
@@ -90,9 +91,9 @@ def _wipe_handle(app: App) -> None:
 
 
 def draw_keys(app: App) -> None:
-    """Act on the keys; not while a text is typed."""
+    """Act on the keys; not while a text is typed, or a key is chosen."""
     io = imgui.get_io()
-    if io.want_text_input:
+    if io.want_text_input or is_choosing(app):
         return
     seconds = min(io.delta_time, _LONGEST_STEP)
     held = [axis for action, axis in _AXES.items() if _is_held(app, action)]
@@ -109,6 +110,8 @@ def draw_keys(app: App) -> None:
         app.session.undo()
     if _is_pressed(app, "redo"):
         app.session.redo()
+    if _is_pressed(app, "save"):
+        app.save()
     if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
         app.session.history.settle()
 
@@ -163,21 +166,19 @@ def _is_held(app: App, action: Action) -> bool:
     """Whether a key without modifiers is down."""
     if imgui.get_io().key_ctrl:
         return False
-    return any(
-        imgui.is_key_down(imgui.Key[name]) for name in app.preferences.bindings.get(action, ())
-    )
+    return any(imgui.is_key_down(key_named(name)) for name in app.preferences.bindings[action])
 
 
 def _is_pressed(app: App, action: Action) -> bool:
     return any(
-        imgui.is_key_chord_pressed(_chord(n)) for n in app.preferences.bindings.get(action, ())
+        imgui.is_key_chord_pressed(_chord(name)) for name in app.preferences.bindings[action]
     )
 
 
 def _chord(name: str) -> int:
     """ "ctrl+shift+z" as Dear ImGui has it."""
     *modifiers, key = name.split("+")
-    chord = imgui.Key[key].value
+    chord = key_named(key).value
     for modifier in modifiers:
         chord |= imgui.Key[f"mod_{modifier}"].value
     return int(chord)

@@ -124,6 +124,7 @@ class Window:
         app.advance()
         app.look(now)
         app.follow_files(now)
+        app.dialogs.poll()
         self._rendered = time.perf_counter() - now
         self.params.fps_idling.enable_idling = app.show.is_done(app.session)
         self._keep(now)
@@ -147,6 +148,7 @@ class Window:
     def _close(self) -> None:
         self.app.keep_preferences()
         self.app.show.release()
+        self.app.dialogs.close()
         self.app.session.release()
 
 

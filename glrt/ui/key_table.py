@@ -1,0 +1,92 @@
+"""The part of the panel that shows the keys, and lets the user choose others."""
+
+from imgui_bundle import imgui
+
+from glrt.errors import GlrtError
+from glrt.ui import keys
+from glrt.ui.app import App
+from glrt.ui.controls import replaced
+from glrt.ui.keys import Action
+
+
+def draw_key_table(app: App) -> None:
+    """A row for each action; a click on one of its keys waits for another."""
+    flags = imgui.TableFlags_.sizing_fixed_fit.value
+    if imgui.begin_table("keys", 2, flags):
+        for action, chords in app.preferences.bindings.items():
+            imgui.table_next_column()
+            imgui.align_text_to_frame_padding()
+            imgui.text(keys.MEANING[action])
+            imgui.table_next_column()
+            _row(app, action, chords)
+        imgui.end_table()
+    imgui.begin_disabled(app.preferences.bindings == keys.DEFAULTS)
+    if imgui.button("reset keys"):
+        app.prefer(replaced(app.preferences, bindings=keys.DEFAULTS))
+    imgui.end_disabled()
+    imgui.text_disabled("click a key to change it")
+
+
+def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
+    """The keys of an action, and a button for one more."""
+    for index, chord in enumerate((*chords, "")):
+        if index:
+            imgui.same_line()
+        if app.awaited == (action, index):
+            _waiting(app, action, chords)
+        elif imgui.button(f"{keys.label(chord) if chord else '+'}##{action} {index}"):
+            app.awaited = (action, index)
+        imgui.set_item_tooltip("Click, then press a key" if chord else "One more key")
+
+
+def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
+    assert app.awaited
+    index = app.awaited[1]
+    if imgui.button("press a key##awaited"):
+        app.awaited = None
+    if index < len(chords):
+        imgui.same_line()
+        if imgui.button("remove##awaited"):
+            _bind(app, action, (*chords[:index], *chords[index + 1 :]))
+
+
+def is_choosing(app: App) -> bool:
+    """Take the key that is waited for; whether keys mean nothing else now.
+
+    So they do until they are let go: the new key of a step must not make one.
+    """
+    if app.awaited:
+        _catch(app)
+    elif app.is_deaf:
+        app.is_deaf = any(imgui.is_key_down(key_named(name)) for name in keys.NAMES)
+    return app.awaited is not None or app.is_deaf
+
+
+def key_named(name: str) -> imgui.Key:
+    """The key as Dear ImGui has it."""
+    return imgui.Key[f"_{name}" if name.isdigit() else name]
+
+
+def _catch(app: App) -> None:
+    assert app.awaited
+    action, index = app.awaited
+    if imgui.is_key_pressed(imgui.Key.escape):
+        app.awaited, app.is_deaf = None, True
+        return
+    io = imgui.get_io()
+    held = {"ctrl": io.key_ctrl, "shift": io.key_shift, "alt": io.key_alt}
+    for name in keys.NAMES:
+        if imgui.is_key_pressed(key_named(name), repeat=False):
+            chords = app.preferences.bindings[action]
+            _bind(app, action, (*chords[:index], keys.chord(name, held), *chords[index + 1 :]))
+            return
+
+
+def _bind(app: App, action: Action, chords: tuple[str, ...]) -> None:
+    """Take other keys; those that clash are told, and the old ones stay."""
+    app.awaited, app.is_deaf = None, True
+    try:
+        bindings = {**app.preferences.bindings, action: chords}
+        app.prefer(replaced(app.preferences, bindings=bindings))
+    except GlrtError as error:
+        app.complain(str(error).removeprefix("bindings: "))

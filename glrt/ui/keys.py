@@ -1,0 +1,84 @@
+"""Names of keys, and which of them may mean what. Nothing here draws."""
+
+from collections.abc import Mapping
+from string import ascii_lowercase, digits
+from typing import Literal, get_args
+
+Move = Literal["forward", "back", "left", "right", "up", "down"]
+Action = Move | Literal["home", "frame", "pause", "undo", "redo", "save"]
+Bindings = dict[Action, tuple[str, ...]]
+
+DEFAULTS: Bindings = {
+    "forward": ("w", "up_arrow"),
+    "back": ("s", "down_arrow"),
+    "left": ("a", "left_arrow"),
+    "right": ("d", "right_arrow"),
+    "up": ("e",),
+    "down": ("q",),
+    "home": ("home",),
+    "frame": ("f",),
+    "pause": ("space",),
+    "undo": ("ctrl+z",),
+    "redo": ("ctrl+y", "ctrl+shift+z"),
+    "save": ("ctrl+s",),
+}
+MEANING: dict[Action, str] = {
+    "forward": "walk forward",
+    "back": "walk back",
+    "left": "walk left",
+    "right": "walk right",
+    "up": "rise",
+    "down": "sink",
+    "home": "back to the first view",
+    "frame": "frame what is selected",
+    "pause": "pause and go on",
+    "undo": "undo",
+    "redo": "redo",
+    "save": "save the picture",
+}
+MODIFIERS = ("ctrl", "shift", "alt")
+NAMES = (  # as Dear ImGui has them; Escape is left out, since it cancels
+    *ascii_lowercase,
+    *digits,
+    *(f"f{number}" for number in range(1, 13)),
+    *(f"{side}_arrow" for side in ("up", "down", "left", "right")),
+    *("home", "end", "page_up", "page_down", "insert", "delete", "space", "tab", "enter"),
+    *("backspace", "minus", "equal", "comma", "period", "slash", "semicolon", "apostrophe"),
+    *("left_bracket", "right_bracket", "backslash", "grave_accent", "oem102"),
+    *(f"keypad{number}" for number in range(10)),
+    *(f"keypad_{name}" for name in ("add", "subtract", "multiply", "divide", "decimal", "enter")),
+)
+
+
+def chord(key: str, held: Mapping[str, bool]) -> str:
+    """A key and the modifiers that are held, such as "ctrl+shift+z"."""
+    return "+".join([*(name for name in MODIFIERS if held[name]), key])
+
+
+def label(text: str) -> str:
+    """A chord as a user reads it: "Ctrl+Shift+Z", "Up arrow"."""
+    *modifiers, key = text.split("+")
+    name = key.replace("_", " ").replace("keypad", "keypad ").replace("  ", " ")
+    return "+".join(part[:1].upper() + part[1:] for part in (*modifiers, name))
+
+
+def problem(bindings: Mapping[Action, tuple[str, ...]]) -> str:
+    """What is wrong with them, "" for nothing: no such key, or one that means two things."""
+    owners: dict[str, Action] = {}
+    for action, chords in bindings.items():
+        for text in chords:
+            if advice := _problem_of(action, text):
+                return advice
+            other = owners.setdefault(text, action)
+            if other != action or chords.count(text) > 1:
+                return f"{label(text)} already means: {MEANING[other]}. Choose another key"
+    return ""
+
+
+def _problem_of(action: Action, text: str) -> str:
+    *modifiers, key = text.split("+")
+    if key not in NAMES or modifiers != [name for name in MODIFIERS if name in modifiers]:
+        return f"there is no key {text!r}; keys are named as in 'w', 'up_arrow' or 'ctrl+shift+z'"
+    if modifiers and action in get_args(Move):
+        return f"{label(text)} cannot mean: {MEANING[action]}. A key that is held goes without Ctrl"
+    return ""
