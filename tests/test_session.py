@@ -3,10 +3,12 @@
 from collections.abc import Iterator
 from typing import Any
 
+import moderngl
 import pytest
 
 from glrt.context import Context
-from glrt.errors import SceneError
+from glrt.errors import RenderError, SceneError
+from glrt.film import Film
 from glrt.relight import NONE, ONE
 from glrt.renderer import Renderer
 from glrt.scene import Camera, Scene, with_lights
@@ -236,6 +238,62 @@ def test_without_compute_another_light_restarts(context: Context, clock: Clock) 
             assert (session.restarts, session.last_cost) == (restarts + 1, Cost.RESTART)
         assert not session.problem
         session.release()
+
+
+def test_layers_that_are_too_wide_for_the_driver_are_not_kept(session: Session) -> None:
+    session.room.largest = 40  # pixels: two layers of 16 fit side by side, three do not
+    start(session)
+    assert not session.lacks_room
+    assert session.renderer
+    assert session.renderer.plan.layers == 2
+    session.by_length = True
+    start(session)
+    assert session.lacks_room
+    assert session.renderer.plan.layers == 0
+    assert session.cost_of_fewer_bounces() is Cost.RESTART
+    session.by_length = False
+    session.edit(width=24)
+    start(session)
+    assert session.lacks_room
+    assert session.cost_of_light("lamp") is Cost.RESTART
+    session.edit(with_lights(session.scene, {"lamp": 0.5}))
+    session.advance(0.01)
+    assert session.last_cost is Cost.RESTART
+    assert session.samples > 0
+    session.edit(width=16)
+    start(session)
+    assert session.renderer.plan.layers == 2
+    assert session.problem == ""
+
+
+@pytest.mark.parametrize("is_open", [False, True])
+def test_layers_that_the_driver_has_no_memory_for_are_not_kept(
+    session: Session, monkeypatch: pytest.MonkeyPatch, is_open: bool
+) -> None:
+    texture = Film._texture
+
+    def poor(film: Film, across: int, down: int) -> moderngl.Texture:
+        if across * down > 1000:
+            raise RenderError("no room on the driver")
+        return texture(film, across, down)
+
+    if is_open:
+        session.edit(width=8, height=8)
+        start(session)
+    with monkeypatch.context() as patch:
+        patch.setattr(Film, "_texture", poor)
+        session.edit(width=16, height=16)
+        start(session)
+        assert session.renderer
+        assert session.renderer.size == (16, 16)
+        assert session.renderer.plan.layers == 0
+        assert session.lacks_room
+        assert (session.problem, session.samples > 0) == ("", True)
+        session.edit(width=64)
+        start(session)
+        assert "no room" in session.problem
+        assert session.renderer.size == (16, 16)
+        assert session.samples > 0
 
 
 def test_undo_brings_back_scene_and_settings(session: Session) -> None:

@@ -35,6 +35,10 @@ _LIVE = (
     "can be shown alone. Turning it on or off begins the picture anew; meanwhile a change of a "
     "lamp restarts."
 )
+_NO_ROOM = (
+    "At this size there is no room to keep the light of each lamp or bounce apart: a change of "
+    "light begins the picture anew. A smaller frame has room."
+)
 _RED = (0.95, 0.35, 0.35, 1.0)
 
 
@@ -86,6 +90,10 @@ def _button(label: str, enabled: bool) -> bool:
 def _lights(app: App) -> None:
     """A slider for each group, and the colours of its lamps."""
     scene = app.session.scene
+    if app.session.lacks_room:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_disabled(_NO_ROOM)
+        imgui.pop_text_wrap_pos()
     for group, intensity in scene.light_groups.items():
         if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
             continue
@@ -118,7 +126,7 @@ def _paths(app: App) -> None:
     session = app.session
     bounces = SETTINGS["bounces"].costing(session.cost_of_fewer_bounces())
     _edit(app, edited_fields((bounces,), dict(session.settings)))
-    if session.layering != "none":
+    if session.pipeline == "compute":
         _, session.by_length = imgui.checkbox("bounces live", session.by_length)
         imgui.set_item_tooltip(_LIVE)
     if session.layering == "lengths":

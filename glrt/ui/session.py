@@ -18,6 +18,7 @@ from glrt.renderer import Renderer
 from glrt.scene import SKY_GROUP, Scene
 from glrt.settings import Cost, Settings, settings_for
 from glrt.ui.history import History
+from glrt.ui.room import Room
 
 ANNOUNCED = 2  # frames that say what is about to stop them
 STILL = 0.25  # seconds without a move after which the full size is rendered
@@ -59,6 +60,7 @@ class Session:
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
+        self.room = Room(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
         self._context = context
         self._clock = clock
         self._announced = 0
@@ -86,10 +88,17 @@ class Session:
     def layering(self) -> Layering:
         """What the layers of the film are to hold: light groups, or lengths of paths.
 
-        A fragment shader writes to few textures: it keeps none.
+        A fragment shader writes to few textures: it keeps none. So does a film too large for them.
         """
-        if self.pipeline == "fragment":
-            return "none"
+        return "none" if self.pipeline == "fragment" or self.lacks_room else self._wanted_layering
+
+    @property
+    def lacks_room(self) -> bool:
+        """Whether the film is too large to keep layers: then lamps and bounces restart."""
+        return not self.room.fits(self.scene, self.settings, self._wanted_layering)
+
+    @property
+    def _wanted_layering(self) -> Layering:
         return "lengths" if self.by_length else "groups"
 
     @property
@@ -232,6 +241,15 @@ class Session:
         return self.renderer is not None
 
     def _apply(self) -> None:
+        layering = self.layering
+        try:
+            self._bring()
+        except RenderError:
+            if not self.room.refuse(self.scene, self.settings, layering):
+                raise
+            self._bring()
+
+    def _bring(self) -> None:
         wanted = self._wanted()
         if not self.renderer:
             self.renderer = self._open(wanted)
