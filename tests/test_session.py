@@ -15,7 +15,8 @@ from glrt.scene import Camera, Scene, with_lights
 from glrt.settings import Cost, settings_for
 from glrt.ui.controls import replaced
 from glrt.ui.pace import LEAST, Pace
-from glrt.ui.session import ANNOUNCED, STILL, Session
+from glrt.ui.preview import STILL
+from glrt.ui.session import ANNOUNCED, Session
 from tests.builders import MATTE, lamp, sphere
 from tests.mixture import everything
 

@@ -18,13 +18,11 @@ from glrt.renderer import Renderer
 from glrt.scene import SKY_GROUP, Scene
 from glrt.settings import Cost, Settings, settings_for
 from glrt.ui.history import History
+from glrt.ui.preview import Preview
 from glrt.ui.room import Room
 
 ANNOUNCED = 2  # frames that say what is about to stop them
-STILL = 0.25  # seconds without a move after which the full size is rendered
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
-MEMORY = 0.3  # weight of the newest frame in what a sample of a pixel takes
-COARSEST = 8  # pixels of the frame, in width and height, that share one of a preview
 
 
 @dataclass(frozen=True)
@@ -64,10 +62,8 @@ class Session:
         self._context = context
         self._clock = clock
         self._announced = 0
-        self._moved = -STILL
-        self._coarseness = 1
+        self._preview = Preview(clock)
         self._budget = 0.0  # seconds: of the last frame
-        self._pixel_seconds = 0.0  # for a sample of a pixel
 
     @property
     def scene(self) -> Scene:
@@ -194,17 +190,8 @@ class Session:
 
     def _follow(self, after: State) -> None:
         if after.scene.camera != self.scene.camera:
-            self._moved = self._clock()
-            self._coarseness = self._fitting()
+            self._preview.move(self.settings.width * self.settings.height, self._budget)
         self.state = after
-
-    def _fitting(self) -> int:
-        """The power of two that makes a sample of the whole frame fit into a frame's time."""
-        seconds = self._pixel_seconds * self.settings.width * self.settings.height
-        factor = 1
-        while factor < COARSEST and seconds > self._budget * factor**2:
-            factor *= 2
-        return factor
 
     def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
         start, before = self._clock(), renderer.work
@@ -213,9 +200,7 @@ class Session:
         self.rendering += spent
         if done > 0:
             width, height = renderer.size
-            measured = spent / (done * width * height)
-            known = self._pixel_seconds or measured
-            self._pixel_seconds = known + MEMORY * (measured - known)
+            self._preview.record(spent / (done * width * height))
 
     @property
     def _is_behind(self) -> bool:
@@ -299,8 +284,8 @@ class Session:
     def _wanted(self) -> State:
         """What the renderer is to have: while the camera moves, a size that keeps up."""
         settings = self.settings
-        factor = self._coarseness
-        if factor > 1 and self._clock() - self._moved < STILL:
+        factor = self._preview.factor
+        if factor > 1:
             size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
             settings = settings_for(settings, **size)
         return State(self.scene, settings)
