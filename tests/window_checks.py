@@ -32,7 +32,7 @@ from tests.hand import SMALL, Hand, check
 # Each control by its label in the panel: the control, and what to do to it.
 MOVES: dict[str, tuple[Control, Any]] = {
     "intensity##lamp": (panel.INTENSITY, 3.0),
-    "emission##lamp/##X": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
+    "emission##lamp/##emission/$$0": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
     "bounces": (panel.SETTINGS["bounces"], 1),
     "method/nee": (panel.SETTINGS["method"], None),
     "sampler/independent": (panel.SETTINGS["sampler"], None),
@@ -46,7 +46,7 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "defocus angle": (panel.CAMERA["defocus_angle"], 3.0),
     "position/$$2": (panel.CAMERA["position"], 3.0),
     "look at/$$0": (panel.CAMERA["look_at"], 0.3),
-    "color##background/##Z": (panel.BACKGROUND["color"], 0.5),
+    "color##background/##color/$$2": (panel.BACKGROUND["color"], 0.5),
     "width": (panel.SETTINGS["width"], 30),
     "height": (panel.SETTINGS["height"], 30),
 }
@@ -196,7 +196,7 @@ def press(hand: Hand, key: imgui.Key, modifiers: int = 0) -> None:
 def keys_are_chosen_in_the_panel(hand: Hand) -> None:
     app, ctx, start = hand.window.app, hand.ctx, hand.session.scene.camera
     ctx.set_ref("Controls")
-    ctx.item_open("Keys")
+    ctx.item_open("Mouse and keys")
     ctx.item_click("keys/Home##home 0")
     press(hand, imgui.Key.h)
     assert list(app.preferences.bindings["home"]) == ["h"]
@@ -222,7 +222,7 @@ def keys_are_chosen_in_the_panel(hand: Hand) -> None:
     ctx.item_click("reset keys")
     ctx.yield_(2)
     assert app.preferences.bindings == Preferences().bindings
-    ctx.item_close("Keys")
+    ctx.item_close("Mouse and keys")
 
 
 @check

@@ -10,7 +10,8 @@ from glrt.ui.app import App
 def draw_files(app: App) -> None:
     """Scenes to open, and where pictures and scenes go."""
     _chooser(app)
-    app.open_path, entered = _path("open", app.open_path, "a scene file, or a picture by glrt")
+    app.open_path, entered = _path("open", app.open_path, "scene file or picture")
+    imgui.set_item_tooltip("A scene file, or a picture by glrt: its scene, camera and settings")
     if _button("open", bool(app.open_path)) or (entered and app.open_path):
         app.open(app.open_path)
     if _browse("open"):

@@ -1,6 +1,6 @@
 """The part of the panel that shows the keys, and lets the user choose others."""
 
-from imgui_bundle import imgui
+from imgui_bundle import hello_imgui, imgui
 
 from glrt.errors import GlrtError
 from glrt.ui import keys
@@ -8,9 +8,27 @@ from glrt.ui.app import App
 from glrt.ui.controls import replaced
 from glrt.ui.keys import Action
 
+_MOUSE = {  # in the picture
+    "left drag": "turn about the pivot; in fly mode, look around",
+    "right drag": "look around; in fly mode, turn about the pivot",
+    "middle drag": "shift",
+    "wheel": "nearer and farther",
+    "click": "select; handles then move, with Shift they scale",
+    "Alt, click": "focus on that point",
+    "double click": "make that point the pivot",
+}
+
 
 def draw_key_table(app: App) -> None:
-    """A row for each action; a click on one of its keys waits for another."""
+    """What the mouse does, and a row for each action of the keys.
+
+    A click on a key waits for another one.
+    """
+    for gesture, meaning in _MOUSE.items():
+        imgui.text(gesture)
+        imgui.same_line(hello_imgui.em_size(7))
+        imgui.text_wrapped(meaning)
+    imgui.separator_text("click a key to change it")
     flags = imgui.TableFlags_.sizing_fixed_fit.value
     if imgui.begin_table("keys", 2, flags):
         for action, chords in app.preferences.bindings.items():
@@ -24,7 +42,6 @@ def draw_key_table(app: App) -> None:
     if imgui.button("reset keys"):
         app.prefer(replaced(app.preferences, bindings=keys.DEFAULTS))
     imgui.end_disabled()
-    imgui.text_disabled("click a key to change it")
 
 
 def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:

@@ -223,6 +223,6 @@ _SECTIONS = (
     ("Background", _background, 0),
     ("Frame", _frame, 0),
     ("Files", draw_files, 0),
-    ("Keys", draw_key_table, 0),
+    ("Mouse and keys", draw_key_table, 0),
     ("Window", _window, 0),
 )

@@ -17,7 +17,7 @@ COLORS = {
     Cost.RESTART: (0.85, 0.58, 0.13, 1.0),
     Cost.RECOMPILE: (0.88, 0.36, 0.36, 1.0),
 }
-_HDR = imgui.ColorEditFlags_.float.value | imgui.ColorEditFlags_.hdr.value
+_NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
 
 
@@ -46,7 +46,7 @@ def legend() -> None:
     for cost, meaning in MEANING.items():
         imgui.text_colored(COLORS[cost], cost.value)
         imgui.same_line(hello_imgui.em_size(5.5))
-        imgui.text(meaning)
+        imgui.text_wrapped(meaning)
 
 
 def _tag(cost: Cost) -> None:
@@ -71,8 +71,33 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
 
 
 def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    flags = _HDR if control.high is None or control.high > 1 else imgui.ColorEditFlags_.float.value
-    changed, parts = imgui.color_edit3(label, list(value), flags)
+    if control.high is None or control.high > 1:
+        return _radiance(label, value)
+    changed, parts = imgui.color_edit3(label, list(value), imgui.ColorEditFlags_.float.value)
+    return changed, tuple(parts)
+
+
+def _radiance(label: str, value: Any) -> tuple[bool, Any]:
+    """Three numbers of any size, and a patch of their hue; a click on it chooses another hue."""
+    name, brightest = label.partition("##")[0], max(*value, 0.0)
+    patch, room = imgui.get_frame_height(), imgui.get_style().item_inner_spacing.x
+    imgui.push_id(label)
+    imgui.set_next_item_width(imgui.calc_item_width() - patch - room)
+    speed = 0.005 * (brightest or 1.0)
+    changed, parts = imgui.drag_float3(f"##{name}", list(value), speed, 0.0, 0.0, "%.3g")
+    hue = [part / (brightest or 1.0) for part in value]
+    imgui.same_line(0.0, room)
+    if imgui.color_button("hue", (*hue, 1.0), _NO_TOOLTIP):
+        imgui.open_popup("hue")
+    if imgui.begin_popup("hue"):
+        picked, hue = imgui.color_picker3("##hue", hue, imgui.ColorEditFlags_.float.value)
+        if picked:
+            scale = (brightest or 1.0) / max(*hue, 1e-6)
+            changed, parts = True, [scale * part for part in hue]
+        imgui.end_popup()
+    imgui.same_line(0.0, room)
+    imgui.text(name)
+    imgui.pop_id()
     return changed, tuple(parts)
 
 

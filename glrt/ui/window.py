@@ -110,7 +110,6 @@ class Window:
             watch=watch_for(source),
         )
         self.app.complain(problem)
-        self._style()
 
     def _render(self) -> None:
         """Before a frame is drawn: keys, edits, samples, and the picture of them."""

@@ -1,0 +1,118 @@
+"""`glrt view` that is ended at a chosen moment: `python -m tests.moments MOMENT`.
+
+Each moment is brought about in the window itself, which then gets a signal, or is closed as by its
+cross. Before that a preference was changed.
+"""
+
+import os
+import signal
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from imgui_bundle import imgui
+
+import glfw  # isort: skip
+from glrt import files
+from glrt.cli import main
+from glrt.renderer import Renderer
+from glrt.ui.controls import replaced
+from glrt.ui.window import Window
+
+FRAMES = 12  # after which the picture has samples, and what the moment needs begins
+Act = Callable[[Window, int], None]  # what is done in a frame, by its number
+
+
+sent: list[int] = []
+
+
+def terminate() -> None:
+    """Once: a second signal ends the process at once."""
+    if not sent:
+        sent.append(signal.SIGTERM)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+
+def before(owner: Any, name: str, act: Callable[[], None]) -> None:
+    """Let a function act first."""
+    inner = getattr(owner, name)
+
+    def outer(*arguments: Any, **options: Any) -> Any:
+        act()
+        return inner(*arguments, **options)
+
+    setattr(owner, name, outer)
+
+
+def compiling(_window: Window, frame: int) -> None:
+    if frame == 0:
+        before(Renderer, "_compile", terminate)
+
+
+def dragging(window: Window, frame: int) -> None:
+    left, top, width, height = window.app.rectangle
+    io, aside = imgui.get_io(), frame - FRAMES
+    if aside >= 0:
+        io.add_mouse_pos_event(left + width / 2 + 9 * aside, top + height / 2)
+    if aside == 1:
+        io.add_mouse_button_event(0, True)
+    if aside == 6:
+        assert window.app.camera != window.app.session.opened.scene.camera, "it turns"
+        terminate()
+
+
+def choosing(window: Window, frame: int) -> None:
+    if frame == FRAMES:
+        window.app.dialogs.ask_open("Open", ["All files", "*"], window.app.open)
+    if frame > FRAMES and os.path.exists("dialog.pid"):
+        assert window.app.dialogs.is_open
+        terminate()
+
+
+def saving(window: Window, frame: int) -> None:
+    if frame == FRAMES:
+        before(files, "_rename", terminate)
+        window.app.save("picture.exr")
+
+
+def saving_when_killed(window: Window, frame: int) -> None:
+    if frame == FRAMES:
+        before(files, "_rename", lambda: os.kill(os.getpid(), signal.SIGKILL))
+        window.app.save("picture.exr")
+
+
+def closing(_window: Window, frame: int) -> None:
+    if frame == FRAMES:
+        background = imgui.get_style().color_(imgui.Col_.window_bg)
+        assert background.x > 0.8, "the theme that is preferred, light, is there from the start"
+        glfw.set_window_should_close(glfw.get_current_context(), True)
+
+
+MOMENTS: dict[str, Act] = {
+    act.__name__: act
+    for act in (compiling, dragging, choosing, saving, saving_when_killed, closing)
+}
+
+
+def run(moment: str) -> int:
+    """The window, with the moment in it."""
+    act, frames = MOMENTS[moment], iter(range(10_000))
+    opened, made = Window._open, Window._params
+
+    def open_and_act(window: Window) -> None:
+        opened(window)
+        window.app.prefer(replaced(window.app.preferences, mode="fly"))
+        act(window, next(frames))
+
+    def params(window: Window) -> Any:
+        result = made(window)
+        result.callbacks.after_swap = lambda: act(window, next(frames))
+        result.callbacks.post_init = lambda: open_and_act(window)
+        return result
+
+    Window._params = params  # type: ignore[assignment,method-assign]
+    return main(["view", "cornell", "--width", "32", "--height", "32"])
+
+
+if __name__ == "__main__":
+    sys.exit(run(sys.argv[1]))
