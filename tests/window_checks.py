@@ -20,7 +20,7 @@ from glrt.resources import folder
 from glrt.scene import Camera, Scene
 from glrt.scene_file import read_scene
 from glrt.settings import Cost
-from glrt.ui import dialogs, orbit, panel
+from glrt.ui import dialogs, orbit, panel, widgets
 from glrt.ui.controls import Control, replaced
 from glrt.ui.gizmo import is_held
 from glrt.ui.orbit import axes
@@ -92,6 +92,110 @@ def every_control_costs_what_it_says(hand: Hand) -> None:
             assert changed, reference
     for header in ("Background", "Frame"):
         hand.ctx.item_close(header)
+
+
+# Each preference by its label: what to choose.
+CHOICES: dict[str, Any] = {
+    "samples per frame": 3,
+    "target error": 0.1,
+    "mode": "fly",
+    "frame rate": 20,
+    "turn speed": 90.0,
+    "walk speed": 2.0,
+    "wheel speed": 3.0,
+    "invert": True,
+    "theme": "light",
+    "scale": 1.25,
+}
+SECTIONS = ("Background", "Frame", "Files", "Mouse and keys", "Window")  # closed at the start
+
+
+@check
+def preferences_are_chosen_and_restart_nothing(hand: Hand) -> None:
+    app, ctx, session = hand.window.app, hand.ctx, hand.session
+    ctx.set_ref("Controls")
+    ctx.item_open("Window")
+    for label, value in CHOICES.items():
+        restarts, samples = session.restarts, session.samples
+        reference = f"{label}##preference"
+        is_choice = isinstance(value, str)
+        move(hand, f"{reference}/{value}" if is_choice else reference, tuned(value))
+        ctx.yield_(2)
+        assert getattr(app.preferences, label.replace(" ", "_")) == value, label
+        assert (session.restarts, session.problem) == (restarts, "")
+        assert session.samples >= samples
+    assert app.pace.frames_per_second == 20
+    assert imgui.get_style().font_scale_main == 1.25
+    assert hand.there(lambda: imgui.get_style().color_(imgui.Col_.window_bg).x) > 0.8
+    assert "10 %" in "\n".join(figures(app))
+    move(hand, "scale##preference", 1.0)
+    ctx.item_close("Window")
+    start, (width, height) = session.scene.camera, imgui.get_io().display_size
+    drag(hand, 90, 40)
+    expected = orbit.looked(start, -90 * 90 / width, 90 * 40 / height)
+    assert far_apart(session.scene.camera, expected) < 0.02, "slower, upside down, where it stands"
+    before, step = session.scene.camera, 0.1 * 3.0 * app.reach
+    ctx.mouse_wheel_y(1)
+    hand.settle()
+    walked = math.dist(session.scene.camera.position, before.position)
+    assert walked == pytest.approx(step, rel=1e-5), "three times as far"
+
+
+def tuned(value: Any) -> Any:
+    """What `move` types for it; None clicks or chooses."""
+    return None if isinstance(value, bool | str) else value
+
+
+@check
+def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
+    """So that one that is added is added to the checks, too."""
+    drawn: set[str] = set()
+    inner = widgets.edited
+
+    def seen(control: Control, value: Any, name: str = "") -> Any:
+        drawn.add(f"{control.label}##{name}" if name else control.label)
+        return inner(control, value, name)
+
+    hand.ctx.set_ref("Controls")
+    widgets.edited = panel.edited = seen  # type: ignore[attr-defined]
+    for section in SECTIONS:
+        hand.ctx.item_open(section)
+    hand.ctx.yield_(2)
+    widgets.edited = panel.edited = inner  # type: ignore[attr-defined]
+    for section in SECTIONS:
+        hand.ctx.item_close(section)
+    moved = {reference.partition("/")[0] for reference in MOVES}
+    moved |= {f"{label}##preference" for label in CHOICES}
+    assert drawn == moved
+
+
+@check
+def buttons_and_boxes_of_the_scene_restart_it(hand: Hand) -> None:
+    ctx, session, start = hand.ctx, hand.session, hand.session.scene
+    ctx.set_ref("Controls")
+    ctx.item_input_value("focus distance", 2.0)
+    hand.settle()
+    ctx.item_click("focus on look at")
+    hand.settle()
+    assert session.scene.camera.focus_distance is None
+    ctx.item_open("Background")
+    restarts = session.restarts
+    ctx.item_click("gradient")
+    hand.settle()
+    assert session.scene.background.top is not None
+    move(hand, "top##background/##top/$$2", 0.5)
+    hand.settle()
+    assert session.scene.background.top == (0.0, 0.0, 0.5)
+    assert session.restarts > restarts
+    move(hand, "bottom##background/##bottom/$$0", 0.25)
+    ctx.item_click("gradient")
+    hand.settle()
+    assert session.scene.background.color == (0.0, 0.0, 0.5)
+    ctx.item_close("Background")
+    hand.there(lambda: hand.window.app.turn(0.1, 0.1, about_camera=False))
+    ctx.item_click("home")
+    hand.settle()
+    assert session.scene.camera == start.camera
 
 
 def drag(hand: Hand, across: float, down: float, button: int = 0) -> None:

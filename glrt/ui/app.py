@@ -136,9 +136,7 @@ class App:
                 self.picture.reload_shaders()
                 self.session.reload_shaders()
         except GlrtError as error:
-            return self.complain(str(error))
-        self.shown = None
-        return None
+            self.complain(str(error))
 
     def reload(self) -> None:
         """The scene as its file has it now; the camera and the settings stay."""
