@@ -29,8 +29,9 @@ def draw_key_table(app: App) -> None:
         imgui.same_line(hello_imgui.em_size(7))
         imgui.text_wrapped(meaning)
     imgui.separator_text("click a key to change it")
-    flags = imgui.TableFlags_.sizing_fixed_fit.value
-    if imgui.begin_table("keys", 2, flags):
+    if imgui.begin_table("keys", 2):
+        imgui.table_setup_column("action", imgui.TableColumnFlags_.width_fixed.value)
+        imgui.table_setup_column("keys", imgui.TableColumnFlags_.width_stretch.value)
         for action, chords in app.preferences.bindings.items():
             imgui.table_next_column()
             imgui.align_text_to_frame_padding()
@@ -47,11 +48,12 @@ def draw_key_table(app: App) -> None:
 def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
     """The keys of an action, and a button for one more."""
     for index, chord in enumerate((*chords, "")):
+        text = keys.label(chord) if chord else "+"
         if index:
-            imgui.same_line()
+            _beside(text)
         if app.awaited == (action, index):
             _waiting(app, action, chords)
-        elif imgui.button(f"{keys.label(chord) if chord else '+'}##{action} {index}"):
+        elif imgui.button(f"{text}##{action} {index}"):
             app.awaited = (action, index)
         imgui.set_item_tooltip("Click, then press a key" if chord else "One more key")
 
@@ -62,9 +64,17 @@ def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
     if imgui.button("press a key##awaited"):
         app.awaited = None
     if index < len(chords):
-        imgui.same_line()
+        _beside("remove")
         if imgui.button("remove##awaited"):
             _bind(app, action, (*chords[:index], *chords[index + 1 :]))
+
+
+def _beside(text: str) -> None:
+    """Go on in this line if a button with this text has room there."""
+    imgui.same_line()
+    width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
 
 
 def is_choosing(app: App) -> bool:

@@ -76,7 +76,7 @@ def _commands(app: App) -> None:
         session.redo()
     if app.message:
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_disabled(app.message)
+        imgui.text(app.message)
         imgui.pop_text_wrap_pos()
 
 

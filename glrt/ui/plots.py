@@ -6,6 +6,7 @@ import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.needs import explain
+from glrt.settings import Settings
 from glrt.ui.app import App
 from glrt.ui.progress import Look
 
@@ -39,7 +40,7 @@ def figures(app: App) -> list[str]:
     lines = [
         f"{session.samples} of {session.settings.samples} samples{preview}",
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {_banded(progress.last)}, estimated",
+        f"error {_banded(progress.last, session.settings)}",
         _forecast(app),
     ]
     if progress.last and progress.last.nonfinite:
@@ -57,15 +58,15 @@ def _forecast(app: App) -> str:
     return f"{_percent(target)} in about {_duration(seconds)} of rendering"
 
 
-def _banded(look: Look | None) -> str:
+def _banded(look: Look | None, settings: Settings) -> str:
     """The error, and the band that chance leaves it: to as many digits as tell its ends apart."""
     if look is None:
-        return "not known yet"
+        return f"estimated from {2 * settings.block} samples on"
     error, low, high = (100 * part for part in look.band)
     if not 0 < high - low < math.inf:
-        return f"{error:.2g} %"
+        return f"{error:.2g} %, estimated"
     digits = min(max(0, 1 - math.floor(math.log10(high - low))), 4)
-    return f"{error:.{digits}f} % ({low:.{digits}f} to {high:.{digits}f})"
+    return f"{error:.{digits}f} % ({low:.{digits}f} to {high:.{digits}f}), estimated"
 
 
 def _percent(error: float | None) -> str:

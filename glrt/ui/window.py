@@ -143,6 +143,7 @@ class Window:
             self._styled = wanted
             hello_imgui.apply_theme(THEMES[wanted[0]])
             imgui.get_style().font_scale_main = wanted[1]
+            imgui.get_style().frame_border_size = 1.0  # a light box on a light ground has an edge
 
     def _close(self) -> None:
         self.app.keep_preferences()
