@@ -8,7 +8,7 @@ from glrt.settings import Cost
 from glrt.ui.app import App
 from glrt.ui.controls import Control
 from glrt.ui.views import HELP, View
-from glrt.ui.widgets import edited
+from glrt.ui.widgets import button, edited
 
 VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, get_args(View))
 _MOST = "the difference, relative to the kept picture, that has the strongest colour"
@@ -28,10 +28,10 @@ def draw_view(app: App) -> None:
 def draw_compare(app: App) -> None:
     """Keep a picture; wipe between it and what comes, or see the difference."""
     show = app.show
-    if _button("keep this picture", bool(app.picture.name)):
+    if button("keep this picture", bool(app.picture.name)):
         app.keep()
     imgui.same_line()
-    if _button("forget it", show.kept is not None):
+    if button("forget it", show.kept is not None):
         show.forget()
     if not show.kept:
         return
@@ -40,10 +40,3 @@ def draw_compare(app: App) -> None:
     _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
     if is_difference != (show.view == "difference"):
         show.view = "difference" if is_difference else "picture"
-
-
-def _button(label: str, enabled: bool) -> bool:
-    imgui.begin_disabled(not enabled)
-    pressed = imgui.button(label)
-    imgui.end_disabled()
-    return pressed

@@ -1,8 +1,10 @@
 """File dialogs of the desktop; where no program draws them, the panel's text boxes serve."""
 
+import os
 import shutil
 import sys
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs
@@ -18,7 +20,12 @@ Use = Callable[[str], None]
 
 def are_there() -> bool:
     """Whether this desktop can show a file dialog."""
-    return sys.platform in ("win32", "darwin") or any(map(shutil.which, PROGRAMS))
+    return sys.platform in ("win32", "darwin") or _finds(PROGRAMS, os.environ.get("PATH"))
+
+
+@lru_cache
+def _finds(programs: tuple[str, ...], path: str | None) -> bool:
+    return any(shutil.which(program, path=path) for program in programs)
 
 
 class Dialogs:

@@ -5,6 +5,7 @@ from imgui_bundle import hello_imgui, imgui
 from glrt.library import scene_names
 from glrt.ui import dialogs
 from glrt.ui.app import App
+from glrt.ui.widgets import button
 
 
 def draw_files(app: App) -> None:
@@ -12,13 +13,15 @@ def draw_files(app: App) -> None:
     _chooser(app)
     app.open_path, entered = _path("open", app.open_path, "scene file or picture")
     imgui.set_item_tooltip("A scene file, or a picture by glrt: its scene, camera and settings")
-    if _button("open", bool(app.open_path)) or (entered and app.open_path):
+    imgui.same_line()
+    if button("open", bool(app.open_path)) or (entered and app.open_path):
         app.open(app.open_path)
     if _browse("open"):
         app.dialogs.ask_open("Open a scene or a picture", dialogs.SCENES, app.open)
     has_picture = app.session.samples > 0
     app.save_path, entered = _path("save", app.save_path, "picture.png, or .exr, .npy")
-    if _button("save", has_picture) or (entered and has_picture):
+    imgui.same_line()
+    if button("save", has_picture) or (entered and has_picture):
         app.save()
     imgui.set_item_tooltip(
         "The picture as it is shown, with its recipe; .exr holds radiance and its error"
@@ -26,7 +29,8 @@ def draw_files(app: App) -> None:
     if has_picture and _browse("save"):
         app.dialogs.ask_save("Save the picture", app.save_path, dialogs.PICTURE, app.save)
     app.scene_path, entered = _path("scene file", app.scene_path, "scene.toml")
-    if _button("save scene", bool(app.scene_path)) or (entered and app.scene_path):
+    imgui.same_line()
+    if button("save scene", bool(app.scene_path)) or (entered and app.scene_path):
         app.save_scene()
     imgui.set_item_tooltip(
         "A TOML file of the scene as it is now. Of the file that it was opened from, comments, "
@@ -47,12 +51,13 @@ def _chooser(app: App) -> None:
 
 
 def _recipe(app: App, has_picture: bool) -> None:
-    if _button("copy recipe", has_picture, beside=False):
+    if button("copy recipe", has_picture):
         app.copy_recipe()
     imgui.set_item_tooltip(
         "Scene, settings and samples of this picture as text, for another window or a report"
     )
-    if _button("paste recipe"):
+    imgui.same_line()
+    if button("paste recipe"):
         app.paste_recipe()
 
 
@@ -62,15 +67,6 @@ def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
     _, path = imgui.input_text_with_hint(f"##{name}", hint, path)
     is_entered = imgui.is_item_deactivated() and imgui.is_key_pressed(imgui.Key.enter)
     return path, is_entered
-
-
-def _button(label: str, enabled: bool = True, beside: bool = True) -> bool:
-    if beside:
-        imgui.same_line()
-    imgui.begin_disabled(not enabled)
-    pressed = imgui.button(label)
-    imgui.end_disabled()
-    return pressed
 
 
 def _browse(name: str) -> bool:

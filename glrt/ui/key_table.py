@@ -7,6 +7,7 @@ from glrt.ui import keys
 from glrt.ui.app import App
 from glrt.ui.controls import replaced
 from glrt.ui.keys import Action
+from glrt.ui.widgets import button
 
 _MOUSE = {  # in the picture
     "left drag": "turn about the pivot; in fly mode, look around",
@@ -39,10 +40,8 @@ def draw_key_table(app: App) -> None:
             imgui.table_next_column()
             _row(app, action, chords)
         imgui.end_table()
-    imgui.begin_disabled(app.preferences.bindings == keys.DEFAULTS)
-    if imgui.button("reset keys"):
+    if button("reset keys", app.preferences.bindings != keys.DEFAULTS):
         app.prefer(replaced(app.preferences, bindings=keys.DEFAULTS))
-    imgui.end_disabled()
 
 
 def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:

@@ -16,7 +16,7 @@ from glrt.ui.key_table import draw_key_table
 from glrt.ui.objects import draw_object, with_material
 from glrt.ui.preferences import Preferences
 from glrt.ui.session import Session
-from glrt.ui.widgets import edited, edited_fields, legend
+from glrt.ui.widgets import button, edited, edited_fields, legend
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
 PATHS = ("method", "sampler", "roulette", "seed")
@@ -69,22 +69,15 @@ def _commands(app: App) -> None:
     if imgui.button("restart"):
         session.restart()
     imgui.same_line()
-    if _button("undo", session.history.can_undo):
+    if button("undo", session.history.can_undo):
         session.undo()
     imgui.same_line()
-    if _button("redo", session.history.can_redo):
+    if button("redo", session.history.can_redo):
         session.redo()
     if app.message:
         imgui.push_text_wrap_pos(0.0)
         imgui.text(app.message)
         imgui.pop_text_wrap_pos()
-
-
-def _button(label: str, enabled: bool) -> bool:
-    imgui.begin_disabled(not enabled)
-    pressed = imgui.button(label)
-    imgui.end_disabled()
-    return pressed
 
 
 def _lights(app: App) -> None:

@@ -34,6 +34,14 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     return _clamped(control, new) if changed else None
 
 
+def button(label: str, is_enabled: bool = True) -> bool:
+    """A button, grey where it would do nothing; whether it was pressed."""
+    imgui.begin_disabled(not is_enabled)
+    pressed = imgui.button(label)
+    imgui.end_disabled()
+    return pressed
+
+
 def tooltip(control: Control) -> None:
     """Tell what the item drawn last does, and what it costs."""
     help_text = control.help[:1].upper() + control.help[1:]
