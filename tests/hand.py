@@ -136,7 +136,7 @@ def run_checks(checks: dict[str, Check]) -> dict[str, str]:
     def work(ctx: imgui.test_engine.TestContext) -> None:
         hand.ctx = ctx
         engine = imgui.test_engine.get_io(hello_imgui.get_imgui_test_engine())
-        engine.config_watchdog_warning = engine.config_watchdog_kill_test = 250.0  # seconds
+        engine.config_watchdog_warning = engine.config_watchdog_kill_test = 550.0  # seconds
         for name, function in checks.items():
             try:
                 hand.begin()

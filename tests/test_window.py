@@ -29,6 +29,7 @@ CHECKS = [
     for node in ast.parse((ROOT / "tests" / "window_checks.py").read_text()).body
     if isinstance(node, ast.FunctionDef) and node.decorator_list
 ]
+pytestmark = pytest.mark.timeout(600)  # of a machine that has other things to do as well
 SHARING = 9  # checks in one window, so that a slow machine ends them in time
 ON_OLD_DRIVERS = (
     "the_driver_decides_on_the_pipeline",
@@ -91,7 +92,7 @@ def checked(display: str, folder: Path, *names: str, **variables: str) -> dict[s
         text=True,
         cwd=folder,
         env={**os.environ, **environment, **variables},
-        timeout=280,
+        timeout=580,
     )
     file = folder / "found.json"
     assert file.exists(), told.stdout[-2000:] + told.stderr[-4000:]
