@@ -170,6 +170,27 @@ def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
 
 
 @check
+def a_hue_is_picked_without_a_change_of_brightness(hand: Hand) -> None:
+    ctx, before = hand.ctx, lamp_of(hand)
+    ctx.set_ref("Controls")
+    ctx.item_click("emission##lamp/hue")
+    ctx.yield_(2)
+    ctx.set_ref("//$FOCUSED")
+    ctx.item_input_value("##picker/##rgb/##Y", 0.25)
+    hand.settle()
+    after = lamp_of(hand)
+    assert max(after) == pytest.approx(max(before), rel=1e-5)
+    assert after[1] == pytest.approx(0.25 * max(before), rel=1e-3)
+    assert after[2] == pytest.approx(before[2], rel=1e-3)
+    ctx.popup_close_all()
+    ctx.yield_(2)
+
+
+def lamp_of(hand: Hand) -> Any:
+    return hand.session.scene.materials["lamp"].emission  # type: ignore[union-attr]
+
+
+@check
 def buttons_and_boxes_of_the_scene_restart_it(hand: Hand) -> None:
     ctx, session, start = hand.ctx, hand.session, hand.session.scene
     ctx.set_ref("Controls")

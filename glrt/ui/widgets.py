@@ -87,26 +87,33 @@ def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:
 
 def _radiance(label: str, value: Any) -> tuple[bool, Any]:
     """Three numbers of any size, and a patch of their hue; a click on it chooses another hue."""
-    name, brightest = label.partition("##")[0], max(*value, 0.0)
+    name, brightest = label.partition("##")[0], max(*value, 0.0) or 1.0
     patch, room = imgui.get_frame_height(), imgui.get_style().item_inner_spacing.x
     imgui.push_id(label)
+    imgui.begin_group()
     imgui.set_next_item_width(imgui.calc_item_width() - patch - room)
-    speed = 0.005 * (brightest or 1.0)
-    changed, parts = imgui.drag_float3(f"##{name}", list(value), speed, 0.0, 0.0, "%.3g")
-    hue = [part / (brightest or 1.0) for part in value]
+    changed, parts = imgui.drag_float3(
+        f"##{name}", list(value), 0.005 * brightest, 0.0, 0.0, "%.3g"
+    )
     imgui.same_line(0.0, room)
-    if imgui.color_button("hue", (*hue, 1.0), _NO_TOOLTIP):
-        imgui.open_popup("hue")
-    if imgui.begin_popup("hue"):
-        picked, hue = imgui.color_picker3("##hue", hue, imgui.ColorEditFlags_.float.value)
-        if picked:
-            scale = (brightest or 1.0) / max(*hue, 1e-6)
-            changed, parts = True, [scale * part for part in hue]
-        imgui.end_popup()
+    if hue := _hue([part / brightest for part in value]):
+        changed, parts = True, [brightest * part for part in hue]
     imgui.same_line(0.0, room)
     imgui.text(name)
+    imgui.end_group()
     imgui.pop_id()
     return changed, tuple(parts)
+
+
+def _hue(hue: list[float]) -> list[float] | None:
+    """A patch of a colour, and what is picked after a click on it: its largest part is 1."""
+    if imgui.color_button("hue", [*hue, 1.0], _NO_TOOLTIP):
+        imgui.open_popup("picker")
+    picked = False
+    if imgui.begin_popup("picker"):
+        picked, hue = imgui.color_picker3("##picker", hue, imgui.ColorEditFlags_.float.value)
+        imgui.end_popup()
+    return [part / max(*hue, 1e-6) for part in hue] if picked else None
 
 
 def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
