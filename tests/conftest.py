@@ -57,7 +57,7 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
     expression; `returns` is the GLSL type of the result ("float", "vec3", "uint", "bool").
     `setup` are statements that stand before the expression; `functions` go in front of main.
     All files of the path text are included, with every feature compiled in, or with those of
-    `scene` and its blocks; `constants` override the prelude.
+    `scene` and its blocks, by the independent sampler; `constants` override the prelude.
     """
 
     def call(
@@ -71,7 +71,8 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
     ) -> Array:
         prelude: dict[str, bool | int] = dict(EVERYTHING)
         if scene:
-            prelude = needs_of(scene, settings_for(scene.render)).constants()
+            settings = settings_for(scene.render, sampler="independent")
+            prelude = needs_of(scene, settings).constants()
         prelude |= constants or {}
         probe = Probe(expression, returns, setup, functions, path_files(), prelude)
         blocks = {name: ctx.buffer(data) for name, data in scene_blocks(scene).items()}
