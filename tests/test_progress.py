@@ -6,7 +6,7 @@ import pytest
 from glrt.context import Context
 from glrt.relight import ONE
 from glrt.stats import Band
-from glrt.ui.progress import GROWTH, PAUSE, Look, Progress, look_at
+from glrt.ui.progress import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
 from tests.mixture import everything
 from tests.renders import rendering
 
@@ -57,6 +57,19 @@ def test_the_line_has_slope_minus_one_half_and_ends_at_the_last_look() -> None:
     seconds, errors = progress.slope()
     assert seconds == [1.0, 16.0]
     assert errors == pytest.approx([0.8, 0.2])
+
+
+def test_a_plot_holds_all_looks_and_a_tick_of_each_axis() -> None:
+    progress = Progress()
+    assert progress.limits() == EMPTY
+    for look in (seen(40, 2.05, 0.1032), seen(41, 2.06, 0.1031)):
+        progress.record(look, 0.0)
+    first, last, least, most = progress.limits()
+    assert first < 2.05 < 2.06 < last
+    assert least < 0.1031 < 0.1032 < most
+    for low, high in ((first, last), (least, most)):
+        ticks = [share * 10.0**power for power in range(-4, 3) for share in (1, 2, 5)]
+        assert any(low <= tick <= high for tick in ticks)
 
 
 def test_a_look_tells_what_the_picture_tells(context: Context) -> None:

@@ -10,13 +10,7 @@ from glrt.settings import Settings
 from glrt.ui.app import App
 from glrt.ui.progress import Look
 
-_TICKS = {  # of the error: an axis of less than a magnitude shows some of them too
-    share * 10.0**power: f"{share * 10.0 ** (power + 2):g} %"
-    for power in range(-5, 3)
-    for share in (1, 2, 3, 5, 7)
-}
-
-_EMPTY = (0.1, 100.0, 0.01, 1.0)  # seconds and errors of a plot that has no line yet
+_MOST_TICKS = 5  # of an axis: more run into each other
 
 
 def draw_figures(app: App) -> None:
@@ -104,17 +98,28 @@ def _plot(app: App) -> None:
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
         return
-    fit = implot.AxisFlags_.auto_fit.value if len(looks) > 1 else 0
     implot.setup_legend(implot.Location_.north_east.value)
-    implot.setup_axes("seconds of rendering", "error", fit, fit)
+    implot.setup_axes("seconds of rendering", "error")
     implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
     implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
-    implot.setup_axis_ticks(implot.ImAxis_.y1.value, list(_TICKS), list(_TICKS.values()))
+    limits = app.progress.limits()
+    for axis, ticks in (
+        (implot.ImAxis_.x1, {tick: f"{tick:g}" for tick in _ticks(*limits[:2])}),
+        (implot.ImAxis_.y1, {tick: f"{100 * tick:g} %" for tick in _ticks(*limits[2:])}),
+    ):
+        implot.setup_axis_ticks(axis.value, list(ticks), list(ticks.values()))
+    implot.setup_axes_limits(*limits, implot.Cond_.always.value)
     if len(looks) > 1:
         seconds = np.array([look.seconds for look in looks])
         implot.plot_line("error", seconds, np.array([look.error for look in looks]))
         along, down = app.progress.slope()
         implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
-    else:
-        implot.setup_axes_limits(*_EMPTY, implot.Cond_.always.value)
     implot.end_plot()
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """1, 2, 5 and so on between limits; powers of ten alone where those are many."""
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    fine, coarse = ([share * 10.0**p for p in powers for share in s] for s in ((1, 2, 5), (1,)))
+    inside = [tick for tick in fine if low <= tick <= high]
+    return inside if len(inside) <= _MOST_TICKS else [t for t in coarse if low <= t <= high]

@@ -12,6 +12,8 @@ from glrt.stats import Band, error_band
 
 GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
 PAUSE = 0.5  # seconds between two looks, at least
+MARGIN = 1.6  # factor beyond the looks that a plot of them shows: its square is more than 5 / 2
+EMPTY = (0.1, 100.0, 0.01, 1.0)  # the limits of a plot that has no line yet
 
 
 class Look(NamedTuple):
@@ -77,6 +79,18 @@ class Progress:
             return None
         last = self.looks[-1]
         return max(0.0, last.seconds * ((last.error / target) ** 2 - 1))
+
+    def limits(self) -> tuple[float, float, float, float]:
+        """First and last second, least and largest error of a plot of the looks.
+
+        However near the looks lie to each other, a tick of 1, 2 or 5 is between the limits.
+        """
+        if len(self.looks) < 2:
+            return EMPTY
+        (seconds, errors), known = self.slope(), [look.error for look in self.looks]
+        ends = min(seconds), max(seconds), min(*errors, *known), max(*errors, *known)
+        least, most = 1 / MARGIN, MARGIN
+        return ends[0] * least, ends[1] * most, ends[2] * least, ends[3] * most
 
     def slope(self) -> tuple[list[float], list[float]]:
         """Seconds and errors of the line of slope -1/2 through the last look."""
