@@ -104,13 +104,19 @@ def held() -> float:
     return pages * PAGE / 1e6
 
 
-def soak(seconds: float, most: int, chance: random.Random) -> list[Look]:
-    """Change for so long, or so many times; what was held after each stint."""
+def soak(seconds: float, seed: int, period: int | None = None, rounds: int = 1) -> list[Look]:
+    """Change for so long, or `rounds` times a period of stints; what was held after each.
+
+    All rounds make the same changes, in one context.
+    """
+    most, chance = rounds * period if period else None, random.Random(seed)
     scenes, looks, start = all_scenes(), list[Look](), time.perf_counter()
     context = open_context("auto")
     renderer = Renderer(everything(), context=context, width=16, height=16, layering="groups")
     with TemporaryDirectory() as folder:
-        while (spent := time.perf_counter() - start) < seconds and len(looks) < most:
+        while (spent := time.perf_counter() - start) < seconds and len(looks) != most:
+            if period and len(looks) % period == 0:
+                chance.seed(seed)
             change(renderer, chance.choice(scenes), chance)
             own = chance.random() < 1 / ALONE
             file = Path(folder) / "chance.exr"
@@ -144,7 +150,7 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--seed", type=int, default=0)
     chosen = parser.parse_args()
-    looks = soak(60 * chosen.minutes, 10**9, random.Random(chosen.seed))
+    looks = soak(60 * chosen.minutes, chosen.seed)
     for look in looks[:: max(1, len(looks) // 30)]:
         print(f"{look.seconds:6.0f} s {look.stints:6} stints {look.megabytes:6.0f} MB")
     print(told(looks))
