@@ -510,11 +510,10 @@ def what_cannot_be_saved_is_told(hand: Hand) -> None:
 @check
 def preferences_are_kept_while_the_window_is_open(hand: Hand) -> None:
     file = hand.window.app.preferences_file
-    assert not file.exists()
+    file.unlink(missing_ok=True)
     hand.ctx.set_ref("Controls")
     hand.ctx.combo_click("mode##preference/fly")
-    hand.until(file.exists, frames=1000)
-    assert json.loads(file.read_text())["mode"] == "fly"
+    hand.until(lambda: kept(file).get("mode") == "fly", frames=1000)
     before = hand.session.scene.camera
     drag(hand, 60, 0)
     assert hand.session.scene.camera.position == before.position, "fly: it turns where it stands"
@@ -530,6 +529,11 @@ def the_driver_decides_on_the_pipeline(hand: Hand) -> None:
     hand.settle()
     assert hand.session.last_cost is (Cost.RELIGHT if has_compute else Cost.RESTART)
     assert hand.session.restarts == restarts + (not has_compute)
+
+
+def kept(file: Path) -> dict[str, Any]:
+    """What a file of preferences says; nothing if there is none."""
+    return dict(json.loads(file.read_text())) if file.exists() else {}
 
 
 @check
@@ -626,7 +630,10 @@ def a_click_selects_and_restarts_nothing(hand: Hand) -> None:
 @check
 def a_double_click_sets_the_pivot(hand: Hand) -> None:
     number, shape = ball(hand)
-    click(hand, shape.center, times=2)
+    hand.session.paused, before = True, hand.window.app.pivot
+    for _ in range(5):  # a frame of a busy machine may be longer than a double click
+        if hand.window.app.pivot == before:
+            click(hand, shape.center, times=2)
     assert abs(math.dist(hand.window.app.pivot, shape.center) / shape.radius - 1) < 0.02
     assert hand.session.scene.objects[number] == shape
 
