@@ -1,6 +1,7 @@
 """`glrt inspect --error`: the method and the bounces that it names suffice, and no cheaper do."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from glrt.context import Context
 from glrt.lab import reference as references
 from glrt.lab import suffices
 from glrt.lab.advice import advice, conclusion
+from glrt.lab.reference import Reference
 from glrt.lab.suffices import Bias, Candidate, Verdict, what_suffices
 from glrt.library import load
 from glrt.needs import LADDER
@@ -118,7 +120,7 @@ def test_noise_is_no_bias(context: Context) -> None:
 
 
 def of_bias(bias: float, variance: float = 1.0, seconds: float = 1.0) -> Candidate:
-    settings = settings_for(furnace().render)
+    settings = settings_for(furnace().render, sampler="independent")
     return Candidate("mis", settings, Bias(bias**2, 0.0), variance, seconds)
 
 
@@ -126,8 +128,11 @@ def test_samples_make_up_for_the_bias() -> None:
     assert of_bias(0.0).samples_to(0.1) == pytest.approx(100, abs=1)
     assert of_bias(0.06).samples_to(0.1) == pytest.approx(1 / 0.0064, abs=1)
     assert of_bias(0.1).samples_to(0.1) is None
-    assert of_bias(0.0, variance=1e-9).samples_to(0.1) == 16, "a block"
+    assert of_bias(0.0, variance=1e-9).samples_to(0.1) == 1
     assert of_bias(0.2).seconds_to(0.1) == math.inf
+    few = of_bias(0.0)
+    blocks = replace(few, settings=settings_for(few.settings, sampler="sobol"))
+    assert (blocks.samples_to(0.5), blocks.samples_to(0.2)) == (16, 32)
 
 
 # --- the choice ----------------------------------------------------------------------------
@@ -176,6 +181,18 @@ def test_an_error_beyond_reach_is_told(context: Context) -> None:
     assert conclusion(verdict).startswith("Nothing is known to reach 0.01 %")
 
 
+def test_more_samples_than_a_picture_holds_are_not_enough() -> None:
+    noisy = replace(of_bias(0.0), variance=2e6)
+    verdict = Verdict(1.0, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
+    assert verdict.best is None
+    assert conclusion(verdict) == (
+        "Nothing reaches 100 %: `mis` would take 2,000,000 samples, and a picture holds 1,048,576. "
+        "Ask for a larger error."
+    )
+    one = replace(verdict, candidates=(replace(noisy, variance=1.0, seconds_per_sample=1e-5),))
+    assert "with 1 sample, in about 0.001 s at" in conclusion(one)
+
+
 def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
     size = ("--width", "16", "--height", "16")
     said = glrt("inspect", "methods/open", *size, "--error", "0.5").stdout.splitlines()
@@ -185,8 +202,10 @@ def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
         "render", "methods/open", "-o", picture, *size, "--method", "auto", "--error", "0.5"
     )
     assert done.returncode == 0
-    assert done.stderr.startswith("Enough: `")
-    chosen = done.stderr.split("`")[1]
+    measuring, told = done.stderr.splitlines()[:2]
+    assert measuring == "Measuring which method suffices ..."
+    assert told.startswith("Enough: `")
+    chosen = told.split("`")[1]
     again = glrt("inspect", picture)
     assert f"method {chosen}," in again.stdout, "the recipe names the method that was chosen"
 

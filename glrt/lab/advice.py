@@ -14,7 +14,7 @@ from glrt.lab.suffices import Candidate, Verdict, what_suffices
 from glrt.needs import LADDER
 from glrt.omissions import omissions
 from glrt.scene import Scene
-from glrt.settings import Settings
+from glrt.settings import MAX_SAMPLES, Settings
 
 
 def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> None:
@@ -43,6 +43,8 @@ def choose(
 def _verdict(
     arguments: argparse.Namespace, scene: Scene, settings: Settings, error: float
 ) -> Verdict:
+    if not getattr(arguments, "quiet", False):
+        print("Measuring which method suffices ...", file=sys.stderr, flush=True)
     context = open_context(arguments.context)
     bounces = getattr(arguments, "bounces", None)
     verdict = what_suffices(scene, settings, error, context, bounces)
@@ -65,9 +67,10 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
         mark = "  the fewest that keep it below" if limit == verdict.least_bounces else ""
         yield f"{limit:>7}  {percent(bias.value):<8}{mark}".rstrip()
     yield ""
-    yield "method           bounces  bias     seconds"
+    width = max(len(candidate.name) for candidate in verdict.candidates)
+    yield f"{'method':<{width}} bounces  bias     seconds"
     for candidate in verdict.candidates:
-        yield _row(scene, verdict, candidate)
+        yield _row(scene, verdict, candidate, width)
     yield ""
     yield conclusion(verdict)
 
@@ -76,27 +79,43 @@ def conclusion(verdict: Verdict) -> str:
     """One sentence: what to take, or that nothing is known to do."""
     best = verdict.best
     if best is None:
+        wanted = verdict.nearest.samples_to(verdict.error)
+        if wanted is not None:
+            return (
+                f"Nothing reaches {percent(verdict.error)}: `{verdict.nearest.settings.method}` "
+                f"would take {wanted:,} samples, and a picture holds {MAX_SAMPLES:,}. Ask for a "
+                "larger error."
+            )
         return (
             f"Nothing is known to reach {percent(verdict.error)}: what a measurement of some "
             "seconds finds is too noisy. Ask for a larger error."
         )
     settings = best.settings
-    plural = "" if settings.bounces == 1 else "s"
     return (
-        f"Enough: `{settings.method}` with {settings.bounces} bounce{plural} reaches "
-        f"{percent(verdict.error)} with {best.samples_to(verdict.error):,} samples, in about "
-        f"{number(best.seconds_to(verdict.error))} s at {settings.width} x {settings.height}."
+        f"Enough: `{settings.method}` with {_count(settings.bounces, 'bounce')} reaches "
+        f"{percent(verdict.error)} with {_count(best.samples_to(verdict.error) or 0, 'sample')}, "
+        f"in about {_seconds(best.seconds_to(verdict.error))} s at {settings.width} x "
+        f"{settings.height}."
     )
 
 
-def _row(scene: Scene, verdict: Verdict, candidate: Candidate) -> str:
+def _count(number: int, thing: str) -> str:
+    return f"{number:,} {thing}{'' if number == 1 else 's'}"
+
+
+def _seconds(value: float) -> str:
+    """Three digits; what is less than a millisecond is not worth telling apart."""
+    return number(max(value, 0.001))
+
+
+def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> str:
     settings = candidate.settings
     samples = candidate.samples_to(verdict.error)
-    seconds = number(candidate.seconds_to(verdict.error)) if samples else "never"
+    seconds = _seconds(candidate.seconds_to(verdict.error)) if samples else "never"
     bias = percent(candidate.bias.value)
     if settings.method in LADDER:
         missing = omissions(scene, settings)
         reason = "; ".join(missing) if missing else "leaves nothing out here"
     else:
-        reason = f"light beyond {settings.bounces} bounces"
-    return f"{candidate.name:<16} {settings.bounces:>7}  {bias:<8} {seconds:<8} {reason}"
+        reason = f"light beyond {_count(settings.bounces, 'bounce')}"
+    return f"{candidate.name:<{width}} {settings.bounces:>7}  {bias:<8} {seconds:<8} {reason}"

@@ -36,6 +36,7 @@ def _fill(figure: Any, experiment: Experiment) -> None:
     _draw(times, experiment.curves, _milliseconds(experiment))
     _draw(rays, experiment.curves, _rays(experiment))
     times.set(xlabel="milliseconds a picture", ylabel="relative RMS error")
+    times.yaxis.set_major_formatter(lambda error, _place: percent(error))
     rays.set(xlabel="rays a pixel")
     _mark_levels(times, experiment.curves)
     _mark_levels(rays, [])

@@ -37,7 +37,7 @@ def speed_up(curves: Sequence[Curve], level: float) -> SpeedUp | None:
         return None
     (fast, winner, _), (slow, measured) = known[0], bases[0]
     about = "" if measured else "about "
-    return SpeedUp(fast, slow, f"{winner} {about}{number(slow / fast)} x {BASE}")
+    return SpeedUp(fast, slow, f"{winner} {about}{number(slow / fast)} x as fast as {BASE}")
 
 
 def number(value: float) -> str:

@@ -21,10 +21,11 @@ from glrt.lab.variants import METHODS, Variant, variants_of
 from glrt.needs import LADDER
 from glrt.renderer import Renderer
 from glrt.scene import Scene
-from glrt.settings import Settings, settings_for
+from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
 HEIGHT = 48  # pixels of the frame that is measured
 SAMPLES = 128  # of each picture
+MOST_TRIED = 16 * SAMPLES  # of each picture, where few paths carry the noise
 TURNS = 5  # in which the methods are timed: whatever else the machine does meets all
 SEEDS = (0x53554646, 0x53554647)
 REFERENCE_SECONDS = 10.0
@@ -33,6 +34,7 @@ LEADER = "mis"  # the method whose bounces are measured
 _SPARE = 4  # limits of bounces tried beyond the first that suffices: fewer samples may pay
 _TIE = 1.25  # ratio of times
 _SURE = 2.0  # standard errors
+_KNOWN = 0.1  # relative standard error of a variance that is known
 
 
 class Bias(NamedTuple):
@@ -65,10 +67,11 @@ class Candidate:
     def samples_to(self, error: float) -> int | None:
         """Samples until bias and noise together are below an error; None if the bias is not.
 
-        A whole observation at least: of a few points of a block, the variance is not known.
+        In whole observations: the samples of a part of one are noisier than their share of it.
         """
         room = error**2 - self.bias.most**2
-        return max(self.settings.block, math.ceil(self.variance / room)) if room > 0 else None
+        block = self.settings.block
+        return block * max(1, math.ceil(self.variance / room / block)) if room > 0 else None
 
     def seconds_to(self, error: float) -> float:
         """Seconds for those samples; infinite if there are none."""
@@ -91,11 +94,17 @@ class Verdict:
 
         LEADER wins where the measurement cannot tell them apart: what it misses is the least.
         """
-        best = min(self.candidates, key=lambda candidate: candidate.seconds_to(self.error))
-        leader = next(c for c in self.candidates if c.settings.method == LEADER)
-        if leader.seconds_to(self.error) <= _TIE * best.seconds_to(self.error):
-            best = leader
-        return best if best.samples_to(self.error) else None
+        nearest = self.nearest
+        samples = nearest.samples_to(self.error)
+        return nearest if samples and samples <= MAX_SAMPLES else None
+
+    @property
+    def nearest(self) -> Candidate:
+        """What would be first, were there no limit of samples."""
+        nearest = min(self.candidates, key=lambda candidate: candidate.seconds_to(self.error))
+        leader = next(c for c in self.candidates if LEADER in c.name.split(" = "))
+        tied = leader.seconds_to(self.error) <= _TIE * nearest.seconds_to(self.error)
+        return leader if tied else nearest
 
     @property
     def least_bounces(self) -> int | None:
@@ -120,17 +129,14 @@ def what_suffices(
     limits = dict(trial.limits(small, error, bounces, reference.bounces))
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.seconds_to(error))
-    found = {LEADER: leader}
-    limit = leader.settings.bounces
-    for variant in variants_of(scene, small, METHODS, leads=False):
-        if LEADER in variant.name.split(" = "):
-            found[variant.name] = replace(found.pop(LEADER), name=variant.name)
-        elif variant.settings.method in LADDER:
-            found[variant.name] = trial.model(variant)
-        else:
-            found[variant.name] = trial.tracer(variant, limit, leader.bias)
+    found = [
+        trial.model(variant)
+        if variant.settings.method in LADDER
+        else trial.tracer(variant, leader.settings.bounces, leader.bias)
+        for variant in variants_of(scene, small, METHODS, leads=False)
+    ]
     order = [*LADDER, *METHODS]
-    ranked = sorted(found.values(), key=lambda c: order.index(c.settings.method))
+    ranked = sorted(found, key=lambda c: order.index(c.settings.method))
     return Verdict(error, reference, tuple(trial.in_turns(ranked, small)), beyond)
 
 
@@ -188,10 +194,19 @@ class _Trial:
         return [replace(candidate, seconds_per_sample=seconds) for candidate, seconds in pairs]
 
     def _pictures(self, settings: Settings) -> list["_Picture"]:
+        """Of so many samples that the noise is known, where that is not beyond MOST_TRIED."""
         renderer = Renderer(self.scene, settings, self.context, tier="baked")
-        pictures = [_Picture.of(renderer, seed) for seed in SEEDS]
-        renderer.release()
-        return pictures
+        samples = SAMPLES
+        while True:
+            pictures = [_Picture.of(renderer, seed, samples=samples) for seed in SEEDS]
+            noise = self._noise(pictures)
+            if noise.stderr <= _KNOWN * noise.squared or samples >= MOST_TRIED:
+                renderer.release()
+                return pictures
+            samples *= 4
+
+    def _noise(self, pictures: Sequence["_Picture"]) -> Bias:
+        return self._relative(np.mean([picture.squared_stderr for picture in pictures], axis=0))
 
     def _bias(self, first: Floats, second: Floats) -> Bias:
         """From two errors with independent noise."""
@@ -205,35 +220,38 @@ class _Trial:
     def _candidate(
         self, name: str, settings: Settings, pictures: Sequence["_Picture"], bias: Bias
     ) -> Candidate:
-        noise = self._relative(np.mean([picture.squared_stderr for picture in pictures], axis=0))
+        samples = pictures[0].samples
         seconds = min(picture.seconds for picture in pictures)  # the other one may have waited
         full = {name: getattr(self.wanted, name) for name in ("width", "height", "crop", "seed")}
         return Candidate(
             name,
             settings_for(settings, **full),
             bias,
-            SAMPLES * noise.most**2,
-            seconds / SAMPLES * self.pixels,
+            samples * self._noise(pictures).most ** 2,
+            seconds / samples * self.pixels,
         )
 
 
 @dataclass(frozen=True, eq=False)
 class _Picture:
-    """A picture of SAMPLES samples, and the seconds of its rendering."""
+    """A picture, and the seconds of its rendering."""
 
+    samples: int
     radiance: Floats
     squared_stderr: Floats
     seconds: float
 
     @classmethod
-    def of(cls, renderer: Renderer, seed: int, bounces: int | None = None) -> "_Picture":
+    def of(
+        cls, renderer: Renderer, seed: int, bounces: int | None = None, samples: int = SAMPLES
+    ) -> "_Picture":
         limit = renderer.settings.bounces if bounces is None else bounces
         renderer.update(seed=seed, bounces=limit)
-        warm = SAMPLES // 4  # the first dispatches are small
+        warm = samples // 4  # the first dispatches are small
         renderer.render(warm)
         start = time.perf_counter()
-        renderer.render(SAMPLES)
-        seconds = (time.perf_counter() - start) * SAMPLES / (SAMPLES - warm)
+        renderer.render(samples)
+        seconds = (time.perf_counter() - start) * samples / (samples - warm)
         image = renderer.image()
         squared = np.square(image.stderr.astype(float))
-        return cls(image.radiance.astype(float), squared, seconds)
+        return cls(samples, image.radiance.astype(float), squared, seconds)
