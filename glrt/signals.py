@@ -61,17 +61,21 @@ def leave_at_once_while_loading() -> None:
     if is_command():
         for number in _WATCHED:
             if signal.getsignal(number) is not signal.SIG_IGN:
-                signal.signal(number, _leave)
+                signal.signal(number, leave_at_once)
 
 
 def loaded() -> None:
     """The command's own handling takes over: Ctrl-C raises KeyboardInterrupt again."""
-    if signal.getsignal(signal.SIGINT) is _leave:
+    if signal.getsignal(signal.SIGINT) is leave_at_once:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    if signal.getsignal(signal.SIGTERM) is _leave:
+    if signal.getsignal(signal.SIGTERM) is leave_at_once:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
-def _leave(number: int, _frame: FrameType | None) -> None:
+def leave_at_once(number: int, _frame: FrameType | None) -> None:
+    """A handler: ends the process without an exception.
+
+    One that is raised while a compiled package is loaded can end in C++'s terminate: SIGABRT.
+    """
     os.write(2, f"glrt: {NOTHING}\n".encode())
     os._exit(INTERRUPTED + number)

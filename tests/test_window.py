@@ -10,6 +10,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterator
 from ctypes.util import find_library
@@ -127,6 +128,22 @@ def test_a_window_that_is_killed_while_it_starts_leaves_no_traceback(
         _, told = window.communicate(timeout=60)
     assert window.returncode in (143, -signal.SIGTERM)
     assert "Traceback" not in told
+
+
+def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path: Path) -> None:
+    loading = """
+        import os, signal, time
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(10)
+        except BaseException:
+            os.abort()  # as C++ does, whose code is left by an exception of Python
+    """
+    (tmp_path / "imgui_bundle.py").write_text(textwrap.dedent(loading))
+    search = os.pathsep.join([str(tmp_path), *sys.path])
+    ended = glrt("view", "cornell", PYTHONPATH=search)
+    assert (ended.returncode, ended.stdout) == (143, "")
+    assert "Traceback" not in ended.stderr
 
 
 @pytest.mark.parametrize(

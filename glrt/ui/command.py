@@ -6,6 +6,7 @@ from glrt.errors import ContextError, UsageError
 from glrt.library import load_recipe
 from glrt.scene import with_lights
 from glrt.settings import settings_for
+from glrt.signals import handled, leave_at_once
 
 EXTRA = ("imgui_bundle", "glfw")  # what `pip install 'glrt[view]'` brings
 
@@ -16,7 +17,8 @@ def view(arguments: argparse.Namespace, given: dict[str, object]) -> int:
     settings = settings_for(recipe or scene.render, **given)
     scene = with_lights(scene, dict(arguments.lights))
     try:
-        from glrt.ui.window import Window
+        with handled(leave_at_once):
+            from glrt.ui.window import Window
     except ModuleNotFoundError as error:
         if error.name not in EXTRA:
             raise
