@@ -14,6 +14,7 @@ from PIL import Image
 from glrt.cli import main
 from glrt.context import Context
 from glrt.lab import chart_plot, experiment, plot
+from glrt.lab.curves import Curve, Interval, Point
 from glrt.lab.experiment import Plan, measure_scene
 from glrt.lab.measure import Bench, of_variant
 from glrt.lab.rays import rays_per_sample
@@ -171,6 +172,17 @@ def test_labels_move_apart_as_little_as_it_takes() -> None:
     assert chart_plot._spread([0.5, 0.5, 0.5], 0.1) == pytest.approx([0.4, 0.5, 0.6])
     spread = chart_plot._spread([0.0, 0.3, 0.31, 0.32, 0.9], 0.1)
     assert spread == pytest.approx([0.0, 0.21, 0.31, 0.41, 0.9])
+
+
+def test_an_interval_that_reaches_below_zero_makes_no_band_down_the_whole_chart() -> None:
+    errors = [Interval(9, -5, 23), Interval(8, 6, 10), Interval(7, 6, 8)]
+    points = tuple(Point(2**i, Interval(2**i, 1, 1), error) for i, error in enumerate(errors))
+    curve = Curve("naive", points, None, Interval(0, 0, 0))
+    with plot.open_figure((4, 3)) as figure:
+        axes = figure.subplots()
+        chart_plot._draw(axes, [curve], [[1, 2, 4]])
+    (band,) = axes.collections[0].get_paths()
+    assert band.get_extents().extents.tolist() == [2, 6, 4, 10]
 
 
 def test_variants_beyond_the_loop_limit_are_left_out(

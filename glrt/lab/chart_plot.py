@@ -67,7 +67,8 @@ def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]])
     for number, (curve, xs) in enumerate(zip(curves, places, strict=True)):
         errors = [point.error.value for point in curve.points]
         low, high = ([getattr(p.error, end) for p in curve.points] for end in ("low", "high"))
-        axes.fill_between(xs, low, high, color=PALE, lw=0, zorder=0)
+        has_end = [end > 0 for end in low]  # else a band would reach down for ever
+        axes.fill_between(xs, low, high, where=has_end, color=PALE, lw=0, zorder=0)
         axes.plot(xs, errors, MARKERS[number % len(MARKERS)] + "-", color=GREY, ms=6, lw=1)
     for x, error, number in steps:
         axes.plot(x, error, MARKERS[number % len(MARKERS)], color=BLACK, ms=7, zorder=5)
@@ -77,6 +78,8 @@ def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]])
 
 def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
     """A line at each level of error, and how much faster than naive the fastest gets there."""
+    from matplotlib.patheffects import withStroke
+
     bottom, top = axes.get_ylim()
     left, right = axes.get_xlim()
     axes.set_xlim(left, right)
@@ -89,7 +92,8 @@ def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
             text = f"{percent(level)}: {gain.text}" if gain else percent(level)
             at_right = gain is not None and gain.fast / left < right / gain.slow
             place = {"x": right, "ha": "right"} if at_right else {"x": left * 1.05, "ha": "left"}
-            axes.text(y=level, s=text, size=FONT - 3, va="bottom", zorder=6, **place)
+            label = axes.text(y=level, s=text, size=FONT - 3, va="bottom", zorder=6, **place)
+            label.set_path_effects([withStroke(linewidth=3, foreground="white")])
         if gain and gain.fast < right:
             ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
             axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})
