@@ -182,7 +182,7 @@ def test_an_interval_that_reaches_below_zero_makes_no_band_down_the_whole_chart(
         axes = figure.subplots()
         chart_plot._draw(axes, [curve], [[1, 2, 4]])
     (band,) = axes.collections[0].get_paths()
-    assert band.get_extents().extents.tolist() == [2, 6, 4, 10]
+    assert tuple(band.get_extents().extents) == (2, 6, 4, 10)
 
 
 def test_variants_beyond_the_loop_limit_are_left_out(

@@ -11,11 +11,13 @@ from glrt.ui.app import App
 from glrt.ui.progress import Look
 
 _MOST_TICKS = 5  # of an axis: more run into each other
+_BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
 
 
 def draw_figures(app: App) -> None:
     """The content of the window below the picture."""
-    if imgui.begin_table("figures", 2, imgui.TableFlags_.sizing_stretch_prop.value):
+    columns = 2 if imgui.get_content_region_avail().x > hello_imgui.em_size(_BESIDE) else 1
+    if imgui.begin_table("figures", columns, imgui.TableFlags_.sizing_stretch_prop.value):
         imgui.table_next_column()
         for line in figures(app):
             imgui.text(line)

@@ -27,7 +27,7 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     `name` distinguishes controls of one label: those of two lamps, say.
     """
     label = f"{control.label}##{name}" if name else control.label
-    imgui.set_next_item_width(min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width()))
+    imgui.set_next_item_width(_width_beside(control.label))
     changed, new = _draw(control, label, value)
     tooltip(control)
     _tag(control.cost)
@@ -60,8 +60,23 @@ def legend() -> None:
 def _tag(cost: Cost) -> None:
     """At the right edge; where the label reaches that far, behind it."""
     end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
-    imgui.same_line(max(end, imgui.get_window_width() - hello_imgui.em_size(5.6)))
+    imgui.same_line(max(end, _tags_start()))
     imgui.text_colored(COLORS[cost], cost.value)
+
+
+def _tags_start() -> float:
+    """Where the widest tag still ends before the scroll bar, from the window's left edge."""
+    style = imgui.get_style()
+    widest = max(imgui.calc_text_size(cost.value).x for cost in Cost)
+    return imgui.get_window_width() - style.scrollbar_size - style.window_padding.x - widest
+
+
+def _width_beside(label: str) -> float:
+    """The width of a widget that leaves room for its label and its tag."""
+    beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
+    room = _tags_start() - imgui.get_cursor_pos_x() - beside
+    usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
+    return max(hello_imgui.em_size(3.5), min(usual, room))
 
 
 def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:

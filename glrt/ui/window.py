@@ -25,6 +25,7 @@ from glrt.ui.watch import Watch, watch_for
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
+MOST = 0.45  # of either, where the text is large
 RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
 THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
@@ -81,8 +82,10 @@ class Window:
         return params
 
     def _docking(self) -> hello_imgui.DockingParams:
-        side = hello_imgui.DockingSplit("MainDockSpace", "Side", imgui.Dir.left, PANEL)
-        below = hello_imgui.DockingSplit("MainDockSpace", "Below", imgui.Dir.down, FIGURES)
+        preferences, _ = load_preferences(preferences_file())
+        panel, figures = (min(share * preferences.scale, MOST) for share in (PANEL, FIGURES))
+        side = hello_imgui.DockingSplit("MainDockSpace", "Side", imgui.Dir.left, panel)
+        below = hello_imgui.DockingSplit("MainDockSpace", "Below", imgui.Dir.down, figures)
         docking = hello_imgui.DockingParams()
         docking.docking_splits = [side, below]
         docking.dockable_windows = [
