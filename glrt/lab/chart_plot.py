@@ -78,8 +78,6 @@ def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]])
 
 def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
     """A line at each level of error, and how much faster than naive the fastest gets there."""
-    from matplotlib.patheffects import withStroke
-
     bottom, top = axes.get_ylim()
     left, right = axes.get_xlim()
     axes.set_xlim(left, right)
@@ -92,8 +90,9 @@ def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
             text = f"{percent(level)}: {gain.text}" if gain else percent(level)
             at_right = gain is not None and gain.fast / left < right / gain.slow
             place = {"x": right, "ha": "right"} if at_right else {"x": left * 1.05, "ha": "left"}
-            label = axes.text(y=level, s=text, size=FONT - 3, va="bottom", zorder=6, **place)
-            label.set_path_effects([withStroke(linewidth=3, foreground="white")])
+            paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5}
+            look = {"size": FONT - 3, "va": "bottom", "zorder": 6, "bbox": paper}
+            axes.text(y=level, s=text, **place, **look)
         if gain and gain.fast < right:
             ends = {"xy": (min(gain.slow, right), level), "xytext": (gain.fast, level)}
             axes.annotate("", **ends, arrowprops={"arrowstyle": "<->", "color": BLACK})
