@@ -17,7 +17,7 @@ _BESIDE = 36  # letters' heights across: below, the plot stands under the words,
 def draw_figures(app: App) -> None:
     """The content of the window below the picture."""
     columns = 2 if imgui.get_content_region_avail().x > hello_imgui.em_size(_BESIDE) else 1
-    if imgui.begin_table("figures", columns, imgui.TableFlags_.sizing_stretch_prop.value):
+    if imgui.begin_table("figures", columns, imgui.TableFlags_.sizing_stretch_same.value):
         imgui.table_next_column()
         for line in figures(app):
             imgui.text(line)
@@ -100,7 +100,7 @@ def _plot(app: App) -> None:
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
         return
-    implot.setup_legend(implot.Location_.north_east.value)
+    implot.setup_legend(implot.Location_.east.value, implot.LegendFlags_.outside.value)
     implot.setup_axes("seconds of rendering", "error")
     implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
     implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
