@@ -1,5 +1,6 @@
 """Fixtures: one OpenGL context for the session, and shader functions run over arrays."""
 
+import signal
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -18,6 +19,9 @@ from tests.packages import needs_package
 from tests.wgsl.device import Device, open_device
 
 pytest_plugins = ["tests.slow_share", "tests.alarms"]
+
+# A shell's background jobs ignore Ctrl-C, and so would every command that the tests start there.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 Array = np.ndarray[Any, Any]
 CallGlsl = Callable[..., Array]
