@@ -1,6 +1,7 @@
 """One compiled program, its blocks and images bound by name; the only dispatcher."""
 
 from collections.abc import Mapping
+from itertools import count
 
 import moderngl
 
@@ -23,6 +24,7 @@ class Kernel:
 
     def __init__(self, gl: moderngl.Context, source: Source) -> None:
         """Compile; RenderError tells the driver's message by shader file and line."""
+        self._gl = gl
         try:
             self._program = gl.compute_shader(source.text)
         except moderngl.Error as error:
@@ -49,9 +51,10 @@ class Kernel:
         """Dispatch over a grid of pixels."""
         self.run_tiles(tile_count(width, height))
 
-    def run_tiles(self, count: int) -> None:
-        """Dispatch work groups, whatever pixels they stand for."""
-        self._program.run(count, 1, 1)
+    def run_tiles(self, tiles: int) -> None:
+        """Dispatch work groups, whatever they stand for; what follows sees what they wrote."""
+        self._program.run(tiles, 1, 1)
+        self._gl.memory_barrier()
 
     def release(self) -> None:
         """Free the program."""
@@ -76,10 +79,10 @@ class FragmentKernel:
         targets = [texture for name, texture in images.items() if name.startswith("target")]
         self._targets = self._gl.framebuffer(color_attachments=targets)
 
-    def run_tiles(self, count: int) -> None:
+    def run_tiles(self, tiles: int) -> None:
         """Draw tiles; what a window has turned on, such as blending, does not touch them."""
         with self._gl.scope(self._targets, moderngl.NOTHING):
-            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=count)
+            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=tiles)
 
     def release(self) -> None:
         """Free the program."""
@@ -104,11 +107,13 @@ def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.
 def _bind_blocks(
     program: moderngl.ComputeShader | moderngl.Program, scene: Mapping[str, Resource]
 ) -> None:
-    for slot, name in enumerate(program):
+    """Each kind counts from 0: OpenGL 4.3 grants no more than 8 places for storage blocks."""
+    slots = {moderngl.UniformBlock: count(), moderngl.StorageBlock: count()}
+    for name in program:
         member = program[name]
         if not isinstance(member, moderngl.UniformBlock | moderngl.StorageBlock):
             continue
-        member.binding = slot
+        member.binding = slot = next(slots[type(member)])
         buffer = scene[name]
         assert isinstance(buffer, moderngl.Buffer)
         if isinstance(member, moderngl.UniformBlock):

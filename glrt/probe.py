@@ -56,8 +56,7 @@ class Probe:
         own = {f"In_{name}": gl.buffer(values.tobytes()) for name, values in arrays.items()}
         own["Out"] = gl.buffer(reserve=4 * width * count)
         kernel.bind({**(blocks or {}), **own}, {})
-        kernel.run(8 * (-(-count // _GROUP)), 1)
-        gl.memory_barrier()
+        kernel.run_tiles(-(-count // _GROUP))
         result = np.frombuffer(own["Out"].read(), _CODES[base]).reshape(count, width)
         kernel.release()
         for buffer in own.values():

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import moderngl
 import numpy as np
 import pytest
 
@@ -66,6 +67,22 @@ def test_text_has_storage_uniform_blocks_textures_or_constants() -> None:
     assert "uniform Materials" in baked
     assert blocks_text(arrays, "storage") == read("blocks.glsl")
     assert "usampler2D Quads" in blocks_text(arrays, uniform_bytes=0)
+
+
+@pytest.mark.parametrize("tier", ["storage", "generic"])
+def test_storage_blocks_lie_in_the_places_that_every_opengl_grants(
+    context: Context, tier: blocks.Tier
+) -> None:
+    if not context.has_compute:
+        pytest.skip("there are storage blocks from OpenGL 4.3 on")
+    renderer = Renderer(load("weekend"), context=context, tier=tier, **SMALL)
+    program = renderer._kernel._program
+    members = [program[name] for name in program]
+    with context.gl:
+        places = [block.binding for block in members if isinstance(block, moderngl.StorageBlock)]
+    renderer.release()
+    assert sorted(places) == list(range(len(places)))
+    assert len(places) <= 8
 
 
 def test_literals_keep_every_bit() -> None:

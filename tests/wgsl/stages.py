@@ -78,7 +78,6 @@ def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
         buffers = {name: gl.buffer(content) for name, content in data.items()}
         kernel.bind(buffers, {})
         kernel.run_tiles(-(-settings.width * settings.height // _GROUP))
-        gl.memory_barrier()
         words = buffers["Words"].read()
         for resource in (kernel, *buffers.values()):
             resource.release()
