@@ -67,7 +67,6 @@ class Film:
 
     def advance(self, samples: int) -> None:
         """The dispatch has written: what was target becomes source, once a frame."""
-        self._gl.memory_barrier()
         self._pairs.reverse()
         self.samples += samples
 
@@ -101,7 +100,8 @@ class Film:
         """How many samples were not finite, of all pixels."""
         self._check_exposed()
         ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
-        return sum(int(self._read(self.mean, *rows)[..., 3].sum()) for rows in ends)
+        counts = (self._read(self.mean, *rows)[..., 3] for rows in ends)
+        return sum(int(count.sum(dtype=np.float64)) for count in counts)
 
     def bands(self) -> Iterator[slice]:
         """The rows of the film, some at a time: to work on them takes little memory."""
@@ -136,7 +136,14 @@ class Film:
         sizes = dict.fromkeys(("mean", "variance"), self.size)
         sizes |= {"block": self.size} if block > 1 else {}
         sizes |= {"layers": (layers * width, 2 * height)} if layers else {}
-        self._pairs = [{name: self._texture(*size) for name, size in sizes.items()} for _ in "ab"]
+        self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
+        try:
+            for pair in self._pairs:
+                for name, size in sizes.items():
+                    pair[name] = self._texture(*size)
+        except RenderError:
+            self.release()
+            raise
 
     def _texture(self, across: int, down: int) -> moderngl.Texture:
         width, height = self.size
@@ -147,6 +154,7 @@ class Film:
         except moderngl.Error as error:
             raise RenderError(f"{problem} ({error})") from error
         if (state := self._gl.error) != "GL_NO_ERROR":
+            texture.release()
             raise RenderError(f"{problem} ({state})")
         return texture
 

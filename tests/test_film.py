@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 from glrt.context import Context
 from glrt.errors import RenderError
 from glrt.film import Exposure, Film, standard_error
+from glrt.gathered import nothing_gathered
 from glrt.kernel import Kernel
 from glrt.library import load
 from glrt.needs import needs_of
@@ -278,6 +279,32 @@ def test_row_0_is_the_top_of_the_picture(film: Film, step: Step) -> None:
     assert film.read().mean.shape == (HEIGHT, WIDTH, 3)
     assert rows.mean() < (HEIGHT - 1) / 2  # the ball lies above the middle, to the right
     assert columns.mean() > (WIDTH - 1) / 2
+
+
+def test_a_film_that_finds_no_room_gives_back_what_it_has_taken(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The means fit, and the layers beside each other are wider than any texture."""
+    taken: list[moderngl.Texture] = []
+    make = ctx.texture
+
+    def texture(*given: Any, **more: Any) -> moderngl.Texture:
+        taken.append(make(*given, **more))
+        return taken[-1]
+
+    monkeypatch.setattr(moderngl.Context, "texture", staticmethod(texture))
+    with pytest.raises(RenderError, match="no room"):
+        Film(ctx, ctx.info["GL_MAX_TEXTURE_SIZE"] // 2, 1, layers=3)
+    assert len(taken) == 3
+    assert all(isinstance(found.mglo, moderngl.InvalidObject) for found in taken)
+
+
+def test_dropped_samples_are_counted_to_the_last_one(film: Film) -> None:
+    """Their sum over the pixels has more digits than a float32."""
+    dropped = np.arange(2.0**20 - WIDTH * HEIGHT, 2.0**20, dtype=np.float32)
+    nothing = nothing_gathered(HEIGHT, WIDTH)._replace(dropped=dropped.reshape(HEIGHT, WIDTH))
+    film.write(1 << 20, np.zeros((HEIGHT, WIDTH, 3), np.float32), nothing)
+    assert film.dropped() == int(dropped.sum(dtype=np.float64))
 
 
 def test_rows_of_a_film_are_those_of_the_whole(film: Film, step: Step) -> None:
