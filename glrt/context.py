@@ -19,6 +19,7 @@ from glrt.errors import ContextError, RenderError
 Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]
 ROUTES = ("egl", "window", "osmesa")  # in this order: the last is never hardware
+MOST_DEVICES = 16  # of EGL that are looked at
 COMPUTE, FRAGMENT = 430, 410  # the versions of OpenGL that the two pipelines need
 _RESETS = {  # values of glGetGraphicsResetStatus: whose fault it was
     0x8253: "over this render",
@@ -125,14 +126,21 @@ def _has_display() -> bool:
 
 
 def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Iterator[Context]:
-    """Every context that a route offers, one at a time; EGL may offer several devices."""
-    for device in range(16 if route == "egl" else 1):
+    """Every context that a route offers, one at a time; EGL may offer several devices.
+
+    The first may fail, as a GPU that is closed to this user does, and a later one open.
+    """
+    has_opened = False
+    for device in range(MOST_DEVICES if route == "egl" else 1):
         try:
             gl = _create_newest(route, device, required)
         except Exception as error:  # each backend raises what it likes: it becomes the reason
+            if has_opened:
+                return  # there are no more
             if device == 0:
                 failures.append(f"{route}: {error}")
-            return
+            continue
+        has_opened = True
         yield Context(gl, route)
 
 

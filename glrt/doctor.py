@@ -14,13 +14,12 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
-from glrt.context import ROUTES
+from glrt.context import MOST_DEVICES, ROUTES
 from glrt.remedies import remedies
 from glrt.selftest import MOST_ROUNDS
 from glrt.version import VERSION
 
 PATIENCE = 120  # seconds for one route: a cold software driver compiles for some of them
-MOST_DEVICES = 16
 PIPELINES = ("compute", "fragment")
 EXACT = 1e-5  # the relative error of a furnace that is right on any driver
 
