@@ -9,7 +9,8 @@ from typing import Any, Protocol
 from glrt.job import Limits, since_start
 from glrt.renderer import Renderer
 
-LOOK = 2.0  # seconds between estimates of the error, which read the film back
+LOOK = 2.0  # seconds before an estimate of the error, which reads the film back
+SHARE = 0.05  # of the time, at most, that estimates take
 
 
 class Watch(Protocol):
@@ -45,15 +46,17 @@ class Forecast:
         self._begun = begun
         self._start = time.perf_counter()
         self._age = since_start()
-        self._looked = self._start
+        self._due = self._start + LOOK
         self._error: float | None = None
 
     def after(self, renderer: Renderer) -> dict[str, Any]:
         """The fields of the bar after a dispatch."""
-        now = time.perf_counter()
-        if renderer.samples and now - self._looked >= LOOK:
-            self._looked, self._error = now, renderer.image().error
-        seconds = now - self._start
+        start = time.perf_counter()
+        if renderer.samples and start >= self._due:
+            self._error = renderer.image().error
+            spent = time.perf_counter() - start
+            self._due = start + spent + max(LOOK, spent / SHARE)
+        seconds = start - self._start
         total = self._total_seconds(renderer.work, seconds)
         left = max(0.0, total - seconds)
         error = f"error {100 * self._error:.2g} %  " if self._error else ""

@@ -1,5 +1,6 @@
 """The bar of a render: seconds that are left to the first of its limits."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -58,6 +59,24 @@ def test_the_error_is_told_once_it_was_looked_at(clock: dict[str, float]) -> Non
     forecast = Forecast(Limits(400))
     clock["seconds"] += progress.LOOK / 2
     assert "error" not in forecast.after(renderer(100, 0.2))["rest"]
+
+
+def test_looks_at_the_error_take_a_twentieth_of_the_time(clock: dict[str, float]) -> None:
+    """A large film takes seconds to read back."""
+    looks: list[float] = []
+
+    def image() -> Any:
+        looks.append(clock["seconds"])
+        clock["seconds"] += 3.0
+        return SimpleNamespace(error=0.2)
+
+    large: Any = SimpleNamespace(samples=1, work=1.0, image=image)
+    forecast = Forecast(Limits(400))
+    for _ in range(1000):
+        clock["seconds"] += 0.25
+        forecast.after(large)
+    assert len(looks) > 3
+    assert all(after - before > 3.0 / 0.05 for before, after in pairwise(looks))
 
 
 def test_what_takes_longer_than_foretold_is_all_but_done(clock: dict[str, float]) -> None:
