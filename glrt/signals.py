@@ -50,7 +50,8 @@ def interrupt(number: int, _frame: FrameType | None) -> NoReturn:
 
 def is_command() -> bool:
     """Whether this process is the command `glrt`, not a program that imports it."""
-    return any(Path(word).stem == "glrt" for word in sys.orig_argv[1:3])
+    words = sys.orig_argv[1:3]
+    return words == ["-m", "glrt"] or any(Path(word).stem == "glrt" for word in words[:1])
 
 
 def leave_at_once_while_loading() -> None:

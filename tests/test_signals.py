@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from glrt import signals
+
 SAYS = "glrt: interrupted before anything was rendered\n"
 both = pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=["INT", "TERM"]
@@ -75,3 +77,17 @@ def test_a_program_that_imports_glrt_keeps_its_own_handlers() -> None:
     )
     done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)
     assert done.stdout == "True\n"
+
+
+def test_only_the_command_itself_is_taken_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A program may have the word `glrt` on its command line, as `pytest glrt` has."""
+    for line in (
+        "python /usr/bin/glrt render a.toml",
+        "python -m glrt view",
+        "python.exe glrt.exe",
+    ):
+        monkeypatch.setattr(sys, "orig_argv", line.split())
+        assert signals.is_command(), line
+    for line in ("python make.py glrt", "python /usr/bin/pytest glrt", "python -m pytest glrt"):
+        monkeypatch.setattr(sys, "orig_argv", line.split())
+        assert not signals.is_command(), line
