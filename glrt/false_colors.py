@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glrt.film import Film
+from glrt.kernel import drawing
 from glrt.relight import MOST_LAYERS, NONE, ONE, Weights, are_trivial
 from glrt.shader import Source
 from glrt.stats import DARK
@@ -137,9 +138,10 @@ class FalseColors:
         self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def _compile(self) -> moderngl.Program:
-        self._program = self._gl.program(
-            vertex_shader=Source("display.vert", version=_VERSION).text,
-            fragment_shader=Source("false_colors.frag", version=_VERSION).text,
+        self._program = drawing(
+            self._gl,
+            Source("display.vert", version=_VERSION),
+            Source("false_colors.frag", version=_VERSION),
         )
         for unit, name in enumerate(("light", "mean", "variance", "layers", "other")):
             self._program[name] = unit

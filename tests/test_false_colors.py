@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from glrt import shader
 from glrt.context import Context
+from glrt.errors import RenderError
 from glrt.false_colors import (
     BLUE_WHITE_RED,
     DIFFERENCE,
@@ -24,6 +26,7 @@ from glrt.false_colors import (
 from glrt.image import Image
 from glrt.relight import ONE, Layering
 from glrt.renderer import Renderer
+from glrt.resources import folder
 from glrt.scene import Scene, with_lights
 from tests.builders import MATTE, lamp, quad, room_of_planes, scene_of, sphere
 
@@ -164,3 +167,15 @@ def test_error_colours_grow_lighter_in_even_steps() -> None:
     steps = np.diff(116 * np.cbrt(linear @ LUMINANCE) - 16)
     assert steps.min() > 0.8 * steps.mean()
     assert steps.max() < 1.2 * steps.mean()
+
+
+def test_a_shader_that_the_driver_refuses_is_told_by_file_and_line(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The window goes on with its picture, as with any other shader."""
+    path = folder("shaders_glsl") / "false_colors.frag"
+    monkeypatch.setitem(shader._texts, path, "void main() { undeclared = 1; }\n")
+    with traced(context, room(), 1) as renderer, context.gl:
+        colors = FalseColors(context.gl)
+        with pytest.raises(RenderError, match=r"false_colors\.frag:1"):
+            colors.draw_dropped(renderer.film, renderer.film.mean)
