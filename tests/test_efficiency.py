@@ -3,14 +3,14 @@
 import pytest
 
 from glrt.context import Context
-from glrt.lab.efficiency import SCENES, main, measure, scene_of, table
+from glrt.lab.efficiency import SCENES, Way, main, measure, scene_of, table
 from glrt.library import scene_names
 
 
 def test_a_row_holds_what_its_runs_did(context: Context) -> None:
     """With the sampler that knows its noise best, against what its pictures claim."""
-    switches = {"independent": {"sampler": "independent"}, "sobol": {"sampler": "sobol"}}
-    first, second = measure(context, "sky", 16, 12, switches)
+    ways = {name: Way({"sampler": name}) for name in ("independent", "sobol")}
+    first, second = measure(context, "sky", 16, 12, ways)
     assert (first.scene, first.variant) == ("sky", "independent")
     assert first.fewer_samples == first.slower == first.efficiency == 1
     assert second.fewer_samples == pytest.approx(first.variance / second.variance)
@@ -32,9 +32,17 @@ def test_the_room_is_cornell_without_its_caustic() -> None:
 def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenes", "sky", "--size", "8", "--rounds", "2"]) == 0
     printed = capsys.readouterr().out
+    assert "processors" in printed
     assert printed.count("| sky |") == 5
 
 
 def test_unknown_scene_is_told_in_one_paragraph(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenes", "ski", "--rounds", "2"]) == 2
     assert "sky" in capsys.readouterr().err
+
+
+def test_a_single_round_has_no_spread(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["--rounds", "1"])
+    assert end.value.code == 2
+    assert "--rounds: 1 is less than 2" in capsys.readouterr().err

@@ -1,7 +1,6 @@
 """The reported standard error is the one that repeated renders show.
 
-Judged by the rms of the deviations of 8 x 8 block means from their mean over all renders, over
-the rms of their reported errors. With 64 renders of nine blocks it is known to 3 %.
+Judged by `glrt.lab.calibration`: with 64 renders of nine blocks the ratio is known to 3 %.
 """
 
 from typing import Any
@@ -10,28 +9,21 @@ import numpy as np
 import pytest
 
 from glrt.context import Context
+from glrt.lab.calibration import error_ratio
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from tests.alarms import assert_near
 from tests.builders import MATTE, lamp, plane, scene_of, sphere
 from tests.mixture import everything
-from tests.renders import SAMPLERS, blocks, rendered, rendering
+from tests.renders import SAMPLERS, rendered, rendering
 
 
-def error_ratio(
+def ratio_of(
     context: Context, scene: Scene, samples: int, size: int, renders: int, **settings: Any
 ) -> float:
-    means, errors = [], []
     with rendering(scene, context, width=size, height=size, **settings) as renderer:
-        for seed in range(renders):
-            renderer.update(seed=seed + 1)
-            mean, stderr = blocks(renderer.render(samples).image())
-            means.append(mean)
-            errors.append(stderr)
-    variance = np.var(means, axis=0, ddof=1)
-    reported = np.square(errors).mean(axis=0)
-    return float(np.sqrt((variance / reported).mean()))
+        return error_ratio(renderer, samples, renders).value
 
 
 def floor_under_a_lamp() -> Scene:
@@ -47,7 +39,7 @@ def test_reported_error_is_the_error_of_cornell(context: Context, sampler: str) 
     With far fewer, a block either meets a bright path or knows nothing of it.
     """
     scene = load("cornell")
-    ratio = error_ratio(context, scene, samples=64, size=24, renders=64, sampler=sampler)
+    ratio = ratio_of(context, scene, samples=64, size=24, renders=64, sampler=sampler)
     assert_near(ratio, 1, 0.03)
 
 
@@ -56,14 +48,14 @@ def test_reported_error_is_the_error_of_cornell(context: Context, sampler: str) 
 def test_reported_error_is_closely_the_error_of_cornell(context: Context, sampler: str) -> None:
     """16 blocks, 256 renders: known to 1.2 %."""
     scene = load("cornell")
-    ratio = error_ratio(context, scene, samples=64, size=32, renders=256, sampler=sampler)
+    ratio = ratio_of(context, scene, samples=64, size=32, renders=256, sampler=sampler)
     assert_near(ratio, 1, 0.012)
 
 
 @pytest.mark.parametrize("samples", [32, 47, 64])
 def test_error_of_blocks_is_right_from_the_second_block_on(context: Context, samples: int) -> None:
     """Taken over single samples it would promise twice its error here (test_sobol)."""
-    ratio = error_ratio(context, floor_under_a_lamp(), samples, 32, renders=64, sampler="sobol")
+    ratio = ratio_of(context, floor_under_a_lamp(), samples, 32, renders=64, sampler="sobol")
     assert_near(ratio, 1, 0.03)
 
 
@@ -72,14 +64,14 @@ def test_error_of_blocks_is_right_from_the_second_block_on(context: Context, sam
 @pytest.mark.parametrize("name", ["cornell", "lamps", "sky"])
 def test_error_of_blocks_is_closely_right(context: Context, name: str, samples: int) -> None:
     """Without the part of a block that 47 samples hold, 0.84 in `cornell` and 1.26 in `sky`."""
-    ratio = error_ratio(context, load(name), samples, size=32, renders=256, sampler="sobol")
+    ratio = ratio_of(context, load(name), samples, size=32, renders=256, sampler="sobol")
     assert_near(ratio, 1, 0.012)
 
 
 @pytest.mark.parametrize("samples", [2, 3, 8])
 def test_error_is_right_from_the_second_sample_on(context: Context, samples: int) -> None:
     """Without Bessel's correction two samples would promise 0.71 of their error."""
-    ratio = error_ratio(context, floor_under_a_lamp(), samples, size=32, renders=64)
+    ratio = ratio_of(context, floor_under_a_lamp(), samples, size=32, renders=64)
     assert_near(ratio, 1, 0.03)
 
 

@@ -5,7 +5,6 @@ defaults in one setting. The variance is that of pictures about the mean of all 
 no claim of a picture about its own noise is believed, relative to the radiance as in `stats`.
 """
 
-import argparse
 import statistics
 import sys
 import time
@@ -16,19 +15,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.context import Context, open_context
-from glrt.errors import GlrtError
+from glrt.lab.edited import Edit, edited
+from glrt.lab.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import settings_for
 from glrt.stats import DARK
 
-SWITCHES: dict[str, dict[str, Any]] = {
-    "defaults": {},
-    "independent": {"sampler": "independent"},
-    "no roulette": {"roulette": False},
-    "nee": {"method": "nee"},
-    "naive": {"method": "naive"},
+
+class Way(NamedTuple):
+    """How a variant differs from the defaults of its scene."""
+
+    settings: Mapping[str, Any]
+    edits: Sequence[Edit] = ()  # of the shaders
+
+
+SWITCHES = {
+    "defaults": Way({}),
+    "independent": Way({"sampler": "independent"}),
+    "no roulette": Way({"roulette": False}),
+    "nee": Way({"method": "nee"}),
+    "naive": Way({"method": "naive"}),
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
 SAMPLES = 32  # of a run: two blocks of Sobol's points
@@ -77,12 +85,11 @@ def measure(
     name: str,
     size: int,
     rounds: int,
-    switches: Mapping[str, Mapping[str, Any]] = SWITCHES,
+    ways: Mapping[str, Way] = SWITCHES,
 ) -> list[Row]:
     """Interleave the variants of one scene, at `size` x `size` pixels."""
-    scene, frame = scene_of(name), {"width": size, "height": size}
-    settings = {label: settings_for(scene.render, **frame, **s) for label, s in switches.items()}
-    runs = {label: Runs(Renderer(scene, s, context, "baked")) for label, s in settings.items()}
+    scene = scene_of(name)
+    runs = {label: Runs(renderer_of(scene, way, size, context)) for label, way in ways.items()}
     for number in range(rounds + 1):  # the first one warms up
         for place, one in enumerate(runs.values()):
             one.add(seed=1 + number * len(runs) + place)
@@ -90,6 +97,12 @@ def measure(
         del one.seconds[0], one.pictures[0]
         one.renderer.release()
     return list(_rows(name, runs))
+
+
+def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer:
+    """Of constants where there are few shapes; `KeyError` if an edit has no place."""
+    settings = settings_for(scene.render, width=size, height=size, **way.settings)
+    return edited(*way.edits)(scene, settings, context, "baked")
 
 
 def scene_of(name: str) -> Scene:
@@ -137,27 +150,21 @@ def table(rows: Sequence[Row]) -> Iterator[str]:
 
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.efficiency`; returns the exit code."""
-    parsed = _parser().parse_args(arguments)
-    try:
-        context = open_context()
-        rows: list[Row] = []
-        for name in parsed.scenes:
-            print(f"{name} ...", file=sys.stderr)
-            rows += measure(context, name, parsed.size, parsed.rounds)
-        print("\n".join(table(rows)))
-    except GlrtError as error:
-        print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
-        return error.exit_code
-    return 0
+    parser = parser_of("efficiency", __doc__)
+    parser.add_argument("--scenes", nargs="+", metavar="NAME", default=SCENES)
+    add_rounds(parser, size=64, rounds=40)
+    parsed = parser.parse_args(arguments)
+    return exit_code_of(lambda: _print(parsed.scenes, parsed.size, parsed.rounds))
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.efficiency", description=__doc__)
-    add = parser.add_argument
-    add("--scenes", nargs="+", metavar="NAME", default=SCENES)
-    add("--size", type=int, default=64, metavar="N", help="pixels a side (default: 64)")
-    add("--rounds", type=int, default=40, metavar="N", help="runs of each (default: 40)")
-    return parser
+def _print(scenes: Sequence[str], size: int, rounds: int) -> None:
+    context = open_context()
+    rows: list[Row] = []
+    for name in scenes:
+        print(f"{name} ...", file=sys.stderr)
+        rows += measure(context, name, size, rounds)
+    print(f"{machine(context.renderer)}, {size} x {size} pixels, {rounds} rounds\n")
+    print("\n".join(table(rows)))
 
 
 if __name__ == "__main__":
