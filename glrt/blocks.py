@@ -54,7 +54,7 @@ def blocks_text(
             text = text.replace(storage, uniform)
         elif tier != "storage" or not has_storage:
             getter = f"{struct} {name}_at(int index) {{ return {name}s[index]; }}"
-            text = text.replace(storage, "").replace(getter, accessor(struct, block, rows.dtype))
+            text = text.replace(storage, "").replace(getter, accessor(struct, block, rows))
     return text
 
 

@@ -56,7 +56,7 @@ def upload(
     """The arrays as the kernel reads them: buffers, or textures where blocks are too small."""
     in_textures = pipeline == "fragment" or tier != "storage"
     return {
-        name: _texture(gl, rows)
+        name: texture_of(gl, rows)
         if in_textures and not is_uniform(rows, tier, _uniform_bytes(gl))
         else gl.buffer(padded(rows, tier, _uniform_bytes(gl)))
         for name, rows in arrays.items()
@@ -69,7 +69,8 @@ def _uniform_bytes(gl: moderngl.Context) -> int:
     return min(MOST_UNIFORM_BYTES, int(gl.info["GL_MAX_UNIFORM_BLOCK_SIZE"]))
 
 
-def _texture(gl: moderngl.Context, rows: np.ndarray[Any, Any]) -> moderngl.Texture:
+def texture_of(gl: moderngl.Context, rows: np.ndarray[Any, Any]) -> moderngl.Texture:
+    """An array of structs as glrt.texels reads it."""
     size, content = texels(padded(rows, "storage"), rows.itemsize)
     texture = gl.texture(size, 4, content, dtype="u4")
     texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated

@@ -8,7 +8,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from glrt.kernel import Kernel
+from glrt.kernel import Kernel, Resource
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.scene import Scene
 from glrt.settings import settings_for
@@ -41,13 +41,13 @@ class Probe:
         self,
         gl: moderngl.Context,
         inputs: Mapping[str, Any] | None = None,
-        blocks: Mapping[str, moderngl.Buffer] | None = None,
+        blocks: Mapping[str, Resource] | None = None,
     ) -> Array:
         """The result for each row, (n,) or (n, 2..4); of n rows that the longest input has.
 
         Inputs are arrays of floats, ints or uints, or (n, 2..4) vectors, named as in the
-        expression; one of length 1 holds for all rows. `blocks` are those that included files
-        declare. The context must be current.
+        expression; one of length 1 holds for all rows. `blocks` are those, and the textures,
+        that included files or functions declare. The context must be current.
         """
         arrays = {name: _plain(values) for name, values in (inputs or {}).items()}
         count = max((len(values) for values in arrays.values()), default=1)

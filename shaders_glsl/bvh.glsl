@@ -20,8 +20,9 @@ struct Slab {
 Slab slab_of(Ray ray, vec4 grid) {
     vec3 size = max(abs(ray.origin), abs(grid.xyz));
     float slack = SLACK * max(size.x, max(size.y, size.z));
-    vec3 above = (ray.origin + slack - grid.xyz) / grid.w;
-    vec3 below = (ray.origin - slack - grid.xyz) / grid.w;
+    float cells = 1.0 / grid.w;  // compilers compute what follows at every node
+    vec3 above = (ray.origin + slack - grid.xyz) * cells;
+    vec3 below = (ray.origin - slack - grid.xyz) * cells;
     vec3 inverse = clamp(grid.w / ray.direction, vec3(-FAR), vec3(FAR));
     return Slab(above, below, inverse);
 }
@@ -49,8 +50,9 @@ Sphere sphere_of(Node node) {
 // the sphere is then hit nearer saves less than waiting for it costs.
 Hit find_sphere(Ray ray, Hit hit, int ignored, bool any) {
     Slab slab = slab_of(ray, uintBitsToFloat(node_at(0).sphere));
+    int end = node_count();  // read once
     int place = 1;
-    while (place < node_count()) {
+    while (place < end) {
         Node node = node_at(place);
         int below = int(node.box.w >> 16u);
         int shape = int(node.box.w & 0xFFFFu);
@@ -62,6 +64,6 @@ Hit find_sphere(Ray ray, Hit hit, int ignored, bool any) {
             if (any) return hit;
         }
     }
-    note_end(place, node_count());
+    note_end(place, end);
     return hit;
 }

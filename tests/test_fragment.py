@@ -14,7 +14,8 @@ from glrt.doctor import examine
 from glrt.image import Image
 from glrt.library import load, scene_names
 from glrt.pack import STRUCTS, pack_scene
-from glrt.pipelines import Resolved
+from glrt.pipelines import Resolved, texture_of
+from glrt.probe import Probe
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.texels import ROWS, accessor, texels
@@ -97,12 +98,40 @@ def test_structs_survive_the_way_through_a_texture() -> None:
 
 
 def test_accessor_reads_each_field_where_the_layout_has_it() -> None:
-    text = accessor("Sphere", "Spheres", STRUCTS["Sphere"])
+    text = accessor("Sphere", "Spheres", np.zeros(1, STRUCTS["Sphere"]))
     assert (
         "Sphere(uintBitsToFloat(row0.xyz), uintBitsToFloat(row0.w), int(row1.x), int(row1.y))"
         in text
     )
+    assert "vec2(1.5, 0.5)" in text, "the middle of a texel: beside it, chance decides"
     assert "buffer" not in blocks_text(pack_scene(load("weekend")), "storage", has_storage=False)
+
+
+@pytest.mark.parametrize("struct", ["Node", "Light", "Quad"])
+@pytest.mark.parametrize("count", [1, ROWS, ROWS + 1, 5 * ROWS + 3, 1 + 2**16])
+def test_each_row_of_a_texture_is_read_where_it_lies(
+    ctx: moderngl.Context, struct: str, count: int
+) -> None:
+    """Rows hold numbers of their own in the first and the last field."""
+    rows = np.zeros(count, STRUCTS[struct])
+    names = list(rows.dtype.names or ())
+    for code, name in enumerate((names[0], names[-1])):
+        rows[name].reshape(count, -1)[:, 0] = 2 * np.arange(count) + code
+    texture = texture_of(ctx, rows)
+    value = {"Node": "vec2(row.sphere.x, row.box.x)", "Light": "vec2(row.shape, row.reach2)"}
+    probe = Probe(
+        value.get(struct, "vec2(row.corner.x, row.dual_v.x)"),
+        "vec2",
+        f"{struct} row = {struct.lower()}_at(index);",
+        accessor(struct, "Rows", rows),
+        ["scene.glsl"],
+    )
+    index = np.random.default_rng(1).permutation(count)
+    assert np.array_equal(
+        probe.run(ctx, {"index": index}, {"Rows": texture}),
+        np.column_stack([2 * index, 2 * index + 1]),
+    )
+    texture.release()
 
 
 @pytest.fixture
