@@ -1,8 +1,9 @@
 """How much work one dispatch takes: within the driver's loop limit and a budget of time.
 
-A frame gives every pixel some samples. Where one sample of every pixel takes too long, its
+A frame gives every pixel some samples. Where those of every pixel take too long, its
 dispatches take a part of the picture each: tiles of 8 x 8 pixels, one work group each. They are
 numbered so that those of one dispatch lie all over the picture: each part costs about the same.
+The more samples a picture has, the more a frame adds: taken together they cost less.
 """
 
 import math
@@ -17,10 +18,14 @@ from glrt.settings import RenderSettings
 # What no dispatch may exceed, in seconds: drivers end those of some seconds, and progress,
 # interruption and a window are to stay prompt. Dispatches are planned for half of it.
 HEADLESS_LIMIT, INTERACTIVE_LIMIT = 0.5, 0.1
+INTERACTIVE_PATIENCE = 1.0  # seconds: a picture that is looked at changes this often
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
 TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
 GROWTH = 4  # of the work from one dispatch to the next, at most
+# Samples of a frame: a share of those that the picture has, so that little is lost when a frame is
+# not completed; more together are hardly faster (docs/speed.md).
+FRAME_SHARE, ENOUGH_SAMPLES = 1 / 8, 16
 HIGHLIGHT_ROUNDS = 52  # of the powers of a highlight, whose exponents stay below 2^24
 _GOLDEN = 0.618
 
@@ -105,6 +110,7 @@ class Schedule:
         self._most = most_samples
         self._tried = FIRST_TILES / GROWTH  # the most work so far: samples x tiles
         self._cost = 0.0  # seconds for one tile and sample
+        self._cost_alone = 0.0  # of frames of one sample, whose lanes wait for the longest path
         self._bounces = 0  # of the longest paths that are known
         self.drop()
 
@@ -123,7 +129,7 @@ class Schedule:
         Unless paths get longer: then it begins carefully.
         """
         if bounces > self._bounces:
-            self._tried, self._cost = FIRST_TILES / GROWTH, 0.0
+            self._tried, self._cost, self._cost_alone = FIRST_TILES / GROWTH, 0.0, 0.0
         self._tiles, self._bounces = tiles, bounces
         self.limit(most_samples)
 
@@ -132,16 +138,25 @@ class Schedule:
         self._most = most_samples
         self.drop()
 
-    def next_portion(self, remaining: int, seconds: float) -> Portion:
-        """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds."""
+    def next_portion(
+        self, remaining: int, seconds: float, held: int = 0, patience: float = math.inf
+    ) -> Portion:
+        """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds.
+
+        The picture holds `held` samples; it is to change after `patience` seconds at the latest,
+        if a sample of it takes no longer.
+        """
         if self._samples > remaining:
             self.drop()
-        fitting = GROWTH * self._tried
-        if self._cost:
-            fitting = min(fitting, seconds / self._cost)
         if not self._done:
-            self._samples = max(1, min(int(fitting / self._tiles), self._most, remaining))
+            at_once = self._fitting(seconds, self._cost) / self._tiles
+            together = min(held * FRAME_SHARE, ENOUGH_SAMPLES)
+            if self._cost:
+                together = min(together, patience / (self._cost * self._tiles))
+            self._samples = max(1, min(int(max(at_once, together)), self._most, remaining))
         left = self._tiles - self._done
+        is_alone = self._samples == 1 and self._cost_alone
+        fitting = self._fitting(seconds, self._cost_alone if is_alone else self._cost)
         most = min(MOST_TILES, max(1, int(fitting / self._samples)))
         dispatches = math.ceil(left / most)
         return Portion(self._samples, self._done, math.ceil(left / dispatches))
@@ -151,8 +166,15 @@ class Schedule:
         work = portion.samples * portion.tiles
         self._tried = max(self._tried, work)
         self._cost = max(seconds, 1e-9) / work
+        if portion.samples == 1:
+            self._cost_alone = self._cost
         self._done += portion.tiles
         is_complete = self._done == self._tiles
         if is_complete:
             self.drop()
         return is_complete
+
+    def _fitting(self, seconds: float, cost: float) -> float:
+        """The work of a dispatch of so many seconds; not much more than has been tried."""
+        most = GROWTH * self._tried
+        return min(most, seconds / cost) if cost else most

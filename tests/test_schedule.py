@@ -15,6 +15,7 @@ from glrt.errors import UsageError
 from glrt.job import Interruption, Limits, run
 from glrt.renderer import Renderer
 from glrt.schedule import (
+    ENOUGH_SAMPLES,
     FIRST_TILES,
     GROWTH,
     HEADLESS_LIMIT,
@@ -39,13 +40,17 @@ def device(cost: float, latency: float = 1e-4) -> Device:
 
 
 def frames(
-    schedule: Schedule, seconds_for: Device, samples: int, budget: float = 0.25
+    schedule: Schedule,
+    seconds_for: Device,
+    samples: int,
+    budget: float = 0.25,
+    patience: float = math.inf,
 ) -> list[list[tuple[Portion, float]]]:
     """The dispatches of each frame and what they took, to so many samples."""
     done = 0
     all_frames: list[list[tuple[Portion, float]]] = [[]]
     while done < samples:
-        portion = schedule.next_portion(samples - done, budget)
+        portion = schedule.next_portion(samples - done, budget, done, patience)
         seconds = seconds_for(portion)
         all_frames[-1].append((portion, seconds))
         if schedule.record(portion, seconds):
@@ -92,6 +97,40 @@ def test_a_dispatch_of_a_fast_picture_takes_many_samples() -> None:
     counts = [frame[0][0].samples for frame in frames(Schedule(64, 1000), device(1e-5), 4000)]
     assert max(counts) == int(0.25 / (1e-5 + 1e-4 / (64 * max(counts))) / 64)
     assert all(after <= GROWTH * before for before, after in pairwise(counts))
+
+
+def lanes(portion: Portion) -> float:
+    """A sample alone takes 2.5 times as long as one of many: lanes wait for its longest path."""
+    return 1e-4 * portion.tiles * (portion.samples + 1.5)
+
+
+def test_frames_of_a_slow_picture_get_more_samples_as_it_has_more() -> None:
+    all_frames = frames(Schedule(4096, 1000), lanes, 256)
+    held = 0
+    for frame in all_frames:
+        samples = frame[0][0].samples
+        assert samples == min(max(1, held // 8), ENOUGH_SAMPLES)
+        held += samples
+        assert max(seconds for _, seconds in frame) <= 0.2502
+    assert held == 256
+    assert len(all_frames) < 60
+
+
+def test_who_looks_at_a_picture_sees_it_change_before_long() -> None:
+    for cost in (1e-5, 1e-4, 1e-3):
+        for frame in frames(Schedule(4096, 1000), device(cost), 200, 0.05, patience=1.0):
+            whole = sum(seconds for _, seconds in frame)
+            assert whole <= 1.05 or frame[0][0].samples == 1
+
+
+def test_a_picture_that_begins_anew_is_planned_by_what_a_single_sample_takes() -> None:
+    schedule = Schedule(4096, 1000)
+    assert frames(schedule, lanes, 256)[-1][0][0].samples == ENOUGH_SAMPLES
+    schedule.restart(4096, 1000, bounces=0)
+    first = frames(schedule, lanes, 1)[0]
+    assert max(seconds for _, seconds in first) <= 0.2502
+    schedule.restart(4096, 1000, bounces=1)
+    assert schedule.next_portion(1, 0.25).tiles <= FIRST_TILES
 
 
 def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
