@@ -1,5 +1,6 @@
 """Scene + Settings -> samples on a film, step by step."""
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -7,17 +8,15 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from glrt.blocks import Tier, tier_for
+from glrt.blocks import Tier
 from glrt.context import Choice, Context, Pipeline, open_context
 from glrt.display import displayed
 from glrt.errors import UsageError
 from glrt.film import Film
 from glrt.image import Image
-from glrt.kernel import Resource, tile_count
+from glrt.kernel import tile_count
 from glrt.mix import Mixer, mixed
-from glrt.needs import has_tree, needs_of
-from glrt.pack import STRUCTS, pack_frame, pack_scene
-from glrt.pipelines import Arrays, compiled, resolve, scene_text, sources, upload
+from glrt.pipelines import resolve
 from glrt.recipe import Recipe, traced
 from glrt.relight import ONE, Layering, Weights, are_trivial, plan_for
 from glrt.resume import fitting
@@ -25,15 +24,17 @@ from glrt.scene import Scene
 from glrt.schedule import (
     HEADLESS_LIMIT,
     INTERACTIVE_LIMIT,
+    INTERACTIVE_PATIENCE,
     Portion,
     Schedule,
     iterations_per_sample,
     most_samples,
-    stride_of,
     whole_frame,
 )
 from glrt.selftest import usable_rounds
 from glrt.settings import Cost, Settings, settings_for
+from glrt.turns import AnyKernel, Turns
+from glrt.uploaded import Uploaded
 from glrt.version import VERSION
 
 ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
@@ -69,7 +70,6 @@ class Renderer:
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
         self.pipeline = resolve("compute" if layering != "none" else pipeline, self.context)
         self._wanted_tier = tier
-        self._resources: dict[str, Resource] = {}
         self._mixer = Mixer(self.context.gl)
         self.plan = plan_for(self.scene, self.settings, layering)
         most_samples = self._most_samples(self.scene, self.settings)
@@ -86,7 +86,7 @@ class Renderer:
     @property
     def work(self) -> float:
         """Samples a pixel, and the share that is done of those in the frame that has begun."""
-        return self.samples + self._schedule.begun
+        return self.samples + self._turns.schedule.begun
 
     @property
     def size(self) -> tuple[int, int]:
@@ -104,7 +104,7 @@ class Renderer:
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
-        self._schedule.drop()
+        self._turns.schedule.drop()
         with self.context.gl:
             self._film.restart(*self.size, self.settings.block, self.plan.layers)
 
@@ -125,16 +125,36 @@ class Renderer:
             return cost
         most_samples = self._most_samples(*after)
         (self.scene, self.settings), self.plan = after, plan_for(*after, layering)
-        before_texts = [shader.text for shader in self._shaders]
+        before = self._uploaded
         with self.context.gl:
+            before.release()
             self._upload(most_samples)
+            if not (self._uploaded.is_read_alike(before) and self._uploaded.has_shapes_of(before)):
+                self._turns.take_back()
             self._film.restart(*self.size, self.settings.block, self.plan.layers)
-            if [shader.text for shader in self._shaders] == before_texts:
-                self._schedule.restart(self._tiles, most_samples, after[1].bounces)
+            if self._uploaded.is_read_alike(before):
+                self._turns.schedule.restart(self._tiles, most_samples, after[1].bounces)
                 return Cost.RESTART
-            self._kernel.release()
+            self._turns.release()
             self._compile()
             return Cost.RECOMPILE
+
+    def bake(self) -> bool:
+        """Go on, to the same bits, by a faster kernel that has the shapes written into it.
+
+        When a shape changes, or the place of the camera, the kernel from before goes on at once.
+        False where there is none: this one has them, or they are too many.
+        """
+        shaders = None if self._turns.is_passed else self._uploaded.baked()
+        if shaders:
+            with self.context.gl:
+                self._turns.pass_to(shaders)
+        return shaders is not None
+
+    @property
+    def is_baked(self) -> bool:
+        """Whether the kernel that runs has the shapes written into it."""
+        return self.tier == "baked" or self._turns.is_passed
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
@@ -142,7 +162,7 @@ class Renderer:
             raise UsageError(
                 f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
             )
-        self._schedule.drop()
+        self._turns.schedule.drop()
         target = self.samples + samples
         with self.context.gl:
             while self.samples < target:
@@ -157,7 +177,8 @@ class Renderer:
         target = samples or self.settings.samples
         before, start, spent = self.samples, time.perf_counter(), 0.0
         while self.samples < target and spent <= ENOUGH * seconds:
-            self._work(target - self.samples, min(seconds - spent, INTERACTIVE_LIMIT / 2))
+            left = min(seconds - spent, INTERACTIVE_LIMIT / 2)
+            self._work(target - self.samples, left, INTERACTIVE_PATIENCE)
             spent = time.perf_counter() - start
         return self.samples != before
 
@@ -185,7 +206,7 @@ class Renderer:
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
         gathered = fitting(image, self._recipe((ONE,)))
-        self._schedule.drop()
+        self._turns.schedule.drop()
         with self.context.gl:
             self._film.write(image.samples, image.radiance, gathered)
         return self
@@ -203,7 +224,7 @@ class Renderer:
     def release(self) -> None:
         """Free what the driver holds, the context too unless it was given."""
         with self.context.gl:
-            for part in (self._film, self._kernel, self._mixer, *self._resources.values()):
+            for part in (self._film, self._turns, self._mixer, self._uploaded):
                 part.release()
         if self._owns_context:
             self.context.gl.release()
@@ -227,39 +248,25 @@ class Renderer:
         return most_samples(iterations, self._rounds, iterations_per_sample(scene, settings, 0))
 
     def _upload(self, most_samples: int) -> None:
-        """Give the driver the scene, and write the kernel for it."""
-        arrays = pack_scene(self.plan.scene)
-        self._counts = {name: len(rows) for name, rows in arrays.items()}
-        self.tier = tier_for(arrays, self._wanted_tier)
-        for resource in self._resources.values():
-            resource.release()
-        self._frame = self.context.gl.buffer(reserve=STRUCTS["Frame"].itemsize)
-        shapes = upload(self.context.gl, self.pipeline, arrays, self.tier)
-        self._lost = self.context.gl.buffer(bytes(4))
-        self._resources = {**shapes, "FrameBlock": self._frame, "Lost": self._lost}
-        self._may_lose = has_tree(self.plan.scene) and self._rounds is not None
-        constants = needs_of(self.plan.scene, self.plan.settings).constants()
-        constants |= self.plan.constants()
-        self._shaders = sources(self.pipeline, constants, self._parts(arrays))
+        kind, gl = (self.pipeline, self._wanted_tier), self.context.gl
+        self._uploaded = Uploaded(gl, self.plan, *kind, self._parts())
+        self.tier = self._uploaded.tier
         self._tiles, self.most_samples = tile_count(*self.size), most_samples
 
-    def _parts(self, arrays: Arrays) -> dict[str, str]:
+    def _parts(self) -> dict[str, str]:
         """Texts that stand in for shader files."""
-        return {"blocks.glsl": scene_text(self.context.gl, self.pipeline, arrays, self.tier)}
+        return {}
 
     def _compile(self) -> None:
-        start = time.perf_counter()
-        self._schedule = Schedule(self._tiles, self.most_samples)
-        self._kernel = compiled(self.context.gl, self._shaders)
-        self._dispatch(Portion(0, 0, 1))  # drivers compile in the first; this one adds nothing
-        self.context.finish()
-        self.compile_seconds = time.perf_counter() - start
-        self.longest_dispatch = 0.0  # seconds, apart from this first one
+        schedule = Schedule(self._tiles, self.most_samples)
+        self._turns = Turns(self.context, self._uploaded.shaders, schedule, self._dispatch)
+        self.compile_seconds = self._turns.compile_seconds
+        self.longest_dispatch = 0.0  # seconds, apart from the first one
 
     def _at_once(self, samples: int) -> None:
         """Samples of every pixel at once; none if they prove too many."""
         for portion in whole_frame(samples, self._tiles):
-            self._dispatch(portion)
+            self._dispatch(self._turns.kernel, portion)
         self.context.finish()
         if self._fits(samples):
             self._film.advance(samples)
@@ -270,30 +277,24 @@ class Renderer:
         Rays through a tree take as many rounds as they take. A frame that lost some is done again
         with fewer samples at once; what is lost then is counted on the film.
         """
-        if not self._may_lose or not any(self._lost.read()):
-            return True
-        self._lost.clear()
-        if samples == 1:
+        if self._rounds is None or not self._uploaded.lost_any() or samples == 1:
             return True
         self.most_samples = samples // 2
-        self._schedule.limit(self.most_samples)
+        self._turns.schedule.limit(self.most_samples)
         return False
 
-    def _work(self, remaining: int, seconds: float) -> None:
+    def _work(self, remaining: int, seconds: float, patience: float = math.inf) -> None:
         """One dispatch that the schedule plans; all those of a frame read the same source."""
-        portion = self._schedule.next_portion(remaining, seconds)
+        portion = self._turns.schedule.next_portion(remaining, seconds, self.samples, patience)
         start = time.perf_counter()
         with self.context.gl:
-            self._dispatch(portion)
+            self._dispatch(self._turns.kernel, portion)
             self.context.finish()
             taken = time.perf_counter() - start
             self.longest_dispatch = max(self.longest_dispatch, taken)
-            if self._fits(portion.samples) and self._schedule.record(portion, taken):
+            if self._fits(portion.samples) and self._turns.schedule.record(portion, taken):
                 self._film.advance(portion.samples)
 
-    def _dispatch(self, portion: Portion) -> None:
-        plan, numbers = self.plan, (self.samples, portion.samples, portion.first)
-        strided = (*numbers, stride_of(self._tiles))
-        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *strided))
-        self._kernel.bind(self._resources, self._film.images())
-        self._kernel.run_tiles(portion.tiles)
+    def _dispatch(self, kernel: AnyKernel, portion: Portion) -> None:
+        images = self._film.images()
+        self._uploaded.dispatch(kernel, images, self.plan, self.samples, portion, self._tiles)

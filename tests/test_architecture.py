@@ -56,7 +56,7 @@ ORDER = [
         "compare_picture",
     ),
     *("context", "kernel", "probe", "selftest", "pipelines", "film", "mix", "display"),
-    *("false_colors", "schedule"),
+    *("false_colors", "schedule", "uploaded", "turns"),
     *(
         "renderer",
         "__init__",
@@ -87,6 +87,7 @@ KNOW_OPENGL = {
     "mix",
     "display",
     "false_colors",
+    "uploaded",
     "renderer",
 }
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}

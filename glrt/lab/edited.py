@@ -2,7 +2,6 @@
 
 from typing import NamedTuple
 
-from glrt.pipelines import Arrays
 from glrt.renderer import Renderer
 from glrt.shader import read
 
@@ -27,7 +26,7 @@ def edited(*edits: Edit) -> type[Renderer]:
     class Edited(Renderer):
         """With other texts for some shader files."""
 
-        def _parts(self, arrays: Arrays) -> dict[str, str]:
-            return {**super()._parts(arrays), **texts}
+        def _parts(self) -> dict[str, str]:
+            return {**super()._parts(), **texts}
 
     return Edited

@@ -1,10 +1,5 @@
 """How many rays a sample takes: the cost of a picture on any machine."""
 
-from collections.abc import Mapping
-from typing import Any
-
-import numpy as np
-
 from glrt.context import Context
 from glrt.renderer import Renderer
 from glrt.scene import Scene
@@ -31,13 +26,13 @@ _SEARCHES = (
 class RayCounter(Renderer):
     """Renders rays a sample where another renderer renders radiance."""
 
-    def _parts(self, arrays: Mapping[str, np.ndarray[Any, Any]]) -> dict[str, str]:
+    def _parts(self) -> dict[str, str]:
         searches = read("shape.glsl")
         for head in _SEARCHES:
             searches = _replaced(searches, head, f"{head}    rays_so_far += 1.0;\n")
         samples = _replaced(read("samples.glsl"), "path.radiance", "rays_of_sample()")
         counting = {"shape.glsl": _COUNTER + searches, "samples.glsl": samples}
-        return {**super()._parts(arrays), **counting}
+        return {**super()._parts(), **counting}
 
 
 def rays_per_sample(scene: Scene, settings: Settings, context: Context) -> float:

@@ -11,12 +11,11 @@ import json
 import os
 import re
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
@@ -143,11 +142,11 @@ _OTHER_HASH = """uint pcg_hash(uint x) {
 class OtherNumbers(Renderer):
     """Takes its random numbers from a hash by shifts and products, where others have PCG's."""
 
-    def _parts(self, arrays: Mapping[str, np.ndarray[Any, Any]]) -> dict[str, str]:
+    def _parts(self) -> dict[str, str]:
         text, count = _HASH.subn(_OTHER_HASH, read("rng.glsl"))
         if count != 1:
             raise KeyError(f"rng.glsl holds {count} functions `pcg_hash`, not one")
-        return {**super()._parts(arrays), "rng.glsl": text}
+        return {**super()._parts(), "rng.glsl": text}
 
 
 def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:

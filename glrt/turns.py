@@ -1,0 +1,61 @@
+"""Kernels that take turns: one that stays through edits, and a faster one while there are none."""
+
+import time
+from collections.abc import Callable
+from copy import copy
+
+from glrt.context import Context
+from glrt.kernel import FragmentKernel, Kernel
+from glrt.pipelines import compiled
+from glrt.schedule import Portion, Schedule
+from glrt.shader import Source
+
+AnyKernel = Kernel | FragmentKernel
+
+
+class Turns:
+    """The kernel whose turn it is, and what is known of its dispatches."""
+
+    def __init__(
+        self,
+        context: Context,
+        shaders: list[Source],
+        schedule: Schedule,
+        dispatch: Callable[[AnyKernel, Portion], None],
+    ) -> None:
+        """Compile the kernel that stays; RenderError if the driver refuses it."""
+        self._context, self._dispatch = context, dispatch
+        start = time.perf_counter()
+        self.kernel, self.schedule = self._ready(shaders), schedule
+        self.compile_seconds = time.perf_counter() - start
+        self._waiting: tuple[AnyKernel, Schedule] | None = None
+
+    @property
+    def is_passed(self) -> bool:
+        """Whether it is the turn of the faster kernel."""
+        return self._waiting is not None
+
+    def pass_to(self, shaders: list[Source]) -> None:
+        """Let a faster kernel go on with the next frame; refused, all stays as it was."""
+        self.schedule.drop()  # the first dispatch writes to the frame that has begun
+        faster = self._ready(shaders)
+        self._waiting = self.kernel, self.schedule
+        self.kernel, self.schedule = faster, copy(self.schedule)
+
+    def take_back(self) -> None:
+        """Go on by the kernel that stays; the faster one is freed."""
+        if self._waiting:
+            self.kernel.release()
+            self.kernel, self.schedule = self._waiting
+        self._waiting = None
+
+    def release(self) -> None:
+        """Free the programs."""
+        self.take_back()
+        self.kernel.release()
+
+    def _ready(self, shaders: list[Source]) -> AnyKernel:
+        kernel = compiled(self._context.gl, shaders)
+        self._dispatch(kernel, Portion(0, 0, 1))  # drivers compile in the first; it adds nothing
+        self._context.finish()
+        return kernel
