@@ -173,7 +173,7 @@ def _pack_quads(
         u, v = sorted((_vector(quad.edge_u), _vector(quad.edge_v)), key=np.linalg.norm)
         length = np.linalg.norm(v)
         row["corner"], row["edge_u"], row["edge_v"] = _vector(quad.corner) - eye, u, v
-        row["normal"], row["length"] = normal / area, length
+        row["normal"], row["height"] = normal / area, length
         row["width"], row["shear"] = area / length, np.dot(u, v) / length
         row["dual_u"] = np.cross(v, np.cross(u, v)) / area**2
         row["dual_v"] = np.cross(np.cross(u, v), u) / area**2

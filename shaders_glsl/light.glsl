@@ -48,7 +48,7 @@ float pdf_quad(Quad quad, Ray ray, float distance) {
     if (WEIGHT_BOTH) {
         float cos_light = abs(dot(ray.direction, quad.normal));
         if (cos_light == 0.0) return 0.0;
-        float pdf = (distance / (quad.width * quad.length)) * (distance / cos_light);
+        float pdf = (distance / (quad.width * quad.height)) * (distance / cos_light);
         return pdf;
     }
     StripView view = view_strips(quad, ray.origin);

@@ -33,7 +33,7 @@ struct Quad {
     vec3 edge_u;  // the shorter edge
     float width;  // across edge_v
     vec3 edge_v;
-    float length;
+    float height;
     vec3 dual_u;  // dot(dual_u, p - corner) is 0 at the corner, 1 at the end of edge_u
     float shear;  // of edge_u, along edge_v
     vec3 dual_v;

@@ -20,7 +20,7 @@ StripView view_strips(Quad quad, vec3 origin) {
     vec3 corner = quad.corner - origin;
     float z = abs(dot(corner, quad.normal));
     float x = dot(corner, quad.dual_u) * quad.width;
-    float y = dot(corner, quad.edge_v) / quad.length;
+    float y = dot(corner, quad.edge_v) / quad.height;
     return StripView(corner, z, x, y);
 }
 
@@ -109,7 +109,7 @@ float strip_distance(Quad quad, StripView view, float a) {
 float pdf_strips(Quad quad, StripView view, float a) {
     float d = strip_distance(quad, view, a);
     float y = view.y + a * quad.shear;
-    float extent = strip_ends(y, quad.length, d).extent;
+    float extent = strip_ends(y, quad.height, d).extent;
     float pdf = 1.0 / (strip_angle(view.x, quad.width, view.z) * extent);
     return pdf;
 }
@@ -119,7 +119,7 @@ vec2 sample_strips(Quad quad, StripView view, vec2 u) {
     float a = sample_strip(view.x, quad.width, view.z, u.x);
     float d = strip_distance(quad, view, a);
     float y = view.y + a * quad.shear;
-    float offset = sample_on_strip(strip_ends(y, quad.length, d), d, u.y) - y;
-    float b = clamp(offset / quad.length, 0.0, 1.0);
+    float offset = sample_on_strip(strip_ends(y, quad.height, d), d, u.y) - y;
+    float b = clamp(offset / quad.height, 0.0, 1.0);
     return vec2(a, b);
 }

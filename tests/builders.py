@@ -15,6 +15,15 @@ EVERYTHING: dict[str, bool | int] = {
     **NO_LAYERS,
 }
 
+_FLAGS = [name for name, value in EVERYTHING.items() if value is True]
+_NOTHING = {**EVERYTHING, **dict.fromkeys(_FLAGS, False)}
+FEATURE_SETS: dict[str, dict[str, bool | int]] = {
+    "everything": EVERYTHING,
+    "nothing": _NOTHING,
+    **{f"only {name}": {**_NOTHING, name: True} for name in _FLAGS},
+    **{f"all but {name}": {**EVERYTHING, name: False} for name in _FLAGS},
+}
+
 MATTE = {"type": "lambertian", "color": [0.5, 0.5, 0.5]}
 
 

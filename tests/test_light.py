@@ -185,7 +185,7 @@ def exact_density(rows: dict[str, Array], shape: int, direction: Array, distance
         return np.full(len(direction), 1 / (2 * np.pi * (1 - np.sqrt(1 - sine2))))
     quad_row = rows["Quads"][flat]
     cosine = np.abs(direction @ quad_row["normal"].astype(np.float64))
-    density: Array = distance**2 / (quad_row["width"] * quad_row["length"] * cosine)
+    density: Array = distance**2 / (quad_row["width"] * quad_row["height"] * cosine)
     return density
 
 

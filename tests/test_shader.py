@@ -17,18 +17,10 @@ from glrt.pipelines import sources
 from glrt.probe import path_files
 from glrt.resources import folder
 from glrt.shader import Source, files_anew, read
-from tests.builders import EVERYTHING
+from tests.builders import EVERYTHING, FEATURE_SETS
 from tests.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
 
 INCLUDES = path_files()
-FLAGS = [name for name, value in EVERYTHING.items() if value is True]
-NOTHING = {**EVERYTHING, **dict.fromkeys(FLAGS, False)}
-FEATURE_SETS: dict[str, dict[str, bool | int]] = {
-    "everything": EVERYTHING,
-    "nothing": NOTHING,
-    **{f"only {name}": {**NOTHING, name: True} for name in FLAGS},
-    **{f"all but {name}": {**EVERYTHING, name: False} for name in FLAGS},
-}
 TONEMAP_ENTRY = """
 layout(local_size_x = 1) in;
 #include "tonemap.glsl"

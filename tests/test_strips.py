@@ -257,7 +257,7 @@ def test_directions_follow_the_edges() -> None:
     scene = lit("tube")
     row = pack_scene(scene)["Quads"][0]
     assert row["edge_u"].tolist() == pytest.approx([0.01, 0, 0])
-    assert row["length"] == 9
+    assert row["height"] == 9
     assert row["width"] == pytest.approx(0.01)
     assert row["normal"].tolist() == [0, 1, 0]
     for dual, ends in (("dual_u", (1, 0)), ("dual_v", (0, 1))):

@@ -57,6 +57,11 @@ def xvfb() -> str:
     return library("libX11.so.6") if shutil.which("Xvfb") else "no program Xvfb"
 
 
+def glslang() -> str:
+    """Is the front end of the GLSL standard there? The tests run all shaders through it."""
+    return "" if shutil.which("glslangValidator") else "no program glslangValidator"
+
+
 def window() -> str:
     """Are the libraries there with which a window opens under X11?"""
     return library("libGL.so.1") or library("libX11.so.6") or library("libXext.so.6")

@@ -65,11 +65,17 @@ LLVM = Need(
     "LLVM 19 and libatomic (Fedora: llvm-libs libatomic; Arch: llvm-libs gcc-libs; "
     "Alpine: llvm19-libs libatomic)",
 )
+GLSLANG = Need(
+    "glslang, which holds the shaders against the GLSL standard",
+    probes.glslang,
+    ("glslang-tools",),
+    "glslang (Fedora, Arch, Alpine: glslang)",
+)
 
 WANTED = {
     "check": (CXX, VENV),
     "render": (CXX, VENV, EGL, OSMESA),
-    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, LLVM),
+    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, LLVM, GLSLANG),
     "view": (CXX, VENV, EGL, OSMESA, WINDOW),
 }
 Missing = Mapping[Need, str]  # what does not work, and why
