@@ -32,7 +32,7 @@ class Examination:
 
     route: str
     device: int
-    found: dict[str, Finding]  # by step, in order: open, self_test, compute, fragment, end
+    found: dict[str, Finding]  # by step, in order: open, fragment, self_test, compute, end
     end: str  # how the process ended, if not of itself
 
     @property
@@ -79,7 +79,7 @@ def report(as_json: bool = False) -> tuple[str, bool]:
     lines = [_versions(), ""]
     for examination in examinations:
         lines += [*_lines(examination, used), ""]
-    return "\n".join([*lines, *_verdict(used, works)]), works
+    return "\n".join([*lines, _verdict(used, examinations)]), works
 
 
 def _table(examinations: list[Examination], used: str) -> Finding:
@@ -129,7 +129,9 @@ def _lines(examination: Examination, used: str) -> list[str]:
         f"{name:<8}{'works' if examination.works else 'does not work'}: {opening['renderer']}, "
         f"{kind}, OpenGL {opening['version']}, opened in {opening['seconds']:.2f} s{is_used}"
     ]
-    lines += [f"  {step:<14}{_furnace(examination.found.get(step))}" for step in PIPELINES]
+    absence = "no answer" if examination.end else "not there"
+    for step in PIPELINES:
+        lines.append(f"  {step:<14}{_furnace(examination.found.get(step)) or absence}")
     lines += findings(examination.found.get("self_test"))
     return lines + ([f"  {examination.end}"] if examination.end else [])
 
@@ -140,7 +142,7 @@ def _hint(route: str) -> str:
 
 def _furnace(finding: Finding | None) -> str:
     if finding is None:
-        return "not there"
+        return ""
     if "error" in finding:
         return f"fails: {finding['error']}"
     error = finding["furnace"]
@@ -148,10 +150,14 @@ def _furnace(finding: Finding | None) -> str:
     return f"a furnace is {exactness} (with compiling {finding['seconds']:.2f} s)"
 
 
-def _verdict(used: str, works: bool) -> list[str]:
-    if works:
-        return [f"`glrt render` uses {used}; --context chooses another, --pipeline the pipeline."]
-    return ["No route renders: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:", *remedies()]
+def _verdict(used: str, examinations: list[Examination]) -> str:
+    if not any(examination.works for examination in examinations):
+        wanted = "No route renders: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:"
+        return "\n".join([wanted, *remedies()])
+    chosen = next((e for e in examinations if e.route == used), examinations[0])
+    if "compute" in chosen.found or not chosen.end:
+        return f"`glrt render` uses {used}; --context chooses another, --pipeline the pipeline."
+    return f"`glrt render` uses {used}, whose compute shaders fail: take --pipeline fragment."
 
 
 def findings(found: Finding | None) -> list[str]:

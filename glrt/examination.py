@@ -45,10 +45,11 @@ def furnace(context: Context, pipeline: Resolved) -> float:
 
 
 def _examine(context: Context) -> None:
+    """The fragment pipeline first: it may work where compute shaders take the driver along."""
+    _tell("fragment", lambda: {"furnace": furnace(context, "fragment")})
     if context.has_compute:
         _tell("self_test", lambda: asdict(self_test(context)))
         _tell("compute", lambda: {"furnace": furnace(context, "compute")})
-    _tell("fragment", lambda: {"furnace": furnace(context, "fragment")})
 
 
 def _tell(step: str, find: Any) -> None:

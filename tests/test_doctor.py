@@ -15,7 +15,7 @@ OPENED = (
     '{"step": "open", "renderer": "toy", "version": "4.5", "is_software": true, '
     '"has_compute": true, "seconds": 0.1}'
 )
-RIGHT = '{"step": "compute", "furnace": 0.0, "seconds": 0.2}'
+RIGHT = '{"step": "fragment", "furnace": 0.0, "seconds": 0.2}'
 
 
 def dying(lines: list[str], last: str) -> Examination:
@@ -152,9 +152,12 @@ def test_every_device_of_egl_is_examined(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_report_says_what_a_dead_driver_had_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The fragment pipeline is tried first: it may be what is left."""
     dead = dying([OPENED, RIGHT], "os.abort()")
     monkeypatch.setattr(doctor, "examine", lambda route, device=0: dead)
     text, works = report()
     assert works
-    assert "fragment      not there" in text
+    assert "fragment      a furnace is exact" in text
+    assert "compute       no answer" in text
     assert "the driver crashed" in text
+    assert "compute shaders fail: take --pipeline fragment" in text

@@ -19,9 +19,9 @@ from glrt.probe import Probe
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.texels import ROWS, accessor, texels
+from tests.drivers import OLD_DRIVER
 from tests.images import same_bits
 from tests.mixture import everything
-from tests.old_driver import OLD_DRIVER
 from tests.processes import glrt
 from tests.renders import METHODS, SAMPLERS
 

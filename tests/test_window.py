@@ -20,7 +20,7 @@ import pytest
 
 from glrt.image import Image
 from glrt.lab.screens import screen
-from tests.old_driver import OLD_DRIVER
+from tests.drivers import OLD_DRIVER
 from tests.packages import needs_package
 from tests.processes import glrt
 

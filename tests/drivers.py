@@ -1,4 +1,4 @@
-"""Mesa as a driver of OpenGL 4.1, for processes that have this in their environment."""
+"""Mesa as other drivers, for processes that have this in their environment."""
 
 # What OpenGL 4.1 lacks is really taken away: under a version alone compute shaders still compile.
 OLD_DRIVER = {
@@ -7,3 +7,5 @@ OLD_DRIVER = {
     "MESA_EXTENSION_OVERRIDE": "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object "
     "-GL_ARB_shader_image_load_store",
 }
+# OpenGL over Vulkan, on a processor: another compiler, whose arithmetic rounds elsewhere.
+ZINK = {"GALLIUM_DRIVER": "zink", "LIBGL_ALWAYS_SOFTWARE": "1"}
