@@ -41,10 +41,13 @@ vec3 direct_light(Vertex vertex, Ray from, LightSample light) {
 
 // Divides the survivors' throughput by their chance: another variance, the same mean. Paths play
 // from a throughput of 1/4 downwards: what that costs in time, it gives more than once in variance
-// (docs/speed.md).
+// (docs/speed.md). Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
+// meet exactly.
+const float CHANCES = 65536.0;
+
 bool roulette_ends(inout vec3 throughput, inout Sampler rng) {
     float brightest = max(throughput.x, max(throughput.y, throughput.z));
-    float survival = min(4.0 * brightest, 1.0);
+    float survival = min(ceil(4.0 * CHANCES * brightest) / CHANCES, 1.0);
     if (next_1d(rng) >= survival) return true;
     throughput /= survival;
     return false;

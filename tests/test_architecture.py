@@ -107,6 +107,7 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "3.402823466e38",  # the largest float: no distance is beyond it
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
+    "65536.0",  # 2^16: the chances of roulette
     "1.1920928955078125e-7",  # 2^-23: the last place of a float from its power of two
     *("0.333323916", "0.19974214", "0.140413272", "0.0996847111"),  # of an arc tangent
     *("0.0602030977", "0.0247340375", "0.00482252624"),

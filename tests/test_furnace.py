@@ -7,6 +7,7 @@ import pytest
 
 from glrt.context import Context
 from glrt.scene import Scene
+from tests.alarms import assert_near
 from tests.builders import (
     box_of_quads,
     glass,
@@ -16,7 +17,15 @@ from tests.builders import (
     scene_of,
     sphere,
 )
-from tests.renders import METHODS, Estimate, assert_mean, rendered, rendering, whole
+from tests.renders import (
+    METHODS,
+    SAMPLERS,
+    Estimate,
+    assert_mean,
+    rendered,
+    rendering,
+    whole,
+)
 
 Objects = list[dict[str, Any]]
 
@@ -113,6 +122,19 @@ def test_roulette_raises_the_variance_and_leaves_the_mean(context: Context, meth
     assert (plain.stderr == 0).all()
     assert (gambled.stderr[..., 0] > 0).all()
     assert_mean(whole(gambled), truth, within=0.01, floor=5e-7)  # blue varies less than it rounds
+
+
+@pytest.mark.parametrize("sampler", SAMPLERS)
+def test_roulette_is_fair_to_all_but_black_surfaces(context: Context, sampler: str) -> None:
+    """Under a white sky. A chance below the last of a random number's 20 bits is met too often."""
+    albedo, samples = 2.0**-24, 4096
+    coal = {"type": "lambertian", "color": [albedo] * 3}
+    floor, down = plane([0, -1, 0], [0, 1, 0], "coal"), {"look_at": [0, -1, 0], "up": [0, 0, 1]}
+    scene = scene_of([floor], {"coal": coal}, down, background=WHITE_SKY)
+    settings = {"width": 64, "height": 64, "bounces": 1, "sampler": sampler}
+    radiance = rendered(scene, context, samples, **settings).radiance[..., 0].astype(float)
+    survivors = radiance.sum() / radiance[radiance > 0].min()
+    assert_near(radiance.mean() / albedo, 1.0, survivors**-0.5)
 
 
 @pytest.mark.parametrize(

@@ -270,7 +270,7 @@ def test_closed_white_room_ends_at_its_bounce_limit(context: Context) -> None:
 
 def test_roulette_makes_no_nan_of_any_throughput(call_glsl: CallGlsl) -> None:
     """From 0 over the smallest number to 1 and beyond, with 16 million numbers drawn, 0 included:
-    survivors are brought to 1/4, and the mean stays.
+    survivors are brought to 1/4 or a little less, and the mean stays.
     """
     setup = """
         float sum = 0.0;
@@ -289,9 +289,11 @@ def test_roulette_makes_no_nan_of_any_throughput(call_glsl: CallGlsl) -> None:
     given = powers.astype(np.float32)
     assert np.array_equal(found[given == 0], [[0, 0]])
     alive = found[:, 1] > 0
-    assert_allclose(found[alive, 1], np.maximum(given[alive], 0.25), rtol=2 * ULP)
-    chance = np.minimum(4 * given, 1).astype(float)
-    spread = 0.25 * np.sqrt(((1 - chance) * chance)[given <= 1].sum() / 1024)
+    chance = np.minimum(np.ceil(given * 2.0**18) / 2.0**16, 1)
+    brought = np.divide(given, chance, out=np.zeros_like(chance), where=chance > 0)
+    assert brought[given <= 0.25].max() <= 0.25
+    assert_allclose(found[alive, 1], brought[alive], rtol=2 * ULP)
+    spread = np.sqrt((brought**2 * (1 - chance) * chance)[given <= 1].sum() / 1024)
     total = (found[given <= 1, 0] - given[given <= 1]).sum(dtype=float)
     assert_near(total, 0, spread)
 
