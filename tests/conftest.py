@@ -1,7 +1,9 @@
 """Fixtures: one OpenGL context for the session, and shader functions run over arrays."""
 
+import shutil
 import signal
 from collections.abc import Callable, Iterator
+from ctypes.util import find_library
 from typing import Any
 
 import moderngl
@@ -10,6 +12,7 @@ import pytest
 
 from glrt.context import Context, open_context
 from glrt.errors import ContextError
+from glrt.lab.screens import screen
 from glrt.needs import needs_of
 from glrt.probe import Probe, path_files, scene_blocks
 from glrt.scene import Scene
@@ -51,6 +54,15 @@ def webgpu() -> Device:
         return open_device()
     except ContextError as error:
         needs_package(False, f"mesa-vulkan-drivers ({error})")
+
+
+@pytest.fixture(scope="session")
+def display() -> Iterator[str]:
+    """An X server without a screen, by its name."""
+    needs_package(bool(shutil.which("Xvfb")), "xvfb")
+    needs_package(bool(find_library("X11")), "libx11-6")
+    with screen("1280x1100") as name:
+        yield name
 
 
 @pytest.fixture

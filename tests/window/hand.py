@@ -4,21 +4,14 @@ The engine runs a check on a thread of its own, in turns with the window's frame
 the window's thread: `Hand.there` runs something on that.
 """
 
-import json
-import sys
-import traceback
 from collections.abc import Callable
-from importlib import import_module
-from pathlib import Path
 from typing import Any, TypeVar
 
+import moderngl
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
-from imgui_bundle.immapp import testing
+from imgui_bundle import imgui
 from numpy.typing import NDArray
 
-from glrt.library import load
-from glrt.settings import settings_for
 from glrt.ui.picture import Picture
 from glrt.ui.preferences import Preferences
 from glrt.ui.session import Session
@@ -28,7 +21,7 @@ Result = TypeVar("Result")
 Check = Callable[["Hand"], None]
 
 CHECKS: dict[str, Check] = {}
-SCENE = "cornell"
+DRAWN = 8  # frames, of which one is drawn: pixels take most of a frame's time
 SMALL: dict[str, Any] = {"width": 40, "height": 40, "samples": 1 << 16}
 
 
@@ -47,15 +40,18 @@ class Hand:
         self._preferences = Preferences(samples_per_frame=2)
         self._errands: list[Callable[[], None]] = []
         self._wanted: list[list[NDArray[np.uint8]]] = []  # where pictures of the window go
-        before = window.params.callbacks.pre_new_frame
+        self._is_drawn = True
+        callbacks = window.params.callbacks
+        before = callbacks.pre_new_frame
 
         def run_errands() -> None:
             while self._errands:
                 self._errands.pop(0)()
             before()
 
-        window.params.callbacks.pre_new_frame = run_errands
-        window.params.callbacks.after_swap = self._shoot
+        callbacks.pre_new_frame = run_errands
+        callbacks.before_imgui_render = self._draw
+        callbacks.after_swap = self._shoot
 
     @property
     def session(self) -> Session:
@@ -109,12 +105,22 @@ class Hand:
         self.until(lambda: bool(shots))
         return shots[0]
 
+    def _draw(self) -> None:
+        """Spare most frames their pixels; the session draws before, and is not touched."""
+        self._is_drawn = bool(self._wanted) or imgui.get_frame_count() % DRAWN == 0
+        if not self._is_drawn:
+            self._gl.enable(moderngl.RASTERIZER_DISCARD)
+
     def _shoot(self) -> None:
-        screen = self.session._context.gl.screen
-        while self._wanted:
-            width, height = screen.size
-            codes = np.frombuffer(screen.read(components=3, alignment=1), np.uint8)
+        self._gl.disable(moderngl.RASTERIZER_DISCARD)
+        while self._is_drawn and self._wanted:
+            width, height = self._gl.screen.size
+            codes = np.frombuffer(self._gl.screen.read(components=3, alignment=1), np.uint8)
             self._wanted.pop().append(codes.reshape(height, width, 3)[::-1].copy())
+
+    @property
+    def _gl(self) -> moderngl.Context:
+        return self.session._context.gl
 
 
 def _read(picture: Picture) -> NDArray[np.uint8]:
@@ -122,41 +128,3 @@ def _read(picture: Picture) -> NDArray[np.uint8]:
     width, height = picture.size
     codes = np.frombuffer(picture._texture.read(), np.uint8)
     return codes.reshape(height, width, 4)[::-1].copy()
-
-
-def run_checks(checks: dict[str, Check]) -> dict[str, str]:
-    """Run all in one window; what each found wrong, "" for nothing."""
-    scene = load(SCENE)
-    window = Window(SCENE, scene, settings_for(scene.render, **SMALL))
-    window.params.app_window_params.window_geometry.size = (900, 1000)
-    window.params.app_window_params.restore_previous_geometry = False
-    hand = Hand(window)
-    found: dict[str, str] = {}
-
-    def work(ctx: imgui.test_engine.TestContext) -> None:
-        hand.ctx = ctx
-        engine = imgui.test_engine.get_io(hello_imgui.get_imgui_test_engine())
-        engine.config_watchdog_warning = engine.config_watchdog_kill_test = 550.0  # seconds
-        for name, function in checks.items():
-            try:
-                hand.begin()
-                function(hand)
-                found[name] = "" if not ctx.is_error() else "an item was not found; see the log"
-            except Exception:
-                found[name] = traceback.format_exc()
-            if ctx.is_error():
-                break
-
-    try:
-        testing.run(test_function=work, runner_params=window.params, add_ons_params=window.add_ons)
-    except RuntimeError as error:
-        found["window"] = str(error)
-    return found
-
-
-def main() -> None:
-    """Run the checks named, or all; `found.json` in the folder tells what they found."""
-    import_module("tests.window_checks")
-    folder, names = Path(sys.argv[1]), sys.argv[2:]
-    chosen = {name: CHECKS[name] for name in names or CHECKS}
-    (folder / "found.json").write_text(json.dumps(run_checks(chosen)))

@@ -1,4 +1,4 @@
-"""`glrt view` that is ended at a chosen moment: `python -m tests.moments MOMENT`.
+"""`glrt view` that is ended at a chosen moment: `python -m tests.window.moments MOMENT`.
 
 Each moment is brought about in the window itself, which then gets a signal, or is closed as by its
 cross. Before that a preference was changed.

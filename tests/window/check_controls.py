@@ -1,0 +1,136 @@
+"""Controls of the panel: what an edit costs, and what comes of it."""
+
+from typing import Any
+
+import pytest
+
+from glrt.settings import Cost
+from glrt.ui import panel, widgets
+from glrt.ui.controls import Control
+from tests.window.check_preferences import CHOICES
+from tests.window.gestures import move
+from tests.window.hand import Hand, check
+
+# Each control by its label in the panel: the control, and what to do to it.
+MOVES: dict[str, tuple[Control, Any]] = {
+    "intensity##lamp": (panel.INTENSITY, 3.0),
+    "emission##lamp/##emission/$$0": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
+    "bounces": (panel.SETTINGS["bounces"], 1),
+    "method/nee": (panel.SETTINGS["method"], None),
+    "sampler/independent": (panel.SETTINGS["sampler"], None),
+    "seed": (panel.SETTINGS["seed"], 7),
+    "roulette": (panel.SETTINGS["roulette"], None),
+    "samples": (panel.SETTINGS["samples"], 5000),
+    "exposure": (panel.SETTINGS["exposure"], 2.0),
+    "tonemap/agx": (panel.SETTINGS["tonemap"], None),
+    "fov": (panel.CAMERA["fov"], 20.0),
+    "focus distance": (panel.CAMERA["focus_distance"], 2.0),
+    "defocus angle": (panel.CAMERA["defocus_angle"], 3.0),
+    "position/$$2": (panel.CAMERA["position"], 3.0),
+    "look at/$$0": (panel.CAMERA["look_at"], 0.3),
+    "color##background/##color/$$2": (panel.BACKGROUND["color"], 0.5),
+    "width": (panel.SETTINGS["width"], 30),
+    "height": (panel.SETTINGS["height"], 30),
+}
+UNSEEN = ("samples", "focus distance")  # no other picture is shown; of the second, without a lens
+SECTIONS = ("Background", "Frame", "Files", "Mouse and keys", "Window")  # closed at the start
+
+
+@check
+def every_control_costs_what_it_says(hand: Hand) -> None:
+    order = list(Cost)
+    hand.ctx.set_ref("Controls")
+    for header in ("Background", "Frame"):
+        hand.ctx.item_open(header)
+    for reference, (control, value) in MOVES.items():
+        hand.begin()
+        session = hand.session
+        before, samples = hand.pixels(), session.samples
+        restarts, session.last_cost = session.restarts, None
+        move(hand, reference, value)
+        hand.settle()
+        cost = session.last_cost or Cost.FREE
+        assert order.index(cost) <= order.index(control.cost), (reference, cost)
+        restarted = session.restarts - restarts
+        assert restarted == (control.cost in (Cost.RESTART, Cost.RECOMPILE)), reference
+        assert restarted or session.samples >= samples, reference
+        assert not session.problem, (reference, session.problem)
+        after = hand.pixels()
+        if reference not in UNSEEN:
+            changed = after.shape != before.shape or (after != before).mean() > 0.05
+            assert changed, reference
+    for header in ("Background", "Frame"):
+        hand.ctx.item_close(header)
+
+
+@check
+def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
+    """So that one that is added is added to the checks, too."""
+    drawn: set[str] = set()
+    inner = widgets.edited
+
+    def seen(control: Control, value: Any, name: str = "") -> Any:
+        drawn.add(f"{control.label}##{name}" if name else control.label)
+        return inner(control, value, name)
+
+    hand.ctx.set_ref("Controls")
+    widgets.edited = panel.edited = seen  # type: ignore[attr-defined]
+    for section in SECTIONS:
+        hand.ctx.item_open(section)
+    hand.ctx.yield_(2)
+    widgets.edited = panel.edited = inner  # type: ignore[attr-defined]
+    for section in SECTIONS:
+        hand.ctx.item_close(section)
+    moved = {reference.partition("/")[0] for reference in MOVES}
+    moved |= {f"{label}##preference" for label in CHOICES}
+    assert drawn == moved
+
+
+@check
+def a_hue_is_picked_without_a_change_of_brightness(hand: Hand) -> None:
+    ctx, before = hand.ctx, lamp_of(hand)
+    ctx.set_ref("Controls")
+    ctx.item_click("emission##lamp/hue")
+    ctx.yield_(2)
+    ctx.set_ref("//$FOCUSED")
+    ctx.item_input_value("##picker/##rgb/##Y", 0.25)
+    hand.settle()
+    after = lamp_of(hand)
+    assert max(after) == pytest.approx(max(before), rel=1e-5)
+    assert after[1] == pytest.approx(0.25 * max(before), rel=1e-3)
+    assert after[2] == pytest.approx(before[2], rel=1e-3)
+    ctx.popup_close_all()
+    ctx.yield_(2)
+
+
+def lamp_of(hand: Hand) -> Any:
+    return hand.session.scene.materials["lamp"].emission  # type: ignore[union-attr]
+
+
+@check
+def buttons_and_boxes_of_the_scene_restart_it(hand: Hand) -> None:
+    ctx, session, start = hand.ctx, hand.session, hand.session.scene
+    ctx.set_ref("Controls")
+    ctx.item_input_value("focus distance", 2.0)
+    hand.settle()
+    ctx.item_click("focus on look at")
+    hand.settle()
+    assert session.scene.camera.focus_distance is None
+    ctx.item_open("Background")
+    restarts = session.restarts
+    ctx.item_click("gradient")
+    hand.settle()
+    assert session.scene.background.top is not None
+    move(hand, "top##background/##top/$$2", 0.5)
+    hand.settle()
+    assert session.scene.background.top == (0.0, 0.0, 0.5)
+    assert session.restarts > restarts
+    move(hand, "bottom##background/##bottom/$$0", 0.25)
+    ctx.item_click("gradient")
+    hand.settle()
+    assert session.scene.background.color == (0.0, 0.0, 0.5)
+    ctx.item_close("Background")
+    hand.there(lambda: hand.window.app.turn(0.1, 0.1, about_camera=False))
+    ctx.item_click("home")
+    hand.settle()
+    assert session.scene.camera == start.camera

@@ -1,0 +1,56 @@
+"""Keys: those that are typed, and those that are chosen."""
+
+from imgui_bundle import imgui
+
+from glrt.ui.preferences import Preferences
+from tests.window.gestures import drag, press
+from tests.window.hand import Hand, check
+
+
+@check
+def keys_that_are_typed_into_a_box_move_nothing(hand: Hand) -> None:
+    before = hand.session.scene.camera
+    hand.ctx.item_open("//Controls/Files")
+    hand.ctx.item_click("//Controls/##open")
+    hand.ctx.key_chars_append("weasd")
+    assert hand.session.scene.camera == before
+    assert hand.window.app.open_path == "weasd"
+    hand.ctx.key_press(imgui.Key.enter.value)
+    hand.ctx.item_click("//Controls/open")
+    hand.settle()
+    assert "weasd" in hand.session.problem
+    hand.ctx.item_click("//Controls/dismiss")
+    assert hand.session.problem == ""
+
+
+@check
+def keys_are_chosen_in_the_panel(hand: Hand) -> None:
+    app, ctx, start = hand.window.app, hand.ctx, hand.session.scene.camera
+    ctx.set_ref("Controls")
+    ctx.item_open("Mouse and keys")
+    ctx.item_click("keys/Home##home 0")
+    press(hand, imgui.Key.h)
+    assert list(app.preferences.bindings["home"]) == ["h"]
+    ctx.item_click("keys/+##home 1")
+    press(hand, imgui.Key.f5, imgui.Key.mod_ctrl.value)
+    assert list(app.preferences.bindings["home"]) == ["h", "ctrl+f5"]
+    assert hand.session.scene.camera == start
+    drag(hand, 60, 20)
+    press(hand, imgui.Key.h)
+    assert hand.session.scene.camera == start
+    hand.until(app.preferences_file.exists, frames=1000)
+    hand.until(lambda: "ctrl+f5" in app.preferences_file.read_text(), frames=1000)
+    ctx.item_click("keys/W##forward 0")
+    press(hand, imgui.Key.h)
+    assert "H already means" in hand.session.problem
+    assert app.preferences.bindings["forward"] == ("w", "up_arrow")
+    assert hand.session.scene.camera == start
+    ctx.item_click("keys/F##frame 0")
+    press(hand, imgui.Key.escape)
+    ctx.item_click("keys/F##frame 0")
+    ctx.item_click("keys/remove##awaited")
+    assert app.preferences.bindings["frame"] == ()
+    ctx.item_click("reset keys")
+    ctx.yield_(2)
+    assert app.preferences.bindings == Preferences().bindings
+    ctx.item_close("Mouse and keys")

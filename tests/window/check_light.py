@@ -1,0 +1,68 @@
+"""Light that is weighed: lamps and bounces that cost no sample."""
+
+from typing import Any
+
+from glrt.renderer import Renderer
+from glrt.settings import Cost
+from tests.window.gestures import move
+from tests.window.hand import Hand, check
+
+
+@check
+def the_driver_decides_on_the_pipeline(hand: Hand) -> None:
+    """Without compute shaders there are no layers: another intensity restarts."""
+    has_compute = hand.session._context.has_compute
+    assert hand.session.pipeline == ("compute" if has_compute else "fragment")
+    restarts = hand.session.restarts
+    move(hand, "intensity##lamp", 2.0)
+    hand.settle()
+    assert hand.session.last_cost is (Cost.RELIGHT if has_compute else Cost.RESTART)
+    assert hand.session.restarts == restarts + (not has_compute)
+
+
+@check
+def a_relit_picture_is_that_of_a_fresh_render(hand: Hand) -> None:
+    hand.there(lambda: hand.session.edit(samples=8, seed=2))
+    hand.until(lambda: hand.session.is_done)
+    dim, restarts = hand.pixels(), hand.session.restarts
+    move(hand, "intensity##lamp", 2.0)
+    hand.until(lambda: hand.session.last_cost is Cost.RELIGHT, frames=3)
+    hand.ctx.yield_()
+    bright = hand.pixels()
+    assert hand.session.restarts == restarts
+    assert bright.mean() > 1.1 * dim.mean()
+
+    def render() -> Any:
+        session = hand.session
+        fresh = Renderer(session.scene, session.settings, session._context)
+        codes = fresh.render().display()
+        fresh.release()
+        return codes
+
+    assert (hand.there(render) == bright[..., :3]).all()
+
+
+@check
+def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
+    ctx = hand.ctx
+    hand.there(lambda: hand.session.edit(bounces=5))
+    ctx.set_ref("Controls")
+    ctx.item_click("bounces live")
+    hand.settle()
+    restarts, samples, whole = hand.session.restarts, hand.session.samples, hand.pixels()
+    ctx.item_input_value("bounces", 0)
+    hand.settle()
+    assert hand.session.restarts == restarts
+    assert hand.session.samples > samples
+    black = hand.pixels()[..., :3]
+    assert (black.max(axis=2) > 0).mean() < 0.2 < (whole[..., :3].max(axis=2) > 0).mean(), "lamps"
+    ctx.item_input_value("bounces", 5)
+    hand.settle()
+    ctx.combo_click("shown/bounce 2 alone")
+    hand.settle()
+    alone = hand.pixels()[..., :3]
+    assert 0.05 * whole.mean() < alone.mean() < 0.9 * whole.mean()
+    ctx.combo_click("shown/all light")
+    ctx.item_click("bounces live")
+    hand.settle()
+    assert hand.session.restarts == restarts + 1

@@ -1,0 +1,82 @@
+"""Objects: selected, moved and edited."""
+
+import math
+
+import numpy as np
+from imgui_bundle import imgui
+
+from glrt.settings import Cost
+from glrt.ui.gizmo import is_held
+from glrt.ui.orbit import axes
+from tests.window.gestures import ball, click, place_of
+from tests.window.hand import Hand, check
+
+
+@check
+def a_click_selects_and_restarts_nothing(hand: Hand) -> None:
+    number, shape = ball(hand)
+    restarts = hand.session.restarts
+    click(hand, shape.center)
+    assert hand.window.app.selected == number
+    assert hand.session.restarts == restarts
+    hand.ctx.key_press(imgui.Key.f.value)
+    hand.settle()
+    assert hand.session.scene.camera.look_at == shape.center
+    right, up, _ = axes(hand.session.scene.camera)
+    click(hand, shape.center - 0.92 * shape.radius * (right + up))  # beside it, off the handles
+    assert hand.window.app.selected != number
+
+
+@check
+def a_double_click_sets_the_pivot(hand: Hand) -> None:
+    number, shape = ball(hand)
+    hand.session.paused, before = True, hand.window.app.pivot
+    for _ in range(5):  # a frame of a busy machine may be longer than a double click
+        if hand.window.app.pivot == before:
+            click(hand, shape.center, times=2)
+    assert abs(math.dist(hand.window.app.pivot, shape.center) / shape.radius - 1) < 0.02
+    assert hand.session.scene.objects[number] == shape
+
+
+@check
+def the_gizmo_moves_what_is_selected_without_compiling(hand: Hand) -> None:
+    number, shape = ball(hand)
+    hand.window.app.selected = number
+    hand.ctx.yield_(2)
+    restarts, camera = hand.session.restarts, hand.session.scene.camera
+    x, y = place_of(hand, shape.center)
+    hand.ctx.mouse_move_to_pos((x, y))
+    hand.ctx.yield_(4)
+    assert hand.there(lambda: is_held(hand.window.app))
+    hand.ctx.mouse_down(0)
+    hand.ctx.mouse_move_to_pos((x + 20, y))
+    hand.ctx.mouse_move_to_pos((x + 40, y))
+    hand.ctx.mouse_up(0)
+    hand.settle()
+    moved = hand.session.scene.objects[number]
+    step = np.subtract(moved.center, shape.center)  # type: ignore[union-attr]
+    assert np.dot(step, axes(camera)[0]) > 0.05
+    assert hand.session.scene.camera == camera
+    assert hand.session.restarts > restarts
+    assert hand.session.last_cost is Cost.RESTART
+    hand.ctx.item_click("//Controls/undo")
+    hand.settle()
+    assert hand.session.scene.objects[number] == shape
+    hand.window.app.selected = None
+
+
+@check
+def an_object_is_edited_in_the_panel(hand: Hand) -> None:
+    number, shape = ball(hand)
+    hand.window.app.selected = number
+    hand.ctx.yield_(3)
+    hand.ctx.set_ref("Controls")
+    before = hand.pixels()
+    hand.ctx.item_input_value(f"radius##shape {number}", 0.2)
+    hand.settle()
+    assert hand.session.scene.objects[number].radius == 0.2  # type: ignore[union-attr]
+    hand.ctx.item_input_value(f"color##material {shape.material}/##X", 0.1)
+    hand.settle()
+    assert hand.session.scene.materials[shape.material].color[0] == 0.1  # type: ignore[union-attr]
+    assert (hand.pixels() != before).any()
+    hand.window.app.selected = None
