@@ -66,8 +66,8 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
     va, vb = (np.where(broken, 0, np.square(i.stderr, dtype=float)) for i in (image, reference))
     if (np.isnan(va) & np.isnan(vb)).any():
         raise UsageError(
-            "neither picture knows its noise: one of them must be an .exr of glrt of 2 samples or "
-            "more."
+            "neither picture knows its noise: one of them must be an .exr of glrt, of 32 samples "
+            "or more, or of 2 by --sampler independent."
         )
     if alike is None:
         known = not (np.isnan(va) | np.isnan(vb)).any()

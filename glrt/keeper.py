@@ -1,6 +1,7 @@
 """The files of a render: saved now and then, and in the end wherever there is room."""
 
 import secrets
+import shlex
 import tempfile
 import time
 from collections.abc import Callable, Sequence
@@ -55,8 +56,9 @@ class Keeper:
         state = next((name for name in self._outputs if _is_state(name)), None)
         if state is None:
             return f"{self._outputs[0]} shows the first {self.kept} samples."
+        name = shlex.quote(state)
         return (
-            f"The first {self.kept} samples are saved: `glrt render --resume {state} -o {state}` "
+            f"The first {self.kept} samples are saved: `glrt render --resume {name} -o {name}` "
             "goes on from them."
         )
 

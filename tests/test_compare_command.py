@@ -13,6 +13,7 @@ from glrt.compare import compare
 from glrt.compare_picture import SPAN, colors, save_picture
 from glrt.comparison import percent
 from glrt.context import Context
+from glrt.errors import UsageError
 from glrt.image import Image
 from glrt.library import load
 from tests.processes import glrt
@@ -158,3 +159,16 @@ def test_picture_shows_a_wrong_pixel_where_it_is(width: int, height: int, tmp_pa
     assert rows.size == zoom**2
     assert (columns.min(), columns.max()) == (16 + zoom, 16 + 2 * zoom - 1)
     assert rows.max() == found.shape[0] - 16 - 1
+
+
+@pytest.mark.parametrize(("sampler", "samples"), [("sobol", 32), ("independent", 2)])
+def test_how_many_samples_know_their_noise_is_told_as_it_is(
+    context: Context, sampler: str, samples: int
+) -> None:
+    few, enough = (
+        rendered(load("cornell"), context, count, sampler=sampler)
+        for count in (samples - 1, samples)
+    )
+    with pytest.raises(UsageError, match="of 32 samples or more, or of 2 by --sampler independent"):
+        compare(few, few)
+    assert compare(enough, enough)

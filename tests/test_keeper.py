@@ -1,5 +1,7 @@
 """Saves now and then: how often, and what is done when a file cannot be written."""
 
+import re
+import shlex
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -77,6 +79,13 @@ def test_a_save_that_fails_is_told_and_tried_again(
     keeping.after(renderer)
     assert keeping.kept == fake.samples
     assert f"--resume {tmp_path}/gone/a.exr" in keeping.advice
+
+
+def test_the_command_that_goes_on_can_be_pasted(tmp_path: Path) -> None:
+    keeping = looked(Fake(), [tmp_path / "my render.exr"], INTERVAL + 5)
+    (command,) = re.findall(r"`glrt (.*)`", keeping.advice)
+    wanted = str(tmp_path / "my render.exr")
+    assert shlex.split(command) == ["render", "--resume", wanted, "-o", wanted]
 
 
 @pytest.fixture
