@@ -9,9 +9,8 @@ import pytest
 
 from glrt.lab import rivals
 from glrt.lab.contest import Factor, Runs, lead_of, seconds_to
-from glrt.lab.rivals import Contender, interleaved, main, scene_named
+from glrt.lab.rivals import Contender, interleaved, main
 from glrt.lab.starts import starts
-from glrt.scene import Dielectric
 from tests.alarms import book
 
 LEVEL = np.linspace(0.5, 2, 12 * 12 * 3).reshape(12, 12, 3)
@@ -84,12 +83,6 @@ def test_contenders_take_turns_with_seeds_of_their_own() -> None:
     assert calls[-6:] == expected
     assert found[1].pictures[:, 0, 0, 0].tolist() == [1, 2, 3]
     assert found[1].seconds.tolist() == pytest.approx([0.096] * 3)
-
-
-def test_the_room_is_cornell_without_glass() -> None:
-    materials = scene_named("room").materials.values()
-    assert not any(isinstance(material, Dielectric) for material in materials)
-    assert scene_named("sky").title
 
 
 FLAT_AND_SLOW = """

@@ -35,5 +35,5 @@ def test_the_peak_is_no_less_than_a_core_does_one_by_one(context: Context) -> No
 
 
 def test_an_unknown_scene_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["--scenes", "ski", "--rounds", "1"]) == 2
+    assert main(["--scenes", "ski", "--rounds", "2"]) == 2
     assert "ski" in capsys.readouterr().err

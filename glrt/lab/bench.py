@@ -6,23 +6,20 @@ ratio is that of two runs of one round, and its median and quartiles are over th
 
 import argparse
 import json
-import os
 import statistics
 import sys
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from glrt import files
 from glrt.blocks import Tier
 from glrt.context import Context, open_context
-from glrt.errors import GlrtError
 from glrt.job import peak_bytes
+from glrt.lab.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.library import load
 from glrt.renderer import Renderer
-from glrt.version import VERSION
 
 TARGET_ERROR = 0.02
 VARIANCE_SECONDS = 1.5
@@ -153,43 +150,33 @@ def table(rows: Sequence[Row]) -> Iterator[str]:
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.bench`; returns the exit code."""
     parsed = _parser().parse_args(arguments)
-    try:
-        context = open_context()
-        place = f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors"
-        work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
-        print(f"{place}, {work}\n")
-        rows: list[Row] = []
-        for name in parsed.scenes:
-            for method in parsed.methods:
-                print(f"{name}, {method} ...", file=sys.stderr)
-                rows += measure(context, name, method, parsed.size, parsed.rounds, parsed.seconds)
-        print("\n".join(table(rows)))
-        print(f"\npeak memory {(peak_bytes() or 0) / 2**20:.0f} MiB")
-        if parsed.json:
-            _save(parsed.json, {"place": place, "work": work, "rows": [asdict(r) for r in rows]})
-    except GlrtError as error:
-        print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
-        return error.exit_code
-    return 0
+    return exit_code_of(lambda: _print(parsed))
 
 
-def _save(path: Path, figures: dict[str, Any]) -> None:
-    text = json.dumps(figures, indent=1)
-    files.write_whole(path, lambda file: _write(file, text))
-
-
-def _write(path: Path, text: str) -> None:
-    path.write_text(text + "\n", encoding="utf-8")
+def _print(parsed: argparse.Namespace) -> None:
+    context = open_context()
+    place = machine(context.renderer)
+    work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
+    print(f"{place}, {work}\n")
+    rows: list[Row] = []
+    for name in parsed.scenes:
+        for method in parsed.methods:
+            print(f"{name}, {method} ...", file=sys.stderr)
+            rows += measure(context, name, method, parsed.size, parsed.rounds, parsed.seconds)
+    print("\n".join(table(rows)))
+    print(f"\npeak memory {(peak_bytes() or 0) / 2**20:.0f} MiB")
+    if parsed.json:
+        figures = {"place": place, "work": work, "rows": [asdict(row) for row in rows]}
+        files.write_text(parsed.json, json.dumps(figures, indent=1) + "\n")
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.bench", description=__doc__)
+    parser = parser_of("bench", __doc__)
     add = parser.add_argument
     scenes = ["cornell", "lamps", "metals", "sky", "weekend"]
     add("--scenes", nargs="+", metavar="NAME", default=scenes)
     add("--methods", nargs="+", choices=["naive", "nee", "mis"], default=["naive", "mis"])
-    add("--size", type=int, default=128, metavar="N", help="pixels a side (default: 128)")
-    add("--rounds", type=int, default=9, metavar="N", help="runs of each (default: 9)")
+    add_rounds(parser, size=128, rounds=9)
     add("--seconds", type=float, default=0.5, metavar="S", help="of the slowest (default: 0.5)")
     add("--json", type=Path, metavar="FILE", help="the figures for programs")
     return parser

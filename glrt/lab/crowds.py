@@ -6,7 +6,6 @@ round runs each variant once; a ratio is that of two runs of one round.
 
 import argparse
 import math
-import os
 import statistics
 import sys
 import time
@@ -19,12 +18,12 @@ import numpy as np
 from glrt import blocks, needs
 from glrt.blocks import MOST_BAKED
 from glrt.context import Context, open_context
-from glrt.errors import GlrtError, SceneError
+from glrt.errors import SceneError
 from glrt.job import peak_bytes
+from glrt.lab.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.scene_file import parse_scene
-from glrt.version import VERSION
 
 COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
 FIRST = 485  # the crowd that others are compared with
@@ -153,25 +152,23 @@ def _told(ratio: tuple[float, float, float] | None) -> str:
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.crowds`; returns the exit code."""
     parsed = _parser().parse_args(arguments)
-    try:
-        context = open_context()
-        rows = measure(context, parsed.spheres, parsed.size, parsed.rounds, parsed.constants)
-    except GlrtError as error:
-        print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
-        return error.exit_code
-    place = f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors"
-    print(f"{place}, {parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds\n")
+    return exit_code_of(lambda: _print(parsed))
+
+
+def _print(parsed: argparse.Namespace) -> None:
+    context = open_context()
+    rows = measure(context, parsed.spheres, parsed.size, parsed.rounds, parsed.constants)
+    work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
+    print(f"{machine(context.renderer)}, {work}\n")
     print("\n".join(table(rows, parsed.size**2)))
     print(f"\npeak memory {(peak_bytes() or 0) / 2**20:.0f} MiB")
-    return 0
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.crowds", description=__doc__)
+    parser = parser_of("crowds", __doc__)
     add = parser.add_argument
     add("--spheres", type=int, nargs="+", metavar="N", default=list(COUNTS))
-    add("--size", type=int, default=96, metavar="N", help="pixels a side (default: 96)")
-    add("--rounds", type=int, default=9, metavar="N", help="runs of each (default: 9)")
+    add_rounds(parser, size=96, rounds=9)
     told = f"most balls to bake for the loop over all (default: {CONSTANTS})"
     add("--constants", type=int, default=CONSTANTS, metavar="N", help=told)
     return parser

@@ -152,7 +152,7 @@ def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.efficiency`; returns the exit code."""
     parser = parser_of("efficiency", __doc__)
     parser.add_argument("--scenes", nargs="+", metavar="NAME", default=SCENES)
-    add_rounds(parser, size=64, rounds=40)
+    add_rounds(parser, size=64, rounds=20)
     parsed = parser.parse_args(arguments)
     return exit_code_of(lambda: _print(parsed.scenes, parsed.size, parsed.rounds))
 

@@ -4,17 +4,15 @@
 and the driver; a film has all its textures twice; a picture is what a render can go on from.
 """
 
-import argparse
-import os
 import sys
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple, get_args
 
-from glrt.errors import GlrtError, RenderError
+from glrt.errors import RenderError
+from glrt.lab.program import exit_code_of, machine, parser_of
 from glrt.lab.starts import PROGRAMS, start_of
 from glrt.library import load
 from glrt.settings import Sampler, settings_for
-from glrt.version import VERSION
 
 SMALL = 8  # pixels a side
 TEXEL = 16  # bytes of RGBA32F
@@ -70,17 +68,16 @@ def table(rows: Sequence[Row]) -> Iterator[str]:
 
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.memory`; returns the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.memory", description=__doc__)
+    parser = parser_of("memory", __doc__)
     parser.add_argument("--size", type=int, default=4096, metavar="N", help="default: 4096")
     parsed = parser.parse_args(arguments)
-    try:
-        rows = [measure(parsed.size, sampler) for sampler in get_args(Sampler)]
-    except GlrtError as error:
-        print(f"glrt: {error}", file=sys.stderr)
-        return error.exit_code
-    print(f"glrt {VERSION}, {os.cpu_count()} processors, MiB\n")
+    return exit_code_of(lambda: _print(parsed.size))
+
+
+def _print(size: int) -> None:
+    rows = [measure(size, sampler) for sampler in get_args(Sampler)]
+    print(f"{machine()}, MiB\n")
     print("\n".join(table(rows)))
-    return 0
 
 
 if __name__ == "__main__":

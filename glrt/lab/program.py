@@ -21,7 +21,7 @@ def exit_code_of(work: Callable[[], None]) -> int:
 
 def machine(*renderers: str) -> str:
     """What figures were measured with."""
-    return f"glrt {VERSION}, {'; '.join(renderers)}, {os.cpu_count()} processors"
+    return ", ".join([f"glrt {VERSION}", *renderers, f"{os.cpu_count()} processors"])
 
 
 def parser_of(name: str, about: str | None) -> argparse.ArgumentParser:

@@ -8,7 +8,6 @@ renderer that is not installed is left out, and named.
 
 import argparse
 import json
-import os
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -21,15 +20,15 @@ import numpy as np
 
 from glrt import files
 from glrt.context import Context, open_context
-from glrt.errors import GlrtError, RenderError
+from glrt.errors import RenderError
 from glrt.lab.contest import Array, Lead, Runs, lead_of, seconds_to
+from glrt.lab.efficiency import SCENES, scene_of
 from glrt.lab.peer import Peer, Request
+from glrt.lab.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.lab.starts import PROGRAMS, starts
 from glrt.lab.starts import table as starts_table
-from glrt.library import load
 from glrt.renderer import Renderer
-from glrt.scene import Dielectric, Lambertian, Scene
-from glrt.version import VERSION
+from glrt.scene import Scene
 
 TARGET_ERROR = 0.02
 ROUNDS_OF_TRIAL = 6  # in which Mitsuba's roulette is chosen
@@ -40,7 +39,6 @@ PEERS = {
     MITSUBA: [sys.executable, "-m", "tests.mitsuba.serve"],
     WGSL: [sys.executable, "-m", "tests.wgsl.serve"],
 }
-SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
 BACKS_UNSEEN = ("cornell", "room")  # their lamp hangs under the ceiling
 
 Picture = np.ndarray[Any, np.dtype[np.float32]]
@@ -69,19 +67,6 @@ class Row:
     lead: Lead | None  # over it
 
 
-def scene_named(name: str) -> Scene:
-    """A scene that comes with glrt, or `room`: cornell without glass."""
-    if name != "room":
-        return load(name)
-    scene = load("cornell")
-    matte = Lambertian(color=(0.76, 0.75, 0.73))
-    materials = {
-        name: matte if isinstance(material, Dielectric) else material
-        for name, material in scene.materials.items()
-    }
-    return scene.model_copy(update={"materials": materials})
-
-
 class Contest:
     """All renderers that are there."""
 
@@ -92,7 +77,7 @@ class Contest:
 
     def rows(self, name: str, seconds: float) -> Iterator[Row]:
         """The figures of a scene; each of its renders takes about `seconds`."""
-        scene = scene_named(name)
+        scene = scene_of(name)
         with ExitStack() as stack:
             ours = [
                 stack.enter_context(self._glrt(scene, "mis", sampler=sampler))
@@ -213,34 +198,32 @@ def table(rows: list[Row]) -> Iterator[str]:
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.rivals`; returns the exit code."""
     parsed = _parser().parse_args(arguments)
-    try:
-        with ExitStack() as stack:
-            peers = dict(_started(stack))
-            context = open_context()
-            renderers = [context.renderer, *(peer.name for peer in peers.values())]
-            place = f"glrt {VERSION}, {'; '.join(renderers)}; {os.cpu_count()} processors"
-            work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
-            print(f"{place}, {work}\n")
-            contest = Contest(context, peers, parsed.size, parsed.rounds)
-            rows: list[Row] = []
-            for name in parsed.scenes:
-                print(f"{name} ...", file=sys.stderr)
-                rows += contest.rows(name, parsed.seconds)
-        print("\n".join(table(rows)))
-        first = starts(PROGRAMS, ROUNDS_OF_STARTS)
-        print("\n" + "\n".join(starts_table(first)))
-        if parsed.json:
-            figures = {
-                "place": place,
-                "work": work,
-                "rows": [_plain(row) for row in rows],
-                "first pictures": {name: start._asdict() for name, start in first.items()},
-            }
-            files.write_text(parsed.json, json.dumps(figures, indent=1) + "\n")
-    except GlrtError as error:
-        print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
-        return error.exit_code
-    return 0
+    return exit_code_of(lambda: _print(parsed))
+
+
+def _print(parsed: argparse.Namespace) -> None:
+    with ExitStack() as stack:
+        peers = dict(_started(stack))
+        context = open_context()
+        place = machine(context.renderer, *(peer.name for peer in peers.values()))
+        work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
+        print(f"{place}, {work}\n")
+        contest = Contest(context, peers, parsed.size, parsed.rounds)
+        rows: list[Row] = []
+        for name in parsed.scenes:
+            print(f"{name} ...", file=sys.stderr)
+            rows += contest.rows(name, parsed.seconds)
+    print("\n".join(table(rows)))
+    first = starts(PROGRAMS, ROUNDS_OF_STARTS)
+    print("\n" + "\n".join(starts_table(first)))
+    if parsed.json:
+        figures = {
+            "place": place,
+            "work": work,
+            "rows": [_plain(row) for row in rows],
+            "first pictures": {name: start._asdict() for name, start in first.items()},
+        }
+        files.write_text(parsed.json, json.dumps(figures, indent=1) + "\n")
 
 
 def _started(stack: ExitStack) -> Iterator[tuple[str, Peer]]:
@@ -264,11 +247,10 @@ def _plain(row: Row) -> dict[str, Any]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.rivals", description=__doc__)
+    parser = parser_of("rivals", __doc__)
     add = parser.add_argument
     add("--scenes", nargs="+", choices=SCENES, metavar="NAME", default=SCENES)
-    add("--size", type=int, default=128, metavar="N", help="pixels a side (default: 128)")
-    add("--rounds", type=int, default=30, metavar="N", help="renders of each (default: 30)")
+    add_rounds(parser, size=128, rounds=30)
     add("--seconds", type=float, default=0.16, metavar="S", help="of a render (default: 0.16)")
     add("--json", type=Path, metavar="FILE", help="the figures for programs")
     return parser

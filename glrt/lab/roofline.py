@@ -8,8 +8,6 @@ out, and so is what software drivers compute for lanes that do not need it. So t
 is a lower bound of how busy the machine is, good to a factor of two.
 """
 
-import argparse
-import os
 import statistics
 import sys
 import time
@@ -17,14 +15,13 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from glrt.context import Context, open_context
-from glrt.errors import GlrtError
 from glrt.kernel import Kernel
+from glrt.lab.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.lab.rays import rays_per_sample
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.shader import Source
-from glrt.version import VERSION
 
 # Of one ray against one shape: sphere_distance, plane_distance, quad_distance in shape.glsl.
 SEARCH = {"sphere": 32, "plane": 14, "quad": 33}
@@ -149,22 +146,20 @@ def table(rows: Sequence[Row]) -> Iterator[str]:
 
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.roofline`; returns the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.roofline", description=__doc__)
-    add = parser.add_argument
-    add("--scenes", nargs="+", metavar="NAME", default=["cornell", "lamps", "metals"])
-    add("--size", type=int, default=128, metavar="N", help="pixels a side (default: 128)")
-    add("--rounds", type=int, default=9, metavar="N", help="runs of each (default: 9)")
+    parser = parser_of("roofline", __doc__)
+    scenes = ["cornell", "lamps", "metals"]
+    parser.add_argument("--scenes", nargs="+", metavar="NAME", default=scenes)
+    add_rounds(parser, size=128, rounds=9)
     parsed = parser.parse_args(arguments)
-    try:
-        context = open_context(pipeline="compute")
-        peak, rows = measure(context, parsed.scenes, parsed.size, parsed.rounds)
-    except GlrtError as error:
-        print(f"glrt: {error}", file=sys.stderr)
-        return error.exit_code
-    print(f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors")
+    return exit_code_of(lambda: _print(parsed.scenes, parsed.size, parsed.rounds))
+
+
+def _print(scenes: Sequence[str], size: int, rounds: int) -> None:
+    context = open_context(pipeline="compute")
+    peak, rows = measure(context, scenes, size, rounds)
+    print(machine(context.renderer))
     print(f"peak: {peak / 1e9:.1f} billion additions and multiplications a second\n")
     print("\n".join(table(rows)))
-    return 0
 
 
 if __name__ == "__main__":
