@@ -103,3 +103,15 @@ def test_a_block_whose_noise_stands_in_a_few_pixels_has_no_vote_between_methods(
     assert (Sums(darker, whole).score == 0).all()
     brighter = Pair(level + 1, level, variance, calm, 64, 64, alike=False)
     assert (Sums(brighter, whole).score > 4).all()
+
+
+@pytest.mark.parametrize(("variances", "noise"), [((1, 1e-9), 8), ((1e-9, 1), 32)])
+def test_what_would_have_shown_takes_the_larger_noise_of_both_judges(
+    variances: tuple[float, float], noise: float
+) -> None:
+    """4 samples against 64: shuffled, the first variance is a 16th, the second 16 times as much."""
+    level = np.ones((8, 8, 3))
+    a, b = (np.full(level.shape, variance) for variance in variances)
+    sums = Sums(Pair(level, level, a, b, 4, 64, alike=False), whole)
+    wider = sums.shown(4, power=0.95) - sums.shown(4, power=0.5)
+    assert wider == pytest.approx(NormalDist().inv_cdf(0.95) * noise / 64)

@@ -194,6 +194,16 @@ def test_other_ways_to_write_a_scene_keep_their_comments(tmp_path: Path, text: s
         assert comment in new
 
 
+def test_another_material_is_written_beside_the_others(tmp_path: Path) -> None:
+    def change(scene: Scene) -> Scene:
+        green = replaced(scene.materials["white"], color=(0.1, 0.5, 0.2))
+        return replaced(scene, materials={**scene.materials, "green": green})
+
+    _, new = saved(COMMENTED, tmp_path, change)
+    added = [line for line in changed_lines(COMMENTED, new) if line.strip("+- ")]
+    assert added == ["+ [materials.green]", '+ type = "lambertian"', "+ color = [0.1, 0.5, 0.2]"]
+
+
 def test_another_number_of_objects_is_written(tmp_path: Path) -> None:
     def change(scene: Scene) -> Scene:
         return replaced(scene, objects=scene.objects[1:])

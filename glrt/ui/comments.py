@@ -53,8 +53,8 @@ def _follow(table: Any, before: Table, after: Table) -> None:
         old = before.get(key)
         if value == old:
             continue
-        if isinstance(value, dict) and isinstance(old, dict):
-            _follow(table.setdefault(key, {}), old, value)
+        if isinstance(value, dict):
+            _follow(table.setdefault(key, {}), old or {}, value)
         elif key in table and isinstance(old, list) and len(old) == len(value):
             _follow_items(table[key], old, value)
         else:
