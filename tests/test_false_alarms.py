@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from glrt.context import Context
-from glrt.lab.false_alarms import Pool, compared, gather, wilson
+from glrt.lab import false_alarms
+from glrt.lab.false_alarms import Pool, compared, gather, main, wilson
 from glrt.lab.noisy_scenes import CASES, OTHERS
 from tests.noisy import alarms_allowed
 
@@ -33,6 +34,20 @@ def test_renders_of_a_pool_are_independent(context: Context) -> None:
 def test_interval_of_a_share_is_wilsons() -> None:
     assert wilson(0, 10) == pytest.approx((0.0, 0.2775), abs=1e-4)
     assert wilson(5, 10) == pytest.approx((0.2366, 0.7634), abs=1e-4)
+
+
+def test_a_table_has_a_row_for_each_scene_and_mix(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of two pairs each, 16 x 16 pixels, and references of 256 samples for 4,096."""
+    monkeypatch.setattr(false_alarms, "SIZE", 16)
+    monkeypatch.setattr(false_alarms, "LARGE", 256)
+    assert main(["sobol", "--pairs", "2"]) == 0
+    printed = capsys.readouterr().out
+    assert "processors" in printed
+    assert printed.count("| diffuse | ") == printed.count("| caustic | ") == 6
+    assert printed.count(" of 2 |") == 12
+    assert printed.count("| 64 / 256 | ") == 2
 
 
 @pytest.mark.slow

@@ -77,4 +77,4 @@ def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main(["stairs"])
     assert end.value.code == 2
-    assert "no such table: stairs" in capsys.readouterr().err
+    assert "there is no table 'stairs'" in capsys.readouterr().err

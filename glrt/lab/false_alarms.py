@@ -5,11 +5,11 @@ samples is made of independent ones of 64. Pairs share no render, but for the pi
 samples: there is one of them for each 64 renders, and pairs take turns with them.
 """
 
-import argparse
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from glrt.comparison import Comparison, percent
 from glrt.context import Context, open_context
 from glrt.image import Image
 from glrt.lab.noisy_scenes import CASES, FOUND, OTHERS, PLANTED, SOBOL, Case
+from glrt.lab.program import add_tables, exit_code_of, machine, parser_of
 from glrt.recipe import Recipe
 from glrt.renderer import Renderer
 
@@ -28,7 +29,8 @@ Change = Callable[[Image], Image]
 
 SIZE = 48  # pixels on a side
 ALPHA = 0.01
-FINDS = ((64, 64), (64, 4096), (1024, 1024))  # samples of image and reference
+LARGE = 4096  # samples of a picture with little noise
+FINDS = ((64, 64), (64, LARGE), (1024, 1024))  # samples of image and reference
 
 
 @dataclass(frozen=True)
@@ -132,58 +134,80 @@ CHANGES: dict[str, Change] = {
 
 
 class Experiment:
-    """All renders, taken once, and the tables made of them."""
+    """Tables of rows; what two of them need is rendered once."""
 
     def __init__(self, context: Context, count: int) -> None:
         """Of `count` pairs of equal pictures, and a tenth of it of each kind of different ones."""
+        self._context = context
         self.count = count
         self.tenth = max(count // 10, 1)
-        seeds = iter(range(0, 1 << 32, 1 << 20))
+        self._seeds = iter(range(0, 1 << 32, 1 << 20))
 
-        def pools(cases: dict[str, Case], samples: int, renders: int) -> dict[str, Pool]:
-            return {
-                name: gather(context, case, samples, renders, next(seeds))
-                for name, case in cases.items()
-            }
+    def _gathered(self, cases: dict[str, Case], samples: int, renders: int) -> dict[str, Pool]:
+        return {
+            name: gather(self._context, case, samples, renders, next(self._seeds))
+            for name, case in cases.items()
+        }
 
-        self.pools = pools(CASES, 64, 4 * count + 80)
-        self.of_16 = pools(CASES, 16, count)
-        self.others = pools(OTHERS, 64, count)
-        self.of_sobol = pools(SOBOL, 64, 2 * count + 80)
-        lamp = {name: case for name, case in FOUND.items() if name not in CASES}
-        self.found = {**self.pools, **pools(lamp, 64, 32 * self.tenth + 80)}
-        self.planted = {what: pools(cases, 64, 16 * self.tenth) for what, cases in PLANTED.items()}
+    @cached_property
+    def _pools(self) -> dict[str, Pool]:
+        return self._gathered(CASES, 64, 4 * self.count + LARGE // 64)
 
-    def false_alarms(self) -> list[list[str]]:
+    def equal(self) -> list[list[str]]:
         """Of equal pictures: scene, methods, then what `_tally` tells of each mix of samples."""
         rows = []
-        for name, pool in self.pools.items():
+        of_16 = self._gathered(CASES, 16, self.count)
+        others = self._gathered(OTHERS, 64, self.count)
+        for name, pool in self._pools.items():
             images, rest = pool.part(0, self.count), pool.part(self.count)
-            of_16 = self.of_16[name]
-            mixes = (((16, 256), of_16, pool), ((64, 64), images, rest), ((64, 4096), images, rest))
+            few = of_16[name]
+            mixes = (((16, 256), few, pool), ((64, 64), images, rest), ((64, LARGE), images, rest))
             for samples, a, b in mixes:
                 rows.append([name, "same", *_tally(samples, compared(a, b, samples))])
             for samples, a, b in mixes:
                 found = compared(a, b, samples, None, without_errors)
                 rows.append([name, "same, image without errors", *_tally(samples, found)])
             methods = f"{OTHERS[name].method} against {CASES[name].method}"
-            for samples in ((64, 64), (64, 4096)):
-                found = compared(self.others[name], rest, samples, None)
+            for samples in ((64, 64), (64, LARGE)):
+                found = compared(others[name], rest, samples, None)
                 rows.append([name, methods, *_tally(samples, found)])
-        for name, pool in self.of_sobol.items():
-            images, rest = pool.part(0, self.count), pool.part(self.count)
-            for samples in ((64, 64), (64, 4096)):
-                found = compared(images, rest, samples)
-                rows.append([name, "same, sobol", *_tally(samples, found)])
         return rows
 
-    def detections(self) -> list[list[str]]:
+    def sobol(self) -> list[list[str]]:
+        """The same of Sobol's points, which know their noise by blocks."""
+        rows = []
+        independent = {name: CASES[name] for name in SOBOL}
+        others = {name: replace(OTHERS[name], sampler="sobol") for name in SOBOL}
+        pools = self._gathered(SOBOL, 64, 2 * self.count + LARGE // 64)
+        few = self._gathered(SOBOL, 32, self.count)
+        by_chance = self._gathered(independent, 64, self.count)
+        by_other = self._gathered(others, 64, self.count)
+        for name, pool in pools.items():
+            images, rest = pool.part(0, self.count), pool.part(self.count)
+            methods = f"{others[name].method} against {SOBOL[name].method}"
+            mixes: list[tuple[str, tuple[int, int], Pool, bool | None, Change]] = [
+                ("same", (32, 64), few[name], True, _as_it_is),
+                ("same", (64, 64), images, True, _as_it_is),
+                ("same", (64, LARGE), images, True, _as_it_is),
+                ("same, image without errors", (64, 64), images, None, without_errors),
+                ("same, image of independent numbers", (64, 64), by_chance[name], None, _as_it_is),
+                (methods, (64, 64), by_other[name], None, _as_it_is),
+            ]
+            for what, samples, a, alike, change in mixes:
+                found = compared(a, rest, samples, alike, change)
+                rows.append([name, what, *_tally(samples, found)])
+        return rows
+
+    def different(self) -> list[list[str]]:
         """Of different pictures: what differs, scene, and the share found for each of FINDS."""
         rows = []
-        for name, pool in self.found.items():
+        lamp = {name: case for name, case in FOUND.items() if name not in CASES}
+        pools = {**self._pools, **self._gathered(lamp, 64, 32 * self.tenth + LARGE // 64)}
+        planted = {k: self._gathered(cases, 64, 16 * self.tenth) for k, cases in PLANTED.items()}
+        for name, pool in pools.items():
             images, rest = pool.part(0, 16 * self.tenth), pool.part(16 * self.tenth)
             kinds = [(what, images, change) for what, change in CHANGES.items()]
-            kinds += [(what, pools[name], _as_it_is) for what, pools in self.planted.items()]
+            kinds += [(what, cases[name], _as_it_is) for what, cases in planted.items()]
             for what, a, change in kinds:
                 rows.append([name, what])
                 for samples in FINDS:
@@ -228,18 +252,33 @@ def _markdown(head: list[str], rows: list[list[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
+ALARMS = ["scene", "methods", "samples", "called different", "95 % interval", "would have shown"]
+TABLES = {
+    "equal": (ALARMS, Experiment.equal),
+    "sobol": (ALARMS, Experiment.sobol),
+    "different": (
+        ["scene", "what differs", *(f"{a} / {b}" for a, b in FINDS)],
+        Experiment.different,
+    ),
+}
+
+
 def main(arguments: list[str] | None = None) -> int:
-    """`python -m glrt.lab.false_alarms`."""
-    parser = argparse.ArgumentParser(prog="python -m glrt.lab.false_alarms", description=__doc__)
+    """`python -m glrt.lab.false_alarms`; returns the exit code."""
+    parser = parser_of("false_alarms", __doc__)
+    add_tables(parser, TABLES)
     parser.add_argument("--pairs", type=int, default=1000, metavar="N", help="pairs of a row")
-    context = open_context("auto")
-    experiment = Experiment(context, parser.parse_args(arguments).pairs)
-    head = ["scene", "methods", "samples", "called different", "95 % interval", "would have shown"]
-    print(_markdown(head, experiment.false_alarms()), end="\n\n")
-    head = ["scene", "what differs", *(f"{a} / {b}" for a, b in FINDS)]
-    print(_markdown(head, experiment.detections()))
-    context.gl.release()
-    return 0
+    parsed = parser.parse_args(arguments)
+    return exit_code_of(lambda: _print(parsed.tables, parsed.pairs))
+
+
+def _print(names: Sequence[str], pairs: int) -> None:
+    context = open_context()
+    experiment = Experiment(context, pairs)
+    print(f"{machine(context.renderer)}, {SIZE} x {SIZE} pixels, {pairs} pairs")
+    for name in names:
+        head, rows_of = TABLES[name]
+        print("\n" + _markdown(head, rows_of(experiment)), flush=True)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from glrt.errors import GlrtError
 from glrt.version import VERSION
@@ -35,6 +35,19 @@ def add_rounds(parser: argparse.ArgumentParser, size: int, rounds: int) -> None:
     parser.add_argument("--size", type=_at_least(1), default=size, metavar="N", help=told)
     told = f"runs of each, 2 or more (default: {rounds})"
     parser.add_argument("--rounds", type=_at_least(2), default=rounds, metavar="N", help=told)
+
+
+def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:
+    """The names of some tables, as `tables`; all of them if none is named."""
+    names = list(tables)
+
+    def known(text: str) -> str:
+        if text not in names:
+            raise argparse.ArgumentTypeError(f"there is no table {text!r}")
+        return text
+
+    told = f"of {', '.join(names)} (default: all)"
+    parser.add_argument("tables", nargs="*", type=known, default=names, metavar="TABLE", help=told)
 
 
 def _at_least(least: int) -> Callable[[str], int]:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from glrt.context import open_context
 from glrt.lab.edited import Edit
 from glrt.lab.efficiency import Row, Way, measure, table
-from glrt.lab.program import add_rounds, exit_code_of, machine, parser_of
+from glrt.lab.program import add_rounds, add_tables, exit_code_of, machine, parser_of
 
 SCENES = ("cornell", "room", "lamps", "metals")
 INDEPENDENT, SOBOL = "independent", "sobol"
@@ -82,15 +82,11 @@ def by_start(rows: Sequence[Row]) -> Iterator[str]:
 def main(arguments: list[str] | None = None) -> int:
     """`python -m glrt.lab.steps`; returns the exit code."""
     parser = parser_of("steps", __doc__)
-    told = f"of {', '.join(TABLES)} (default: all)"
-    parser.add_argument("tables", nargs="*", metavar="TABLE", help=told)
+    add_tables(parser, TABLES)
     parser.add_argument("--scenes", nargs="+", metavar="NAME", default=SCENES)
     add_rounds(parser, size=128, rounds=12)
     parsed = parser.parse_args(arguments)
-    if unknown := set(parsed.tables) - set(TABLES):
-        parser.error(f"no such table: {', '.join(sorted(unknown))}")
-    names = parsed.tables or list(TABLES)
-    return exit_code_of(lambda: _print(names, parsed.scenes, parsed.size, parsed.rounds))
+    return exit_code_of(lambda: _print(parsed.tables, parsed.scenes, parsed.size, parsed.rounds))
 
 
 def _print(names: Sequence[str], scenes: Sequence[str], size: int, rounds: int) -> None:
