@@ -20,7 +20,7 @@ INDEPENDENT, SOBOL = "independent", "sobol"
 
 def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
     """Survival is min(throughput / threshold, 1), from so many scatterings on."""
-    edits = [Edit("path.glsl", "min(4.0 * brightest, 1.0)", f"min(brightest / {threshold}, 1.0)")]
+    edits = [Edit("path.glsl", "4.0 * CHANCES", f"CHANCES / {threshold}")]
     if bounce:
         call = "if (ROULETTE && {}roulette_ends("
         late = call.format(f"path.depth >= {bounce} && ")
