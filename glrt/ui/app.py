@@ -1,5 +1,6 @@
 """What the window's parts share, and the commands that buttons and keys give."""
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,6 +28,7 @@ from glrt.ui.watch import Watch, watch_for
 from glrt.ui.write_scene import scene_with, write_scene
 
 Rectangle = tuple[float, float, float, float]  # left, top, width, height
+SHOWN = 5.0  # seconds that a message of what was done stays in sight
 
 
 @dataclass
@@ -42,18 +44,24 @@ class App:
     pivot: Vector
     shaders: Watch
     open_path: str = ""
-    save_path: str = "picture.png"
-    scene_path: str = "scene.toml"
+    save_path: str = field(default_factory=lambda: unused("picture.png"))
+    scene_path: str = field(init=False)
     selected: int | None = None  # number of an object
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
     frame_seconds: float = 0.0
     progress: Progress = field(default_factory=Progress)
-    watch: Watch | None = None  # of the scene file, if the scene came from one
+    watch: Watch | None = field(init=False)  # of the scene file, if the scene came from one
     message: str = ""  # what was done last
+    told: float = 0.0  # when, by time.perf_counter
+    shown_problem: str = ""  # what went wrong, as the panel told it last
     unsaved: bool = False  # preferences
     awaited: tuple[Action, int] | None = None  # the key that is to be chosen: which of an action
     is_deaf: bool = False  # to keys, until they are let go
     dialogs: Dialogs = field(default_factory=Dialogs)
+
+    def __post_init__(self) -> None:
+        """Know what was opened."""
+        self._came_from(self.source)
 
     @property
     def camera(self) -> Camera:
@@ -94,9 +102,8 @@ class App:
         except GlrtError as error:
             return self.complain(str(error))
         self._take(scene, recipe or scene.render)
-        self.source, self.watch = source, watch_for(source)
-        self.scene_path = source if self.watch else self.scene_path
-        self.message = f"Opened {source}"
+        self._came_from(source)
+        self.tell(f"Opened {source}")
         return None
 
     def paste_recipe(self) -> None:
@@ -106,7 +113,8 @@ class App:
         except GlrtError as error:
             return self.complain(str(error))
         self._take(recipe.scene, recipe.taken)
-        self.source, self.watch, self.message = "", None, "Opened the recipe in the clipboard"
+        self._came_from("")
+        self.tell("Opened the recipe in the clipboard")
         return None
 
     def copy_recipe(self) -> None:
@@ -114,7 +122,12 @@ class App:
         recipe = self.session.image().recipe
         assert recipe
         imgui.set_clipboard_text(recipe.to_json())
-        self.message = "Copied the recipe of this picture"
+        self.tell("Copied the recipe of this picture")
+
+    def _came_from(self, source: str) -> None:
+        """A scene that came from a file is saved there again, and another one elsewhere."""
+        self.source, self.watch = source, watch_for(source)
+        self.scene_path = source if self.watch else unused("scene.toml")
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
         self.session.opened = State(scene, settings_for(settings, crop=None))
@@ -146,7 +159,7 @@ class App:
             return self.complain(str(error))
         self.session.problem = ""
         self.session.edit(scene)
-        self.message = f"Read {self.source} again"
+        self.tell(f"Read {self.source} again")
         return None
 
     def save_scene(self, path: str = "") -> None:
@@ -160,7 +173,7 @@ class App:
             return self.complain(str(error))
         self.source, self.watch = str(file), watch_for(str(file))
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
-        self.message = f"Saved {file}{lost}"
+        self.tell(f"Saved {file}{lost}")
         return None
 
     @property
@@ -196,8 +209,16 @@ class App:
             self.session.image().save(self.save_path)
         except GlrtError as error:
             return self.complain(str(error))
-        self.message = f"Saved {self.save_path}"
+        self.tell(f"Saved {self.save_path}")
         return None
+
+    def tell(self, message: str) -> None:
+        """Show for a while what was done."""
+        self.message, self.told = message, time.perf_counter()
+
+    def recent_message(self, now: float) -> str:
+        """What was done a moment ago; "" for nothing."""
+        return self.message if now - self.told < SHOWN else ""
 
     def complain(self, problem: str) -> None:
         """Show what went wrong, if anything did."""
@@ -262,3 +283,12 @@ class App:
     def reach(self) -> float:
         """The distance that speeds are measured in: to the pivot."""
         return max(orbit.distance_to(self.camera, self.pivot), 1e-6)
+
+
+def unused(name: str) -> str:
+    """The name of a file, with a number if there is one by that name: it is not ours to replace."""
+    path, number = Path(name), 1
+    while path.exists():
+        number += 1
+        path = path.with_stem(f"{Path(name).stem}-{number}")
+    return str(path)

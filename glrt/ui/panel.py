@@ -52,8 +52,13 @@ def draw_panel(app: App) -> None:
 
 
 def _problem(app: App) -> None:
+    """What went wrong, above everything else: the panel goes up to it when it comes."""
+    is_new = app.session.problem != app.shown_problem
+    app.shown_problem = app.session.problem
     if not app.session.problem:
         return
+    if is_new:
+        imgui.set_scroll_y(0.0)
     imgui.push_style_color(imgui.Col_.text, _RED)
     imgui.text_wrapped(app.session.problem)
     imgui.pop_style_color()
@@ -74,10 +79,6 @@ def _commands(app: App) -> None:
     imgui.same_line()
     if button("redo", session.history.can_redo):
         session.redo()
-    if app.message:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text(app.message)
-        imgui.pop_text_wrap_pos()
 
 
 def _lights(app: App) -> None:

@@ -1,6 +1,7 @@
 """The picture in its window, and the mouse and the keys that move the camera."""
 
 import math
+import time
 
 from imgui_bundle import ImVec2, imgui
 
@@ -59,8 +60,9 @@ def draw_viewport(app: App) -> None:
         _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
     if app.show.drawn != "picture":
         draw_legend(app.show, app.progress.last, corner + ImVec2(0, height), width)
-    if notice := app.show.notice(app.session):
-        _notice(notice, corner)
+    notices = app.show.notice(app.session), app.recent_message(time.perf_counter())
+    for line, notice in enumerate(filter(None, notices)):
+        _notice(notice, corner + ImVec2(0, 2.4 * line * imgui.get_font_size()))
 
 
 def _wipe(app: App) -> None:
@@ -121,6 +123,8 @@ def _mouse(app: App) -> None:
     io = imgui.get_io()
     if imgui.is_item_hovered() and io.mouse_wheel:
         app.wheel(io.mouse_wheel)
+    if imgui.is_item_activated():  # in a slow frame the way to the button's press is in it, too
+        return
     if not imgui.is_item_active() or (io.mouse_delta.x == 0 and io.mouse_delta.y == 0):
         return
     across, down = io.mouse_delta.x / io.display_size.x, io.mouse_delta.y / io.display_size.y

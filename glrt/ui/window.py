@@ -21,7 +21,7 @@ from glrt.ui.preferences import load_preferences, preferences_file
 from glrt.ui.session import Session
 from glrt.ui.show import Show
 from glrt.ui.viewport import draw_keys, draw_viewport
-from glrt.ui.watch import Watch, watch_for
+from glrt.ui.watch import Watch
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
@@ -110,7 +110,6 @@ class Window:
             pace=Pace(self._rate),
             pivot=scene.camera.look_at,
             shaders=Watch(folder("shaders_glsl").iterdir()),
-            watch=watch_for(source),
         )
         self.app.complain(problem)
 
