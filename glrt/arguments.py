@@ -252,7 +252,10 @@ def _render_settings(parser: argparse.ArgumentParser) -> None:
     for action in parser._actions:
         if action.dest == "method":
             action.choices = [*(action.choices or ()), AUTO]
-            action.help = f"{action.help}; {AUTO}: the cheapest that reaches --error"
+            action.help = (
+                f"{action.help}; {AUTO}: the cheapest that reaches --error, by a measurement of "
+                "some seconds, whatever --time says"
+            )
 
 
 def _options(name: str, annotation: Any) -> dict[str, Any]:

@@ -43,10 +43,11 @@ def _huge_ball(scene: Scene) -> str:
     ratio, worst = max(_size_ratios(scene, balls), default=(0.0, 0))
     if ratio <= HUGE:
         return ""
+    share = float(f"{100 * ratio * ROUNDING:.1g}")
     return (
         f"{_name(scene, balls[worst])}: its radius is {ratio:.1g} times the distance of the camera "
         "from its surface, or the radius of a ball that touches it; float32 knows the surface to "
-        f"{100 * ratio * ROUNDING:.1g} % of that at best. Use a plane or a smaller ball."
+        f"{share:g} % of that at best. Use a plane or a smaller ball."
     )
 
 

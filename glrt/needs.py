@@ -121,7 +121,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         return [name for name, m in used.items() if m.type == kind and _matches(m, limits)]
 
     def shapes(kind: str) -> str:
-        return _count(sum(1 for shape in scene.objects if shape.shape == kind), kind)
+        return counted(sum(1 for shape in scene.objects if shape.shape == kind), kind)
 
     lens, method = scene.camera.defocus_angle, settings.method
     mirrors, rough = made_of("metal", rough=False), made_of("metal", rough=True)
@@ -152,7 +152,8 @@ def _matches(material: Material, limits: dict[str, bool]) -> bool:
     return all(rough == wanted for wanted in limits.values())
 
 
-def _count(number: int, noun: str) -> str:
+def counted(number: int, noun: str) -> str:
+    """A number of things in words: no lamps, 1 lamp, 2 lamps."""
     return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
 
 
@@ -178,5 +179,5 @@ def _roulette(settings: Settings) -> str:
 
 def _lamps(scene: Scene) -> str:
     lit = [s.shape for s in scene.objects if is_light(scene.materials[s.material])]
-    kinds = [_count(lit.count(kind), f"{kind} lamp") for kind in ("sphere", "quad", "plane")]
+    kinds = [counted(lit.count(kind), f"{kind} lamp") for kind in ("sphere", "quad", "plane")]
     return ", ".join(text for text in kinds if not text.startswith("no ")) or "no lamp"

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from glrt.job import Limits, since_start
 from glrt.renderer import Renderer
+from glrt.settings import MAX_SAMPLES
 
 LOOK = 2.0  # seconds before an estimate of the error, which reads the film back
 SHARE = 0.05  # of the time, at most, that estimates take
@@ -60,7 +61,9 @@ class Forecast:
         total = self._total_seconds(renderer.work, seconds)
         left = max(0.0, total - seconds)
         error = f"error {100 * self._error:.2g} %  " if self._error else ""
-        done = f"{renderer.samples} of {self._limits.samples} samples"
+        most = self._limits.samples  # of which nobody speaks where time or error ends the render
+        of_all = f" of {most}" if most < MAX_SAMPLES else ""
+        done = f"{renderer.samples}{of_all} samples"
         share = min(1.0, seconds / total) if total else 1.0
         rest = f"{error}{seconds:.0f} s, {left:.0f} s to go"
         return {"completed": share, "done": done, "rest": rest}

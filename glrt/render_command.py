@@ -16,6 +16,7 @@ from glrt.errors import RenderError
 from glrt.image import check_writable
 from glrt.job import Interruption, Limits, peak_bytes, run, since_start
 from glrt.keeper import Keeper
+from glrt.needs import counted
 from glrt.omissions import left_out, omissions
 from glrt.order import Order, opened, order
 from glrt.renderer import Renderer
@@ -65,15 +66,23 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
         text = f"interrupted after {renderer.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
-        text = "unknown" if estimate is None else f"{estimate:.3g}"
-        return fail(
-            f"--error {limits.error:g} was not reached: it is {text} after {renderer.samples} "
-            "samples. The picture is saved; give more --samples or --time.",
-            1,
-        )
+        return fail(unreached(arguments.error, limits.error, estimate, renderer.samples), 1)
     if not arguments.quiet and (caution := doubt(understatement, limits.error)):
         print(f"glrt: caution: {caution}", file=sys.stderr)
     return 0
+
+
+def unreached(wanted: float, noise: float, estimate: float | None, samples: int) -> str:
+    """What to say of an `--error`; of one for which `noise` is what a method's bias leaves room."""
+    found = "unknown" if estimate is None else f"{estimate:.3g}"
+    if noise < wanted:
+        found = f"its noise must be {noise:.3g}, beside what the method leaves out, and is {found}"
+    else:
+        found = f"it is {found}"
+    return (
+        f"--error {wanted:g} was not reached: {found} after {counted(samples, 'sample')}. "
+        "The picture is saved; give more --samples or --time."
+    )
 
 
 def _signal_code(interruption: Interruption) -> int:
@@ -117,7 +126,7 @@ def _tell(
         names = ", ".join(arguments.outputs)
         more = f" ({new} of them new)" if begun else ""
         print(
-            f"Wrote {names}: {width} x {height}, {renderer.samples} samples{more} in "
+            f"Wrote {names}: {width} x {height}, {counted(renderer.samples, 'sample')}{more} in "
             f"{seconds['render']:.1f} s ({rate / 1e6:.2f} million samples/s){known}.",
             file=sys.stderr,
         )

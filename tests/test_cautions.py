@@ -48,7 +48,9 @@ def test_huge_ball_under_a_small_one_is_told(radius: float, warns: bool) -> None
 
 
 def test_camera_on_the_surface_of_a_ball_is_told() -> None:
-    assert "times the distance of the camera" in told(with_balls(sphere([0, -2, 0], 2, "m")))[0]
+    text = told(with_balls(sphere([0, -2, 0], 2, "m")))[0]
+    assert "times the distance of the camera" in text
+    assert "to 100 % of that" in text
 
 
 @pytest.mark.parametrize(

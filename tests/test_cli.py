@@ -16,6 +16,7 @@ import glrt as package
 from glrt.context import Context
 from glrt.image import Image, read_recipe
 from glrt.library import load
+from glrt.render_command import unreached
 from glrt.renderer import Renderer
 from glrt.scene import with_lights
 from tests.processes import glrt, start
@@ -159,6 +160,21 @@ def test_error_not_reached_exits_1_with_the_picture(tmp_path: Path) -> None:
     assert done.returncode == 1
     assert "--error 0.0001 was not reached" in done.stderr
     assert Image.load(picture).samples == 4
+
+
+@pytest.mark.parametrize(
+    ("room", "estimate", "samples", "said"),
+    [
+        (0.3, 0.4, 64, "it is 0.4 after 64 samples."),
+        (0.3, None, 1, "it is unknown after 1 sample."),
+        (0.25, 0.28, 64, "its noise must be 0.25, beside what the method leaves out, and is 0.28"),
+    ],
+)
+def test_an_error_not_reached_is_told_as_it_was_asked_for(
+    room: float, estimate: float | None, samples: int, said: str
+) -> None:
+    told = unreached(0.3, room, estimate, samples)
+    assert told.startswith(f"--error 0.3 was not reached: {said}")
 
 
 def test_time_ends_the_render(tmp_path: Path) -> None:

@@ -19,10 +19,16 @@ class Turned:
     def __init__(self) -> None:
         self.preferences = Preferences()
         self.turns: list[tuple[float, float]] = []
+        self.steps: list[tuple[float, float, float]] = []
+        self.awaited = None
+        self.is_deaf = False
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         assert not about_camera
         self.turns.append((across, down))
+
+    def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
+        self.steps.append((right, up, forward))
 
 
 @pytest.fixture
@@ -77,6 +83,20 @@ def test_a_drag_turns_from_where_the_button_went_down(io: imgui.IO) -> None:
     moved(app, io, (500.0, 350.0))
     moved(app, io, False)
     assert app.turns == [(0.1, 0.1)]
+
+
+@pytest.mark.parametrize("is_open", [False, True])
+def test_arrows_in_an_open_list_leave_the_camera_alone(io: imgui.IO, is_open: bool) -> None:
+    app: Any = Turned()
+    io.add_key_event(imgui.Key.down_arrow, True)
+    imgui.new_frame()
+    imgui.begin("Controls")
+    if is_open:
+        imgui.open_popup("list")
+    viewport.draw_keys(app)
+    imgui.end()
+    imgui.render()
+    assert app.steps == ([] if is_open else [(0.0, 0.0, -1.0)])
 
 
 def an_app(**known: Any) -> App:

@@ -25,6 +25,7 @@ _EVERY_BUTTON = int(
     | imgui.ButtonFlags_.mouse_button_right
     | imgui.ButtonFlags_.mouse_button_middle
 )
+_ANY_POPUP = int(imgui.PopupFlags_.any_popup)
 _NOTICE = (0.0, 0.0, 0.0, 0.65)
 
 
@@ -93,9 +94,9 @@ def _wipe_handle(app: App) -> None:
 
 
 def draw_keys(app: App) -> None:
-    """Act on the keys; not while a text is typed, or a key is chosen."""
+    """Act on the keys; not while a text is typed, a list is open, or a key is chosen."""
     io = imgui.get_io()
-    if io.want_text_input or is_choosing(app):
+    if io.want_text_input or imgui.is_popup_open("", _ANY_POPUP) or is_choosing(app):
         return
     seconds = min(io.delta_time, _LONGEST_STEP)
     held = [axis for action, axis in _AXES.items() if _is_held(app, action)]
