@@ -27,16 +27,20 @@ Slab slab_of(Ray ray, vec4 grid) {
     return Slab(above, below, inverse);
 }
 
+// As min and max, which look for NaN on llvmpipe: three instructions there, and one for these.
+float lesser(float a, float b) { return a < b ? a : b; }
+float larger(float a, float b) { return a > b ? a : b; }
+
 // Whether the ray may meet the box of a node before `limit`.
 bool meets_box(Slab slab, uvec3 box, float limit) {
     vec3 lower = vec3(ivec3(box & 0xFFFFu));
     vec3 upper = vec3(ivec3(box >> 16u));
     vec3 a = (lower - slab.above) * slab.inverse;
     vec3 b = (upper - slab.below) * slab.inverse;
-    vec3 first = min(a, b);
-    vec3 last = max(a, b);
-    float enters = max(max(first.x, first.y), max(first.z, 0.0));
-    float leaves = min(min(last.x, last.y), min(last.z, limit));
+    vec3 first = vec3(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z));
+    vec3 last = vec3(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z));
+    float enters = larger(larger(first.x, first.y), larger(first.z, 0.0));
+    float leaves = lesser(lesser(last.x, last.y), lesser(last.z, limit));
     return enters <= leaves;
 }
 
