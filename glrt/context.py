@@ -8,8 +8,10 @@ import ctypes
 import os
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import takewhile
 from typing import Any, Literal
 
 import moderngl
@@ -20,6 +22,7 @@ Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]
 ROUTES = ("egl", "window", "osmesa")  # in this order: the last is never hardware
 MOST_DEVICES = 16  # of EGL that are looked at
+MOST_FLAGS = 16  # of errors that are looked at: a lost context may raise one for ever
 COMPUTE, FRAGMENT = 430, 410  # the versions of OpenGL that the two pipelines need
 _RESETS = {  # values of glGetGraphicsResetStatus: whose fault it was
     0x8253: "over this render",
@@ -70,6 +73,28 @@ class Context:
                 "gone. Another program may have crashed it, or a dispatch took too long; then a "
                 "smaller picture, or a --crop, may do."
             )
+
+    @contextmanager
+    def checked(self, what: str) -> Iterator[None]:
+        """RenderError where the driver finds an error in what is done inside.
+
+        What others left in this context is no fault of it.
+        """
+        self._take_errors()
+        try:
+            yield
+        except moderngl.Error as error:
+            raise RenderError(f"the driver refuses {what}: {error}") from error
+        if errors := self._take_errors():
+            raise RenderError(
+                f"the driver refuses {what}: {', '.join(errors)}. It may have run out of memory: a "
+                "smaller picture, or a --crop, takes less."
+            )
+
+    def _take_errors(self) -> list[str]:
+        """The flags that are raised; a driver may keep some, and each look lowers one."""
+        flags = (self.gl.error for _ in range(MOST_FLAGS))
+        return [*takewhile(lambda flag: flag != "GL_NO_ERROR", flags)]
 
     @cached_property
     def _reset_status(self) -> Callable[[], int]:

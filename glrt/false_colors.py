@@ -94,7 +94,7 @@ class FalseColors:
         """
         values: dict[str, Any] = {"shows": 0, "dark": DARK * mean**2}
         if not are_trivial(weights):
-            values["layer_count"] = film.layer_count
+            values["layer_count"] = film.extent.layers
             values["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
         self._draw(film, light, light, ERROR, values)
 

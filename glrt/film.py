@@ -13,6 +13,15 @@ Array = np.ndarray[Any, np.dtype[np.float32]]
 BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
 
 
+class Extent(NamedTuple):
+    """How much a film holds."""
+
+    width: int
+    height: int
+    block: int = 1  # samples of an observation
+    layers: int = 0
+
+
 class Exposure(NamedTuple):
     """A film read back: arrays (H, W, 3) float32, row 0 on top."""
 
@@ -37,25 +46,24 @@ class Film:
     the layers, if there are any, each over two halves of the observations.
     """
 
-    def __init__(
-        self, gl: moderngl.Context, width: int, height: int, block: int = 1, layers: int = 0
-    ) -> None:
-        """Allocate for observations of `block` samples.
-
-        RenderError if the driver has no room for this size.
-        """
-        self._gl = gl
-        self._allocate(width, height, block, layers)
-
-    def restart(self, width: int, height: int, block: int = 1, layers: int = 0) -> None:
-        """Forget everything; with another size, block or number of layers, allocate anew.
-
-        The textures keep what they hold: the first dispatch ignores it.
-        """
-        self.samples = 0
-        if (*self.size, self.block, self.layer_count) != (width, height, block, layers):
+    def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
+        """RenderError if the driver has no room for that."""
+        self._gl, self.extent, self.samples = gl, extent, 0
+        self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
+        try:
+            self._allocate()
+        except RenderError:
             self.release()
-            self._allocate(width, height, block, layers)
+            raise
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self.extent.width, self.extent.height
+
+    def restart(self) -> None:
+        """Forget everything. The textures keep what they hold: the first dispatch ignores it."""
+        self.samples = 0
 
     def images(self) -> dict[str, moderngl.Texture]:
         """The textures under the names of the kernel's images."""
@@ -113,7 +121,7 @@ class Film:
 
         UsageError for a film with layers, which no picture holds.
         """
-        if self.layer_count:
+        if self.extent.layers:
             raise UsageError("layers of light are kept here, which a picture does not hold")
         rows = {
             "mean": np.dstack([mean, gathered.dropped]),
@@ -130,20 +138,14 @@ class Film:
             for texture in pair.values():
                 texture.release()
 
-    def _allocate(self, width: int, height: int, block: int, layers: int) -> None:
-        self.size, self.block, self.layer_count = (width, height), block, layers
-        self.samples = 0
+    def _allocate(self) -> None:
+        width, height, block, layers = self.extent
         sizes = dict.fromkeys(("mean", "variance"), self.size)
         sizes |= {"block": self.size} if block > 1 else {}
         sizes |= {"layers": (layers * width, 2 * height)} if layers else {}
-        self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
-        try:
-            for pair in self._pairs:
-                for name, size in sizes.items():
-                    pair[name] = self._texture(*size)
-        except RenderError:
-            self.release()
-            raise
+        for pair in self._pairs:
+            for name, size in sizes.items():
+                pair[name] = self._texture(*size)
 
     def _texture(self, across: int, down: int) -> moderngl.Texture:
         width, height = self.size
@@ -164,13 +166,13 @@ class Film:
 
     def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
         """The observation that has begun: its mean, and its share of so many finite samples."""
-        if self.samples % self.block == 0:
+        if self.samples % self.extent.block == 0:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
         begun = self._read(self._pairs[0]["block"], first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
     def _read_layers(self, first: int, end: int) -> Array:
-        (width, height), count = self.size, self.layer_count
+        width, height, _, count = self.extent
         if not self.layers:
             return np.zeros((2, 0, end - first, width, 4), np.float32)
         halves = [self._read(self.layers, up + first, up + end) for up in (0, height)]

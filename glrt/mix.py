@@ -19,7 +19,7 @@ def mixed(film: Film, weights: Weights) -> tuple[Array, Array, Gathered | None]:
     """
     width, height = film.size
     radiance, error = np.empty((2, height, width, 3), np.float32)
-    is_all = are_trivial(weights) and not film.layer_count
+    is_all = are_trivial(weights) and not film.extent.layers
     gathered = nothing_gathered(height, width) if is_all else None
     for rows in film.bands():
         exposure = film.read(rows)
@@ -71,7 +71,7 @@ class Mixer:
         if film.layers:
             film.layers.use(1)
             program["layers"] = 1
-        program["layer_count"] = film.layer_count
+        program["layer_count"] = film.extent.layers
         program["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
         with self._gl.scope(self._target):
             self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)

@@ -99,6 +99,11 @@ class Settings(RenderSettings):
     tonemap: ToneMap = _setting("neutral", "tone curve of PNG files and of the display", Cost.FREE)
 
     @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture in pixels: of the crop, if there is one."""
+        return (self.crop or (0, 0, self.width, self.height))[2:]
+
+    @property
     def block(self) -> int:
         """Samples of an observation; the error of a picture is taken over whole ones."""
         return BLOCKS[self.sampler]

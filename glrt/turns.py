@@ -5,28 +5,26 @@ from collections.abc import Callable
 from copy import copy
 
 from glrt.context import Context
+from glrt.errors import RenderError
 from glrt.kernel import FragmentKernel, Kernel
 from glrt.pipelines import compiled
 from glrt.schedule import Portion, Schedule
 from glrt.shader import Source
 
 AnyKernel = Kernel | FragmentKernel
+Dispatch = Callable[[AnyKernel, Portion], None]
 
 
 class Turns:
     """The kernel whose turn it is, and what is known of its dispatches."""
 
     def __init__(
-        self,
-        context: Context,
-        shaders: list[Source],
-        schedule: Schedule,
-        dispatch: Callable[[AnyKernel, Portion], None],
+        self, context: Context, shaders: list[Source], schedule: Schedule, dispatch: Dispatch
     ) -> None:
         """Compile the kernel that stays; RenderError if the driver refuses it."""
-        self._context, self._dispatch = context, dispatch
+        self._context = context
         start = time.perf_counter()
-        self.kernel, self.schedule = self._ready(shaders), schedule
+        self.kernel, self.schedule = self._ready(shaders, dispatch), schedule
         self.compile_seconds = time.perf_counter() - start
         self._waiting: tuple[AnyKernel, Schedule] | None = None
 
@@ -35,10 +33,10 @@ class Turns:
         """Whether it is the turn of the faster kernel."""
         return self._waiting is not None
 
-    def pass_to(self, shaders: list[Source]) -> None:
+    def pass_to(self, shaders: list[Source], dispatch: Dispatch) -> None:
         """Let a faster kernel go on with the next frame; refused, all stays as it was."""
         self.schedule.drop()  # the first dispatch writes to the frame that has begun
-        faster = self._ready(shaders)
+        faster = self._ready(shaders, dispatch)
         self._waiting = self.kernel, self.schedule
         self.kernel, self.schedule = faster, copy(self.schedule)
 
@@ -54,8 +52,13 @@ class Turns:
         self.take_back()
         self.kernel.release()
 
-    def _ready(self, shaders: list[Source]) -> AnyKernel:
+    def _ready(self, shaders: list[Source], dispatch: Dispatch) -> AnyKernel:
         kernel = compiled(self._context.gl, shaders)
-        self._dispatch(kernel, Portion(0, 0, 1))  # drivers compile in the first; it adds nothing
-        self._context.finish()
+        try:
+            with self._context.checked("a shader"):
+                dispatch(kernel, Portion(0, 0, 1))  # drivers compile here; it adds nothing
+                self._context.finish()
+        except RenderError:
+            kernel.release()
+            raise
         return kernel

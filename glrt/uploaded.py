@@ -1,50 +1,60 @@
 """A scene in the driver's memory: its arrays, and the text of the kernels that read them."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
-import moderngl
 import numpy as np
 
 from glrt.blocks import BAKED, Tier, tier_for
-from glrt.kernel import FragmentKernel, Images, Kernel
+from glrt.context import Context
+from glrt.errors import RenderError
+from glrt.kernel import FragmentKernel, Images, Kernel, Resource
 from glrt.needs import has_tree, needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
-from glrt.pipelines import Resolved, scene_text, sources, upload
+from glrt.pipelines import Arrays, Resolved, scene_text, sources, upload
 from glrt.relight import Plan
 from glrt.schedule import Portion, stride_of
 from glrt.shader import Source
+
+
+class Way(NamedTuple):
+    """How a scene is to reach the kernel; `parts` are texts that stand in for shader files."""
+
+    pipeline: Resolved
+    tier: Tier
+    parts: Mapping[str, str]
 
 
 class Uploaded:
     """What a kernel reads of a scene, beside the film."""
 
     def __init__(
-        self,
-        gl: moderngl.Context,
-        plan: Plan,
-        pipeline: Resolved,
-        wanted: Tier,
-        parts: Mapping[str, str],
+        self, context: Context, plan: Plan, way: Way, before: "Uploaded | None" = None
     ) -> None:
         """Give the driver the scene of a plan; the tier is another if the scene is too large.
 
-        `parts` are texts that stand in for shader files.
+        The same scene as `before` is not packed again. RenderError if the driver has no room.
         """
-        self._gl, self._pipeline, self._parts = gl, pipeline, parts
-        self._arrays = pack_scene(plan.scene)
+        self._gl, self._way, self._scene = context.gl, way, plan.scene
+        is_known = before is not None and before._scene == plan.scene
+        self._arrays: Arrays = before._arrays if before and is_known else pack_scene(plan.scene)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._constants = needs_of(plan.scene, plan.settings).constants() | plan.constants()
         self._has_tree = has_tree(plan.scene)  # without one none are lost
-        self.tier = tier_for(self._arrays, wanted)
-        self.shaders = self._shaders(self.tier)
-        self._frame = gl.buffer(reserve=STRUCTS["Frame"].itemsize)
-        self._lost = gl.buffer(bytes(4))
-        self._resources = {
-            **upload(gl, pipeline, self._arrays, self.tier),
-            "FrameBlock": self._frame,
-            "Lost": self._lost,
-        }
+        self.tier = tier_for(self._arrays, way.tier)
+        self._parts = self._parts_of(self.tier)
+        self._resources: dict[str, Resource] = {}
+        try:
+            with context.checked("the scene"):
+                self._upload()
+        except RenderError:
+            self.release()
+            raise
+
+    @property
+    def shaders(self) -> list[Source]:
+        """The kernel that reads this."""
+        return self._shaders(self._parts)
 
     def baked(self) -> list[Source] | None:
         """A kernel that has the shapes as constants and reads the rest here; None where it is this.
@@ -52,11 +62,11 @@ class Uploaded:
         Or where there are too many shapes for that.
         """
         tier = tier_for(self._arrays, "baked")
-        return None if tier == self.tier else self._shaders(tier)
+        return None if tier == self.tier else self._shaders(self._parts_of(tier))
 
     def is_read_alike(self, other: "Uploaded") -> bool:
         """Whether the kernel of one scene does for the other."""
-        return texts(self.shaders) == texts(other.shaders)
+        return (self._constants, self._parts) == (other._constants, other._parts)
 
     def has_shapes_of(self, other: "Uploaded") -> bool:
         """Whether constants written for one scene do for the other: to the last bit."""
@@ -89,14 +99,20 @@ class Uploaded:
         for resource in self._resources.values():
             resource.release()
 
-    def _shaders(self, tier: Tier) -> list[Source]:
-        text = scene_text(self._gl, self._pipeline, self._arrays, tier)
-        return sources(self._pipeline, self._constants, {"blocks.glsl": text, **self._parts})
+    def _upload(self) -> None:
+        self._frame = self._resources["FrameBlock"] = self._gl.buffer(
+            reserve=STRUCTS["Frame"].itemsize
+        )
+        self._lost = self._resources["Lost"] = self._gl.buffer(bytes(4))
+        self._resources |= upload(self._gl, self._way.pipeline, self._arrays, self.tier)
 
+    def _parts_of(self, tier: Tier) -> dict[str, str]:
+        """What the text of the kernel depends on, beside constants and files."""
+        text = scene_text(self._gl, self._way.pipeline, self._arrays, tier)
+        return {"blocks.glsl": text, **self._way.parts}
 
-def texts(shaders: list[Source]) -> list[str]:
-    """What the driver compiles."""
-    return [shader.text for shader in shaders]
+    def _shaders(self, parts: Mapping[str, str]) -> list[Source]:
+        return sources(self._way.pipeline, self._constants, parts)
 
 
 def same_rows(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:

@@ -56,7 +56,7 @@ ORDER = [
         "compare_picture",
     ),
     *("context", "kernel", "probe", "selftest", "pipelines", "film", "mix", "display"),
-    *("false_colors", "schedule", "uploaded", "turns"),
+    *("false_colors", "schedule", "uploaded", "turns", "tracer"),
     *(
         "renderer",
         "__init__",

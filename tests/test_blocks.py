@@ -76,7 +76,7 @@ def test_storage_blocks_lie_in_the_places_that_every_opengl_grants(
     if not context.has_compute:
         pytest.skip("there are storage blocks from OpenGL 4.3 on")
     renderer = Renderer(load("weekend"), context=context, tier=tier, **SMALL)
-    program = renderer._turns.kernel._program
+    program = renderer._tracer.turns.kernel._program
     members = [program[name] for name in program]
     with context.gl:
         places = [block.binding for block in members if isinstance(block, moderngl.StorageBlock)]

@@ -213,13 +213,13 @@ def test_dispatches_that_take_too_long_become_smaller(
     """A driver that has become a thousand times slower is given a thousandth of the work."""
     renderer = Renderer(load("sky"), context=context, width=64, height=64)
     planned: list[int] = []
-    record = renderer._turns.schedule.record
+    record = renderer._tracer.turns.schedule.record
 
     def slow(portion: Portion, _: float) -> bool:
         planned.append(portion.samples * portion.tiles)
         return record(portion, portion.samples * portion.tiles * HEADLESS_LIMIT / 40)
 
-    monkeypatch.setattr(renderer._turns.schedule, "record", slow)
+    monkeypatch.setattr(renderer._tracer.turns.schedule, "record", slow)
     renderer.render(4)
     assert planned[0] <= 16, "nothing is known yet"
     assert all(work <= 20 for work in planned[1:]), "half of the limit"

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from glrt.context import Context
 from glrt.errors import RenderError
-from glrt.film import Exposure, Film, standard_error
+from glrt.film import Exposure, Extent, Film, standard_error
 from glrt.gathered import nothing_gathered
 from glrt.kernel import Kernel
 from glrt.library import load
@@ -198,7 +198,7 @@ def step(ctx: moderngl.Context) -> Iterator[Step]:
 @pytest.fixture
 def film(ctx: moderngl.Context) -> Iterator[Film]:
     """A film of ROOM's size whose textures hold nothing but NaN."""
-    film = Film(ctx, WIDTH, HEIGHT)
+    film = Film(ctx, Extent(WIDTH, HEIGHT))
     poison(film)
     yield film
     film.release()
@@ -229,7 +229,7 @@ def test_a_restart_ignores_what_was_gathered(film: Film, step: Step) -> None:
     step(film, 2)
     fresh = film.read()
     step(film, 5)
-    film.restart(WIDTH, HEIGHT)
+    film.restart()
     poison(film)
     step(film, 2)
     assert_same(film.read(), fresh)
@@ -245,7 +245,7 @@ def test_later_samples_do_read_the_source(film: Film, step: Step) -> None:
 def test_one_dispatch_of_many_samples_equals_many_of_one(film: Film, step: Step) -> None:
     step(film, 16)
     together = film.read()
-    film.restart(WIDTH, HEIGHT)
+    film.restart()
     for count in (1, 1, 5, 8, 1):
         step(film, count)
     assert film.samples == 16
@@ -294,7 +294,7 @@ def test_a_film_that_finds_no_room_gives_back_what_it_has_taken(
 
     monkeypatch.setattr(moderngl.Context, "texture", staticmethod(texture))
     with pytest.raises(RenderError, match="no room"):
-        Film(ctx, ctx.info["GL_MAX_TEXTURE_SIZE"] // 2, 1, layers=3)
+        Film(ctx, Extent(ctx.info["GL_MAX_TEXTURE_SIZE"] // 2, 1, layers=3))
     assert len(taken) == 3
     assert all(isinstance(found.mglo, moderngl.InvalidObject) for found in taken)
 
@@ -339,21 +339,14 @@ def test_an_empty_film_can_not_be_read(film: Film, step: Step) -> None:
     with pytest.raises(RenderError, match="empty"):
         film.read()
     step(film, 1)
-    film.restart(WIDTH, HEIGHT)
+    film.restart()
     with pytest.raises(RenderError, match="empty"):
         film.read()
 
 
-def test_a_film_of_another_size_is_another_film(ctx: moderngl.Context, film: Film) -> None:
-    film.restart(3, 5)
-    assert film.size == (3, 5)
-    assert {texture.size for texture in film.images().values()} == {(3, 5)}
-    assert ctx.error == "GL_NO_ERROR"
-
-
 def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> None:
     with pytest.raises(RenderError, match="no room on the driver for a film of 1000000 x 1"):
-        Film(ctx, 1_000_000, 1)
+        Film(ctx, Extent(1_000_000, 1))
 
 
 # --- standard error ------------------------------------------------------------------------

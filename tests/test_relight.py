@@ -204,7 +204,7 @@ def test_layers_sum_up_to_the_picture(context: Context) -> None:
     with layered(room(2, 0.5), context) as renderer:
         renderer.render(32)
         with context.gl:
-            film = renderer._film.read()
+            film = renderer.film.read()
         halves = film.layers[..., :3].sum(axis=1)
         assert np.allclose(halves.mean(axis=0), film.mean, rtol=1e-4, atol=1e-6)
         assert (film.layers[..., 3] == 16).all()

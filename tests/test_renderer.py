@@ -3,11 +3,15 @@
 from itertools import pairwise, product
 from typing import Any
 
+import moderngl
 import numpy as np
 import pytest
 
-from glrt.context import Context
+from glrt.context import Context, open_context
 from glrt.errors import RenderError, UsageError
+from glrt.kernel import Kernel
+from glrt.renderer import Renderer
+from glrt.uploaded import Uploaded
 from tests.builders import box_of_quads, lamp, plane, quad, room_of_planes, scene_of, sphere
 from tests.images import same_bits
 from tests.mixture import OBJECTS, everything
@@ -195,3 +199,57 @@ def test_error_falls_with_the_root_of_the_samples(context: Context) -> None:
     slope = np.polyfit(range(11), np.log2(errors), 1)[0]
     assert slope == pytest.approx(-0.5, abs=0.05)
     assert errors[0] > 1
+
+
+def test_a_renderer_that_is_refused_leaves_no_context_open(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    opened: list[Context] = []
+
+    def opening(*choice: Any) -> Context:
+        opened.append(open_context(*choice))
+        return opened[-1]
+
+    monkeypatch.setattr("glrt.renderer.open_context", opening)
+    with pytest.raises(RenderError, match="no room"):
+        Renderer(everything(), layering="groups", width=16384, height=16)
+    assert isinstance(opened[0].gl.mglo, moderngl.InvalidObject)
+
+
+def test_a_context_that_was_given_stays_open_when_a_renderer_is_refused(context: Context) -> None:
+    with pytest.raises(RenderError, match="no room"):
+        Renderer(everything(), None, context, layering="groups", width=16384, height=16)
+    assert rendered(everything(), context, 1).samples == 1
+
+
+@pytest.mark.parametrize("place", ["kernel", "scene"])
+def test_an_error_of_the_driver_ends_a_render_before_it_begins(
+    context: Context, monkeypatch: pytest.MonkeyPatch, place: str
+) -> None:
+    """It may show a wrong picture. What others left in the context is no fault of a render."""
+
+    def fails(self: Any, *arguments: Any) -> Any:
+        done = uploading(self, *arguments)
+        context.gl.enable_direct(0x1234)
+        return done
+
+    with context.gl:
+        context.gl.enable_direct(0x1234)
+    with rendering(everything(), context) as plain:
+        plain.render(1)
+        whole = {"kernel": (Kernel, "run_tiles"), "scene": (Uploaded, "_upload")}[place]
+        uploading = getattr(*whole)
+        monkeypatch.setattr(*whole, fails)
+        with pytest.raises(RenderError, match=r"the driver refuses .* GL_INVALID_ENUM"):
+            rendered(everything(), context)
+        monkeypatch.undo()
+        assert plain.render(3).samples == 3
+
+
+@pytest.mark.parametrize("samples", [0, 2])
+def test_as_many_samples_as_are_asked_for_even_none(context: Context, samples: int) -> None:
+    with rendering(everything(), context, samples=5) as plain:
+        assert plain.render(samples).samples == samples
+        assert plain.advance(10.0, samples) is False
+        assert plain.samples == samples
+        assert plain.render().samples == 5

@@ -269,7 +269,6 @@ def test_advance_ends_with_its_time(context: Context, monkeypatch: pytest.Monkey
         monkeypatch.undo()
         looked = next(ticks)
         assert 8 <= looked <= 12
-        assert renderer.longest_dispatch == pytest.approx(0.01)
 
 
 @pytest.mark.usefixtures("tiny_dispatches")

@@ -1,11 +1,14 @@
 """Edits of a running render: what each costs, and that none leaves anything behind."""
 
+from collections.abc import Callable
 from typing import Any
 
+import moderngl
 import pytest
 
+from glrt import turns, uploaded
 from glrt.context import Context
-from glrt.errors import SceneError, UsageError
+from glrt.errors import RenderError, SceneError, UsageError
 from glrt.scene import Scene
 from glrt.settings import Cost, Settings
 from tests.builders import glass, lamp, quad, sphere
@@ -143,3 +146,73 @@ def test_refused_update_changes_nothing(
             renderer.update(scene, **change)
         assert renderer.samples == 2
         assert same(renderer.render(4).image(), rendered(everything(), context, 4))
+
+
+def test_an_update_that_the_driver_refuses_changes_nothing(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A film whose layers are wider than any texture, and a kernel; in a frame that has begun."""
+
+    def refuse(*_: object) -> None:
+        raise RenderError("not this kernel")
+
+    monkeypatch.setattr("glrt.renderer.INTERACTIVE_LIMIT", 1e-12)
+    with rendering(everything(), context, layering="groups") as renderer:
+        renderer.render(2)
+        renderer.advance(0.0, 9)
+        assert renderer.work > 2
+        before = renderer.scene, renderer.settings, renderer.plan
+        with pytest.raises(RenderError, match="no room"):
+            renderer.update(RESTARTING["a turn"], width=16384)
+        with monkeypatch.context() as patch:
+            patch.setattr(turns, "compiled", refuse)
+            with pytest.raises(RenderError, match="not this kernel"):
+                renderer.update(method="naive")
+        assert (renderer.scene, renderer.settings, renderer.plan) == before
+        assert renderer.samples == 2
+        assert same(
+            renderer.render(4).image(), rendered(everything(), context, 4, layering="groups")
+        )
+
+
+def test_a_refused_update_keeps_nothing_on_the_driver(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[Any] = []
+
+    def noting(make: Callable[..., Any]) -> Callable[..., Any]:
+        def noted(*given: Any, **more: Any) -> Any:
+            made.append(make(*given, **more))
+            return made[-1]
+
+        return noted
+
+    with rendering(everything(), context) as renderer:
+        for name in ("texture", "buffer", "compute_shader"):
+            noted = staticmethod(noting(getattr(context.gl, name)))
+            monkeypatch.setattr(moderngl.Context, name, noted)
+        monkeypatch.setattr(Context, "finish", refusing)
+        with pytest.raises(RenderError, match="device lost"):
+            renderer.update(RESTARTING["a turn"], method="naive", width=20)
+        monkeypatch.undo()
+    kinds = {type(thing) for thing in made}
+    assert kinds == {moderngl.Texture, moderngl.Buffer, moderngl.ComputeShader}
+    assert all(isinstance(thing.mglo, moderngl.InvalidObject) for thing in made)
+
+
+def refusing(_: Context) -> None:
+    raise RenderError("device lost")
+
+
+def test_settings_alone_pack_no_scene_and_moves_assemble_no_kernel(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with rendering(everything(), context) as renderer:
+        monkeypatch.setattr(uploaded, "sources", None)
+        assert renderer.update(RESTARTING["a millionth of a step"]) is Cost.RESTART
+        monkeypatch.setattr(uploaded, "pack_scene", None)
+        assert renderer.update(seed=3, width=20) is Cost.RESTART
+        monkeypatch.undo()
+        moved = RESTARTING["a millionth of a step"]
+        alone = rendered(moved, context, 3, seed=3, width=20)
+        assert same(renderer.render(3).image(), alone)

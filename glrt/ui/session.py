@@ -239,17 +239,7 @@ class Session:
         if not self.renderer:
             self.renderer = self._open(wanted)
             return self._begin()
-        before = State(self.renderer.scene, self.renderer.settings)
-        try:
-            self.last_cost = self.renderer.update(
-                wanted.scene, self.layering, **dict(wanted.settings)
-            )
-        except RenderError:  # half done: no room for a film, or a kernel that is refused
-            self.renderer.release()
-            self.renderer = None
-            self.renderer = self._open(before)
-            self._begin()
-            raise
+        self.last_cost = self.renderer.update(wanted.scene, self.layering, **dict(wanted.settings))
         if self.last_cost in (Cost.RESTART, Cost.RECOMPILE):
             self._begin()
         return None

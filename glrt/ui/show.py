@@ -98,7 +98,7 @@ class Show:
         if session.busy or self.view == "picture" or not renderer:
             return session.busy
         if self.view == "error" and not self._knows_error(session):
-            return f"The error is known after {2 * renderer.film.block} samples"
+            return f"The error is known after {2 * renderer.film.extent.block} samples"
         if self.view != "difference":
             return ""
         if not kept:
@@ -133,7 +133,7 @@ class Show:
     def _knows_error(self, session: Session) -> bool:
         """Whether there are two observations, and a look at the picture or at the one before."""
         film = session.renderer and session.renderer.film
-        return bool(film and self.mean is not None and film.samples >= 2 * film.block)
+        return bool(film and self.mean is not None and film.samples >= 2 * film.extent.block)
 
     def _draw(
         self, session: Session, renderer: Renderer, view: View, other: moderngl.Texture | None
