@@ -9,7 +9,6 @@ both the same ones, and what one family did wrong would show as an error.
 import hashlib
 import json
 import os
-import re
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -24,12 +23,12 @@ from numpy.typing import ArrayLike, NDArray
 from glrt import files
 from glrt.context import Context
 from glrt.errors import RenderError, SceneError
+from glrt.lab.edited import Edit, edited
 from glrt.renderer import Renderer
 from glrt.resources import folder
 from glrt.scene import Dielectric, Lambertian, Light, Material, Metal, Scene
 from glrt.scene_file import scene_to_dict
 from glrt.settings import Settings, settings_for
-from glrt.shader import read
 from glrt.stats import DARK
 from glrt.version import VERSION
 
@@ -129,7 +128,6 @@ def _gives_back(material: Material, emission: tuple[float, ...], level: float) -
     return all(emitted + albedo * level == level for emitted, albedo in pairs)
 
 
-_HASH = re.compile(r"^uint pcg_hash\(uint x\) \{\n.*?^\}\n", re.MULTILINE | re.DOTALL)
 # Wellons, "Prospecting for Hash Functions" (2018): the constants of least bias that he found.
 _OTHER_HASH = """uint pcg_hash(uint x) {
     x = (x ^ (x >> 16u)) * 0x7FEB352Du;
@@ -137,16 +135,9 @@ _OTHER_HASH = """uint pcg_hash(uint x) {
     return x ^ (x >> 16u);
 }
 """
-
-
-class OtherNumbers(Renderer):
-    """Takes its random numbers from a hash by shifts and products, where others have PCG's."""
-
-    def _parts(self) -> dict[str, str]:
-        text, count = _HASH.subn(_OTHER_HASH, read("rng.glsl"))
-        if count != 1:
-            raise KeyError(f"rng.glsl holds {count} functions `pcg_hash`, not one")
-        return {**super()._parts(), "rng.glsl": text}
+_HEAD = "uint pcg_hash(uint x) {"
+# Takes its random numbers from a hash by shifts and products, where others have PCG's.
+OtherNumbers = edited(Edit("rng.glsl", _HEAD, f"{_OTHER_HASH}\nuint unused(uint x) {{"))
 
 
 def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:
