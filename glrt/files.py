@@ -33,8 +33,8 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
                 temporary.unlink(missing_ok=True)
     except _WRITE_FAILURES as error:
         raise RenderError(
-            f"Cannot write {path}: {reason(error)}. What stood there is as it was; make room, "
-            "or choose another place."
+            f"Cannot write {path}: {reason(error)}. Nothing was written there; make room, or "
+            "choose another place."
         ) from error
 
 

@@ -54,6 +54,8 @@ class Renderer:
         `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
+        if not isinstance(scene, Scene):
+            raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
         self._owns_context = not isinstance(context, Context)

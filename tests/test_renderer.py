@@ -65,6 +65,12 @@ def test_dispatch_of_the_most_samples_loses_no_round_of_a_loop(
     assert same(*pictures)
 
 
+def test_the_name_of_a_scene_is_not_taken_for_one() -> None:
+    name: Any = "cornell"
+    with pytest.raises(UsageError, match="a Scene is wanted, got 'cornell': glrt.load reads one"):
+        Renderer(name)
+
+
 def test_dispatch_of_the_most_samples_equals_single_ones(context: Context) -> None:
     """In a closed room with light sampling: two rays a segment, over seven shapes."""
     walls = room_of_planes("white")
