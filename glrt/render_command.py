@@ -136,8 +136,8 @@ def _tell(
                 "driver runs loops. Where they are many the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
-        if missing := omissions(renderer.scene, renderer.settings):
-            print(left_out(renderer.settings, missing), file=sys.stderr)
+    if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
+        print(left_out(renderer.settings, missing), file=sys.stderr)
 
 
 def _figures(

@@ -69,10 +69,13 @@ def test_a_lens_is_told_of_the_methods_without_one() -> None:
 
 def test_commands_say_what_is_left_out(tmp_path: Any) -> None:
     size = ("--width", "8", "--height", "8", "--samples", "2")
-    done = glrt("render", "cornell", "-o", tmp_path / "a.png", *size, "--method", "whitted")
-    assert done.returncode == 0
-    assert "Method whitted leaves light out, which no estimated error contains: no indirect" in (
-        done.stderr
-    )
+    command = ("render", "cornell", "-o", tmp_path / "a.png", *size, "--method", "whitted")
+    for option in ((), ("--json",)):
+        done = glrt(*command, *option)
+        assert done.returncode == 0
+        assert "Method whitted leaves light out, which no estimated error contains: no" in (
+            done.stderr
+        )
+    assert glrt(*command, "--quiet").stderr == ""
     assert "no indirect light" in glrt("inspect", "cornell", "--method", "cook").stdout
     assert "leaves light out" not in glrt("inspect", "cornell").stdout

@@ -67,7 +67,7 @@ def test_dispatch_of_the_most_samples_loses_no_round_of_a_loop(
 
 def test_the_name_of_a_scene_is_not_taken_for_one() -> None:
     name: Any = "cornell"
-    with pytest.raises(UsageError, match="a Scene is wanted, got 'cornell': glrt.load reads one"):
+    with pytest.raises(UsageError, match=r"a Scene is wanted, got 'cornell': glrt\.load reads"):
         Renderer(name)
 
 
