@@ -128,3 +128,12 @@ def _rename(temporary: Path, target: Path) -> None:
     with temporary.open("rb+") as file:
         os.fsync(file.fileno())  # a full disk may speak up only here
     os.replace(temporary, target)
+
+
+def unused(name: str) -> str:
+    """The name of a file, with a number if there is one by that name: it is not ours to replace."""
+    path, number = Path(name), 1
+    while path.exists():
+        number += 1
+        path = path.with_stem(f"{Path(name).stem}-{number}")
+    return str(path)

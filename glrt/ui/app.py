@@ -1,16 +1,19 @@
 """What the window's parts share, and the commands that buttons and keys give."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from imgui_bundle import imgui
 
-from glrt.errors import GlrtError
+from glrt.errors import GlrtError, UsageError
+from glrt.files import unused
 from glrt.library import load, load_recipe, scene_file_of
 from glrt.recipe import Recipe
-from glrt.scene import Camera, Scene, Shape, Vector
+from glrt.scene import LARGEST, SMALLEST, Camera, Scene, Shape, Vector
 from glrt.settings import RenderSettings, settings_for
 from glrt.shader import files_anew
 from glrt.ui import orbit
@@ -68,16 +71,27 @@ class App:
         """The camera as edited."""
         return self.session.scene.camera
 
-    def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
-        """Replace the scene by what is made of it; a scene that does not fit is told."""
+    @contextmanager
+    def telling(self) -> Iterator[None]:
+        """Tell the user of an error, and go on."""
         try:
-            self.session.edit(make(self.session.scene), gesture)
+            yield
         except GlrtError as error:
             self.complain(str(error))
 
+    def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
+        """Replace the scene by what is made of it; a scene that does not fit is told."""
+        with self.telling():
+            self.session.edit(make(self.session.scene), gesture)
+
     def place(self, camera: Camera) -> None:
         """Put the camera somewhere else; moves in a row are one step to undo."""
-        self.edit_scene("camera", lambda scene: replaced(scene, camera=camera))
+        self.session.edit(self.session.scene.model_copy(update={"camera": camera}), "camera")
+
+    def _move(self, motion: Callable[..., Camera], *how: Any) -> None:
+        """Move the camera as one of `orbit` does; where that ends, the camera stops."""
+        with suppress(UsageError):
+            self.place(motion(self.camera, *how))
 
     def home(self) -> None:
         """Back to the camera that the scene came with."""
@@ -97,32 +111,27 @@ class App:
 
     def open(self, source: str) -> None:
         """Another scene, or the scene, view and settings of a picture."""
-        try:
+        with self.telling():
             scene, recipe = load_recipe(source)
-        except GlrtError as error:
-            return self.complain(str(error))
-        self._take(scene, recipe or scene.render)
-        self._came_from(source)
-        self.tell(f"Opened {source}")
-        return None
+            self._take(scene, recipe or scene.render)
+            self._came_from(source)
+            self.tell(f"Opened {source}")
 
     def paste_recipe(self) -> None:
         """The scene, view and settings that a recipe in the clipboard tells."""
-        try:
+        with self.telling():
             recipe = Recipe.from_json(imgui.get_clipboard_text(), "The clipboard")
-        except GlrtError as error:
-            return self.complain(str(error))
-        self._take(recipe.scene, recipe.taken)
-        self._came_from("")
-        self.tell("Opened the recipe in the clipboard")
-        return None
+            self._take(recipe.scene, recipe.taken)
+            self._came_from("")
+            self.tell("Opened the recipe in the clipboard")
 
     def copy_recipe(self) -> None:
         """Put the recipe of the picture into the clipboard, as one line of JSON."""
-        recipe = self.session.image().recipe
-        assert recipe
-        imgui.set_clipboard_text(recipe.to_json())
-        self.tell("Copied the recipe of this picture")
+        with self.telling():
+            recipe = self.session.image().recipe
+            assert recipe
+            imgui.set_clipboard_text(recipe.to_json())
+            self.tell("Copied the recipe of this picture")
 
     def _came_from(self, source: str) -> None:
         """A scene that came from a file is saved there again, and another one elsewhere."""
@@ -144,37 +153,28 @@ class App:
 
     def reload_shaders(self) -> None:
         """Compile the shader files as they are now; what the driver refuses is told."""
-        try:
-            with files_anew():
-                self.picture.reload_shaders()
-                self.session.reload_shaders()
-        except GlrtError as error:
-            self.complain(str(error))
+        with self.telling(), files_anew():
+            self.picture.reload_shaders()
+            self.session.reload_shaders()
 
     def reload(self) -> None:
         """The scene as its file has it now; the camera and the settings stay."""
-        try:
+        with self.telling():
             scene = replaced(load(self.source), camera=self.camera)
-        except GlrtError as error:
-            return self.complain(str(error))
-        self.session.problem = ""
-        self.session.edit(scene)
-        self.tell(f"Read {self.source} again")
-        return None
+            self.session.problem = ""
+            self.session.edit(scene)
+            self.tell(f"Read {self.source} again")
 
     def save_scene(self, path: str = "") -> None:
         """Write the scene as it is to a path, by default to the one in its text box."""
         self.scene_path = path or self.scene_path
         whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
-        try:
+        with self.telling():
             model = scene_file_of(self.source) if self.source else None
             has_comments = write_scene(whole, file, model)
-        except GlrtError as error:
-            return self.complain(str(error))
-        self.source, self.watch = str(file), watch_for(str(file))
-        lost = "" if has_comments or not model else f", without the comments of {model.name}"
-        self.tell(f"Saved {file}{lost}")
-        return None
+            self.source, self.watch = str(file), watch_for(str(file))
+            lost = "" if has_comments or not model else f", without the comments of {model.name}"
+            self.tell(f"Saved {file}{lost}")
 
     @property
     def selected_shape(self) -> Shape | None:
@@ -191,25 +191,32 @@ class App:
     def frame_selected(self) -> None:
         """Look at the selected object so that it fills the frame."""
         if shape := self.selected_shape:
-            self.pivot = middle(shape)
-            self.place(orbit.framed(self.camera, middle(shape), reach(shape)))
+            with self.telling():
+                self.place(orbit.framed(self.camera, middle(shape), reach(shape)))
+                self.pivot = middle(shape)
 
     def focus_on(self, point: Vector) -> None:
         """Make a point sharp; one behind the camera is left alone."""
         depth = orbit.depth_of(self.camera, point)
         if depth > 0:
-            self.place(replaced(self.camera, focus_distance=depth))
+            near = max(SMALLEST, min(depth, LARGEST))
+            self.place(replaced(self.camera, focus_distance=near))
+
+    def turn_about(self, point: Vector) -> None:
+        """Make a point the pivot; no camera comes to one beyond all lengths."""
+        if all(abs(part) <= LARGEST for part in point):
+            self.pivot = point
+        else:
+            self.complain("That point is too far away to turn about.")
 
     def save(self, path: str = "") -> None:
         """Write the picture, with its recipe, to a path, by default to the one in its text box."""
         self.save_path = path or self.save_path
         if not self.session.renderer or not self.session.samples:
             return self.complain("There is no picture yet.")
-        try:
+        with self.telling():
             self.session.image().save(self.save_path)
-        except GlrtError as error:
-            return self.complain(str(error))
-        self.tell(f"Saved {self.save_path}")
+            self.tell(f"Saved {self.save_path}")
         return None
 
     def tell(self, message: str) -> None:
@@ -240,7 +247,8 @@ class App:
 
     def keep(self) -> None:
         """Keep the picture as A, to compare it with what comes."""
-        self.show.keep(self.session)
+        with self.telling():
+            self.show.keep(self.session)
 
     def look(self, now: float) -> None:
         """Estimate the error where that is due."""
@@ -250,45 +258,37 @@ class App:
             return
         picture = session.restarts, session.weights
         if self.progress.is_due(picture, session.samples, now, session.is_done):
-            look = look_at(renderer.film, session.weights, session.rendering)
-            self.progress.record(look, now)
-            self.show.mean = look.mean if look else self.show.mean
+            with self.telling():
+                look = look_at(renderer.film, session.weights, session.rendering)
+                self.progress.record(look, now)
+                self.show.mean = look.mean if look else self.show.mean
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         """Turn by a drag, given as shares of the window's width and height."""
         yaw = -across * self.preferences.turn_speed
         pitch = -down * self.preferences.turn_speed * (-1 if self.preferences.invert else 1)
         if about_camera:
-            self.place(orbit.looked(self.camera, yaw, pitch))
+            self._move(orbit.looked, yaw, pitch)
         else:
-            self.place(orbit.orbited(self.camera, self.pivot, yaw, pitch))
+            self._move(orbit.orbited, self.pivot, yaw, pitch)
 
     def shift(self, across: float, down: float) -> None:
         """Shift by a drag so that what is as far as the pivot follows the mouse, about."""
-        self.place(orbit.moved(self.camera, -across * self.reach, down * self.reach, 0))
+        self._move(orbit.moved, -across * self.reach, down * self.reach, 0)
 
     def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
         """Step along the camera's axes, at the speed that is preferred."""
         step = seconds * self.preferences.walk_speed * self.reach
-        self.place(orbit.moved(self.camera, right * step, up * step, forward * step))
+        self._move(orbit.moved, right * step, up * step, forward * step)
 
     def wheel(self, clicks: float) -> None:
         """Towards the pivot; in fly mode straight on."""
         clicks *= self.preferences.wheel_speed
         if self.preferences.mode == "orbit":
-            return self.place(orbit.dollied(self.camera, self.pivot, clicks))
-        return self.place(orbit.moved(self.camera, 0, 0, 0.1 * clicks * self.reach))
+            return self._move(orbit.dollied, self.pivot, clicks)
+        return self._move(orbit.moved, 0, 0, 0.1 * clicks * self.reach)
 
     @property
     def reach(self) -> float:
         """The distance that speeds are measured in: to the pivot."""
         return max(orbit.distance_to(self.camera, self.pivot), 1e-6)
-
-
-def unused(name: str) -> str:
-    """The name of a file, with a number if there is one by that name: it is not ours to replace."""
-    path, number = Path(name), 1
-    while path.exists():
-        number += 1
-        path = path.with_stem(f"{Path(name).stem}-{number}")
-    return str(path)

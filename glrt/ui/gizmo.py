@@ -27,8 +27,10 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
         matrix,
     )
     if changed and app.selected is not None:
-        index, moved = app.selected, moved_to(shape, matrix.values)
-        app.edit_scene(f"object {index}", lambda scene: with_object(scene, index, moved))
+        index, values = app.selected, matrix.values
+        app.edit_scene(
+            f"object {index}", lambda scene: with_object(scene, index, moved_to(shape, values))
+        )
 
 
 def is_held(app: App) -> bool:

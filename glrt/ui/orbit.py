@@ -2,6 +2,9 @@
 
 Angles are in degrees. A drag is a share of the window's width and height, so that it turns the
 camera as far in a small window as in a large one. Vectors are float64.
+
+A motion to where a camera cannot be is a `UsageError`, and so is one to where float64 would not
+tell the direction that it looks in.
 """
 
 import math
@@ -9,12 +12,16 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.scene import Camera, Vector
+from glrt.errors import UsageError
+from glrt.scene import SMALLEST, Camera, Vector
+from glrt.ui.controls import replaced
 
 Array = NDArray[np.float64]
 
 POLE = 1.0  # degrees between the view and straight up or down that are kept free
 WHEEL = 0.9  # share of the distance that a click of the wheel leaves
+MOST_CLICKS = 100  # of a step: those beyond are dropped
+NEAREST = 1e-10  # to what is looked at, in largest coordinates: float64 tells directions there
 
 
 def axes(camera: Camera) -> tuple[Array, Array, Array]:
@@ -46,13 +53,14 @@ def looked(camera: Camera, yaw: float, pitch: float) -> Camera:
 
 def moved(camera: Camera, right: float, up: float, forward: float) -> Camera:
     """Shift the camera along its own axes, in scene units."""
-    step = right * axes(camera)[0] + up * axes(camera)[1] + forward * axes(camera)[2]
+    x, y, z = axes(camera)
+    step = right * x + up * y + forward * z
     return _placed(camera, _array(camera.position) + step, _array(camera.look_at) + step)
 
 
 def dollied(camera: Camera, pivot: Vector, clicks: float) -> Camera:
     """Shift the camera by clicks of the wheel towards a point, which it never reaches."""
-    center, share = _array(pivot), WHEEL**clicks
+    center, share = _array(pivot), WHEEL ** max(-MOST_CLICKS, min(clicks, MOST_CLICKS))
     return _placed(
         camera,
         center + share * (_array(camera.position) - center),
@@ -60,14 +68,9 @@ def dollied(camera: Camera, pivot: Vector, clicks: float) -> Camera:
     )
 
 
-def aimed(camera: Camera, target: Vector) -> Camera:
-    """Look at a point from where the camera stands."""
-    return _placed(camera, _array(camera.position), _array(target))
-
-
 def framed(camera: Camera, center: Vector, radius: float) -> Camera:
     """Look at a ball from the side that the camera is on, so that it just fits into the frame."""
-    distance = radius / math.sin(math.radians(camera.fov) / 2)
+    distance = radius / max(math.sin(math.radians(camera.fov) / 2), SMALLEST)
     forward = axes(camera)[2]
     return _placed(camera, _array(center) - distance * forward, _array(center))
 
@@ -102,9 +105,20 @@ def rotation(axis: Array, angle: float) -> Array:
 
 
 def _placed(camera: Camera, position: Array, look_at: Array) -> Camera:
-    return Camera.model_validate(
-        {**dict(camera), "position": _vector(position), "look_at": _vector(look_at)}
-    )
+    """The camera elsewhere; one that is nearer than `NEAREST` already can come back."""
+    placed = replaced(camera, position=_vector(position), look_at=_vector(look_at))
+    as_near = 0.999 * _nearness(camera)  # but for the rounding of coordinates
+    if _nearness(placed) < min(NEAREST, as_near):
+        raise UsageError(
+            f"The camera cannot be nearer to what it looks at than {NEAREST:g} of the largest "
+            "coordinate of both."
+        )
+    return placed
+
+
+def _nearness(camera: Camera) -> float:
+    """The length of the view, in units of the largest coordinate."""
+    return math.hypot(*camera.view) / max(map(abs, (*camera.position, *camera.look_at)))
 
 
 def _array(value: Vector) -> Array:

@@ -143,7 +143,7 @@ def _clicks(app: App, share: tuple[float, float]) -> None:
         return
     if imgui.is_mouse_double_clicked(left):
         if picked := app.pick(*share):
-            app.pivot = picked.point
+            app.turn_about(picked.point)
     elif imgui.is_mouse_released(left) and not _was_dragged():
         picked = app.pick(*share)
         if picked and imgui.get_io().key_alt:

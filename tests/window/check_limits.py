@@ -1,0 +1,105 @@
+"""Whatever a user does, to its extremes: the window goes on, and tells what cannot be."""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from imgui_bundle import imgui
+
+from glrt.scene import LARGEST, SMALLEST, Scene
+from glrt.ui import orbit
+from glrt.ui.controls import replaced
+from glrt.ui.place import with_object
+from tests.builders import lamp, plane, scene_of
+from tests.window.gestures import ball, drag, reopen
+from tests.window.hand import Hand, check
+
+MOST_EVENTS = 1000  # of a wheel that spins freely
+
+
+def goes_on(hand: Hand) -> None:
+    """The window has frames, and the picture has samples."""
+    hand.settle()
+    samples = hand.session.samples
+    hand.until(lambda: hand.session.samples > samples)
+
+
+def moved_on(hand: Hand, move: Callable[[], None]) -> None:
+    """Move the camera again and again, until it stops."""
+
+    def again() -> None:
+        for _ in range(MOST_EVENTS):
+            before = hand.window.app.camera
+            move()
+            if hand.window.app.camera == before:
+                return
+        raise AssertionError("it does not stop")
+
+    hand.there(again)
+    goes_on(hand)
+
+
+@check
+def a_wheel_that_spins_freely_stops_at_the_limits(hand: Hand) -> None:
+    app, start = hand.window.app, hand.session.scene.camera
+    for mode, clicks in (("orbit", 1.0), ("orbit", -1.0), ("orbit", -45.0), ("fly", -9.0)):
+        hand.there(partial(app.prefer, replaced(app.preferences, mode=mode)))
+        moved_on(hand, partial(app.wheel, clicks))
+        assert np.dot(orbit.axes(app.camera)[2], orbit.axes(start)[2]) > 1 - 1e-6
+        hand.begin()
+    hand.ctx.mouse_move("//Picture/picture")
+    for clicks in (1e6, -1e6):
+        hand.ctx.mouse_wheel_y(clicks)
+        goes_on(hand)
+    hand.ctx.key_press(imgui.Key.home.value)
+    hand.settle()
+    assert hand.session.scene.camera == start
+
+
+@check
+def a_walk_without_end_stops_at_the_limits(hand: Hand) -> None:
+    app = hand.window.app
+    for right, up, forward in ((0.0, 0.0, -1.0), (1.0, -1.0, 0.0)):
+        moved_on(hand, partial(app.walk, right, up, forward, 5.0))
+        drag(hand, 60, 20)
+        drag(hand, 20, -30, button=1)
+        drag(hand, -20, -30, button=2)
+        goes_on(hand)
+        hand.there(app.home)
+
+
+@check
+def the_horizon_is_no_place_that_ends_the_window(hand: Hand) -> None:
+    """A click near the horizon of a plane meets it beyond all lengths that a scene can have."""
+    app = hand.window.app
+    floor = plane([0, -1, 0], [1e-17, 1, 0], "lamp")
+    hand.there(lambda: hand.session.edit(scene_of([floor], {"lamp": lamp()}, {"up": [1, 0, 0]})))
+    hand.settle()
+    for point in ((0.0, -1.0, -1e16), (1e300, -1.0, -1e300), (0.0, -1e-16, -1e-16)):
+        hand.there(partial(app.focus_on, point))
+        hand.there(partial(app.turn_about, point))
+        assert SMALLEST <= app.camera.resolved_focus_distance <= LARGEST
+        hand.there(lambda: app.wheel(1.0))
+        drag(hand, 20, 10)
+    assert "too far away" in hand.session.problem
+    reopen(hand)
+
+
+@check
+def an_object_of_any_size_is_framed_or_told(hand: Hand) -> None:
+    app, (number, shape) = hand.window.app, ball(hand)
+    for radius in (LARGEST, SMALLEST, 1e9):
+        hand.there(partial(hand.session.edit, sized(hand, number, radius)))
+        app.selected, before = number, app.camera
+        hand.there(app.frame_selected)
+        goes_on(hand)
+        assert (app.camera.look_at == shape.center) == (radius == 1e9)
+        assert bool(hand.session.problem) == (app.camera == before)
+        hand.session.problem = ""
+    hand.begin()
+    app.selected = None
+
+
+def sized(hand: Hand, number: int, radius: float) -> Scene:
+    scene = hand.session.scene
+    return with_object(scene, number, replaced(scene.objects[number], radius=radius))
