@@ -21,7 +21,7 @@ from glrt.recipe import Recipe, traced
 from glrt.relight import ONE, Layering, Weights, are_trivial, plan_for
 from glrt.resume import fitting
 from glrt.scene import Scene
-from glrt.schedule import HEADLESS_LIMIT, INTERACTIVE_LIMIT, INTERACTIVE_PATIENCE
+from glrt.schedule import HEADLESS, INTERACTIVE, Rhythm
 from glrt.settings import Cost, Settings, settings_for
 from glrt.tracer import Tracer
 from glrt.uploaded import Way
@@ -167,8 +167,7 @@ class Renderer:
         target = self.settings.samples if samples is None else samples
         before, start, spent = self.samples, time.perf_counter(), 0.0
         while self.samples < target and spent <= ENOUGH * seconds:
-            left = min(seconds - spent, INTERACTIVE_LIMIT / 2)
-            self._work(target - self.samples, left, INTERACTIVE_PATIENCE)
+            self._work(target - self.samples, INTERACTIVE, seconds - spent)
             spent = time.perf_counter() - start
         return self.samples != before
 
@@ -181,7 +180,7 @@ class Renderer:
         """
         target = self.settings.samples if samples is None else samples
         while self.samples < target:
-            self._work(target - self.samples, HEADLESS_LIMIT / 2)
+            self._work(target - self.samples, HEADLESS)
             if goes_on and not goes_on(self):
                 break
         return self
@@ -235,6 +234,6 @@ class Renderer:
         """Texts that stand in for shader files."""
         return {}
 
-    def _work(self, remaining: int, seconds: float, patience: float = math.inf) -> None:
+    def _work(self, remaining: int, rhythm: Rhythm, seconds: float = math.inf) -> None:
         with self.context.gl:
-            self._tracer.work_on(remaining, seconds, patience)
+            self._tracer.work_on(remaining, rhythm, seconds)

@@ -15,19 +15,29 @@ from glrt.needs import few_lights, has_tree, is_light
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 
-# What no dispatch may exceed, in seconds: drivers end those of some seconds, and progress,
-# interruption and a window are to stay prompt. Dispatches are planned for half of it.
-HEADLESS_LIMIT, INTERACTIVE_LIMIT = 0.5, 0.1
-INTERACTIVE_PATIENCE = 1.0  # seconds: a picture that is looked at changes this often
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
 TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
 GROWTH = 4  # of the work from one dispatch to the next, at most
-# Samples of a frame: a share of those that the picture has, so that little is lost when a frame is
-# not completed; more together are hardly faster (docs/speed.md).
-FRAME_SHARE, ENOUGH_SAMPLES = 1 / 8, 16
+MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/speed.md)
 HIGHLIGHT_ROUNDS = 52  # of the powers of a highlight, whose exponents stay below 2^24
 _GOLDEN = 0.618
+
+
+class Rhythm(NamedTuple):
+    """How often a render stops: to be told to end, or to show what it has."""
+
+    limit: float  # seconds that no dispatch may exceed: drivers end those of some seconds
+    share: (
+        float  # of the samples that the picture has: so many a frame may add, and lose if it ends
+    )
+    patience: float  # seconds that a frame may take, if one sample takes no longer
+
+
+# Dispatches are planned for half of their limit. In a window it is edits that end a frame, which
+# begin the picture anew: nothing is lost then.
+HEADLESS = Rhythm(0.5, 1 / 8, math.inf)
+INTERACTIVE = Rhythm(0.1, 1 / 4, 1.0)
 
 
 def iterations_per_sample(
@@ -139,20 +149,19 @@ class Schedule:
         self.drop()
 
     def next_portion(
-        self, remaining: int, seconds: float, held: int = 0, patience: float = math.inf
+        self, remaining: int, seconds: float, held: int = 0, rhythm: Rhythm = HEADLESS
     ) -> Portion:
         """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds.
 
-        The picture holds `held` samples; it is to change after `patience` seconds at the latest,
-        if a sample of it takes no longer.
+        The picture has `held` samples. Of a frame that has begun, `rhythm` changes nothing.
         """
         if self._samples > remaining:
             self.drop()
         if not self._done:
             at_once = self._fitting(seconds, self._cost) / self._tiles
-            together = min(held * FRAME_SHARE, ENOUGH_SAMPLES)
+            together = min(held * rhythm.share, MOST_TOGETHER)
             if self._cost:
-                together = min(together, patience / (self._cost * self._tiles))
+                together = min(together, rhythm.patience / (self._cost * self._tiles))
             self._samples = max(1, min(int(max(at_once, together)), self._most, remaining))
         left = self._tiles - self._done
         is_alone = self._samples == 1 and self._cost_alone

@@ -1,6 +1,5 @@
 """A plan on the driver: its scene, its film, and the kernel between them."""
 
-import math
 import time
 from contextlib import ExitStack
 
@@ -8,7 +7,14 @@ from glrt.context import Context
 from glrt.film import Extent, Film
 from glrt.kernel import tile_count
 from glrt.relight import Plan
-from glrt.schedule import Portion, Schedule, iterations_per_sample, most_samples, whole_frame
+from glrt.schedule import (
+    Portion,
+    Rhythm,
+    Schedule,
+    iterations_per_sample,
+    most_samples,
+    whole_frame,
+)
 from glrt.selftest import usable_rounds
 from glrt.settings import Cost
 from glrt.turns import AnyKernel, Turns
@@ -90,10 +96,10 @@ class Tracer:
         while self.film.samples < target:
             self._at_once(min(self.most_samples, target - self.film.samples))
 
-    def work_on(self, remaining: int, seconds: float, patience: float = math.inf) -> None:
+    def work_on(self, remaining: int, rhythm: Rhythm, seconds: float) -> None:
         """One dispatch that the schedule plans; all those of a frame read the same source."""
-        schedule = self.turns.schedule
-        portion = schedule.next_portion(remaining, seconds, self.film.samples, patience)
+        schedule, planned = self.turns.schedule, min(seconds, rhythm.limit / 2)
+        portion = schedule.next_portion(remaining, planned, self.film.samples, rhythm)
         start = time.perf_counter()
         self._dispatch(self.turns.kernel, portion)
         self._context.finish()

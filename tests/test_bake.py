@@ -14,6 +14,7 @@ from glrt.pipelines import compiled
 from glrt.relight import Layering
 from glrt.renderer import Renderer
 from glrt.scene import Lambertian, Scene, Sphere
+from glrt.schedule import INTERACTIVE
 from glrt.settings import Cost
 from glrt.ui.controls import replaced
 from glrt.ui.objects import with_material
@@ -85,7 +86,7 @@ def test_a_frame_that_has_begun_is_begun_again(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first dispatch of a kernel writes to it."""
-    monkeypatch.setattr("glrt.renderer.INTERACTIVE_LIMIT", 1e-12)
+    monkeypatch.setattr("glrt.renderer.INTERACTIVE", INTERACTIVE._replace(limit=1e-12))
     with rendering(everything(), context, **SMALL) as renderer:
         renderer.render(2)
         renderer.advance(0.0, 9)

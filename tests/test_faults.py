@@ -20,7 +20,7 @@ from glrt.image import Image
 from glrt.lab.reference import reference_for
 from glrt.library import load
 from glrt.renderer import Renderer
-from glrt.schedule import HEADLESS_LIMIT, Portion
+from glrt.schedule import HEADLESS, Portion, Rhythm
 from glrt.settings import Settings
 
 SMALL = ["--width", "24", "--height", "16", "--samples", "64"]
@@ -71,10 +71,10 @@ def test_a_folder_removed_during_a_render_costs_no_picture(
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     work = Renderer._work
 
-    def remove(self: Renderer, remaining: int, seconds: float) -> None:
+    def remove(self: Renderer, remaining: int, rhythm: Rhythm) -> None:
         if folder.exists():
             folder.rmdir()
-        work(self, remaining, seconds)
+        work(self, remaining, rhythm)
 
     monkeypatch.setattr(Renderer, "_work", remove)
     assert main(["render", "sky", *SMALL, "-o", str(folder / "a.png")]) == 4
@@ -217,7 +217,7 @@ def test_dispatches_that_take_too_long_become_smaller(
 
     def slow(portion: Portion, _: float) -> bool:
         planned.append(portion.samples * portion.tiles)
-        return record(portion, portion.samples * portion.tiles * HEADLESS_LIMIT / 40)
+        return record(portion, portion.samples * portion.tiles * HEADLESS.limit / 40)
 
     monkeypatch.setattr(renderer._tracer.turns.schedule, "record", slow)
     renderer.render(4)

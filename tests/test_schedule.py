@@ -15,13 +15,14 @@ from glrt.errors import UsageError
 from glrt.job import Interruption, Limits, run
 from glrt.renderer import Renderer
 from glrt.schedule import (
-    ENOUGH_SAMPLES,
     FIRST_TILES,
     GROWTH,
-    HEADLESS_LIMIT,
-    INTERACTIVE_LIMIT,
+    HEADLESS,
+    INTERACTIVE,
     MOST_TILES,
+    MOST_TOGETHER,
     Portion,
+    Rhythm,
     Schedule,
     stride_of,
     whole_frame,
@@ -44,13 +45,13 @@ def frames(
     seconds_for: Device,
     samples: int,
     budget: float = 0.25,
-    patience: float = math.inf,
+    rhythm: Rhythm = HEADLESS,
 ) -> list[list[tuple[Portion, float]]]:
     """The dispatches of each frame and what they took, to so many samples."""
     done = 0
     all_frames: list[list[tuple[Portion, float]]] = [[]]
     while done < samples:
-        portion = schedule.next_portion(samples - done, budget, done, patience)
+        portion = schedule.next_portion(samples - done, budget, done, rhythm)
         seconds = seconds_for(portion)
         all_frames[-1].append((portion, seconds))
         if schedule.record(portion, seconds):
@@ -71,7 +72,7 @@ def test_a_frame_covers_every_block_once_with_the_same_samples(tiles: int, cost:
         assert max(p.tiles for p in portions) <= MOST_TILES
 
 
-@pytest.mark.parametrize("limit", [HEADLESS_LIMIT, INTERACTIVE_LIMIT])
+@pytest.mark.parametrize("limit", [HEADLESS.limit, INTERACTIVE.limit])
 @pytest.mark.parametrize("tiles", [1, 64, 4096, 100_000])
 @pytest.mark.parametrize("cost", [1e-7, 1e-6, 1e-5, 1e-4, 2e-3])
 def test_no_dispatch_exceeds_its_limit_though_tiles_differ(
@@ -109,7 +110,7 @@ def test_frames_of_a_slow_picture_get_more_samples_as_it_has_more() -> None:
     held = 0
     for frame in all_frames:
         samples = frame[0][0].samples
-        assert samples == min(max(1, held // 8), ENOUGH_SAMPLES)
+        assert samples == min(max(1, held // 8), MOST_TOGETHER)
         held += samples
         assert max(seconds for _, seconds in frame) <= 0.2502
     assert held == 256
@@ -118,14 +119,14 @@ def test_frames_of_a_slow_picture_get_more_samples_as_it_has_more() -> None:
 
 def test_who_looks_at_a_picture_sees_it_change_before_long() -> None:
     for cost in (1e-5, 1e-4, 1e-3):
-        for frame in frames(Schedule(4096, 1000), device(cost), 200, 0.05, patience=1.0):
+        for frame in frames(Schedule(4096, 1000), device(cost), 200, 0.05, INTERACTIVE):
             whole = sum(seconds for _, seconds in frame)
-            assert whole <= 1.05 or frame[0][0].samples == 1
+            assert whole <= 1.05 * INTERACTIVE.patience or frame[0][0].samples == 1
 
 
 def test_a_picture_that_begins_anew_is_planned_by_what_a_single_sample_takes() -> None:
     schedule = Schedule(4096, 1000)
-    assert frames(schedule, lanes, 256)[-1][0][0].samples == ENOUGH_SAMPLES
+    assert frames(schedule, lanes, 256)[-1][0][0].samples == MOST_TOGETHER
     schedule.restart(4096, 1000, bounces=0)
     first = frames(schedule, lanes, 1)[0]
     assert max(seconds for _, seconds in first) <= 0.2502
@@ -192,8 +193,8 @@ def test_a_whole_frame_is_as_few_dispatches_as_every_driver_takes() -> None:
 def tiny_dispatches(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every dispatch takes one tile and one sample."""
     monkeypatch.setattr(schedule_module, "FIRST_TILES", 1)
-    monkeypatch.setattr(renderer_module, "HEADLESS_LIMIT", 1e-12)
-    monkeypatch.setattr(renderer_module, "INTERACTIVE_LIMIT", 1e-12)
+    for name, rhythm in (("HEADLESS", HEADLESS), ("INTERACTIVE", INTERACTIVE)):
+        monkeypatch.setattr(renderer_module, name, rhythm._replace(limit=1e-12))
 
 
 SHAPES: list[dict[str, Any]] = [

@@ -10,6 +10,7 @@ from glrt import turns, uploaded
 from glrt.context import Context
 from glrt.errors import RenderError, SceneError, UsageError
 from glrt.scene import Scene
+from glrt.schedule import INTERACTIVE
 from glrt.settings import Cost, Settings
 from tests.builders import glass, lamp, quad, sphere
 from tests.mixture import EYE, MATERIALS, OBJECTS, everything
@@ -156,7 +157,7 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
     def refuse(*_: object) -> None:
         raise RenderError("not this kernel")
 
-    monkeypatch.setattr("glrt.renderer.INTERACTIVE_LIMIT", 1e-12)
+    monkeypatch.setattr("glrt.renderer.INTERACTIVE", INTERACTIVE._replace(limit=1e-12))
     with rendering(everything(), context, layering="groups") as renderer:
         renderer.render(2)
         renderer.advance(0.0, 9)

@@ -254,8 +254,8 @@ class App:
         """Estimate the error where that is due."""
         session = self.session
         renderer = session.renderer
-        if session.is_preview or not renderer or not session.samples:
-            return
+        if session.is_preview or not renderer or session.samples < 2 * renderer.settings.block:
+            return  # of fewer samples no error is known, and reading them takes time
         picture = session.restarts, session.weights
         if self.progress.is_due(picture, session.samples, now, session.is_done):
             with self.telling():
