@@ -81,6 +81,9 @@ def change(renderer: Renderer, scene: Scene, chance: random.Random) -> None:
     """As the window does: another scene and other settings, some work, and what is shown."""
     renderer.update(scene, chance.choice(get_args(Layering)), **any_settings(chance))
     renderer.advance(0.05)
+    if chance.random() < 0.5:
+        renderer.bake()
+        renderer.advance(0.05)
     if renderer.samples:
         renderer.display()
         renderer.nonfinite()

@@ -16,7 +16,7 @@ from glrt.settings import Cost, settings_for
 from glrt.ui.controls import replaced
 from glrt.ui.pace import LEAST, Pace
 from glrt.ui.preview import STILL
-from glrt.ui.session import ANNOUNCED, Session
+from glrt.ui.session import ANNOUNCED, FIRST_SAMPLES, Session
 from tests.builders import MATTE, lamp, sphere
 from tests.mixture import everything
 
@@ -163,7 +163,8 @@ def test_a_moving_camera_is_shown_coarsely_when_samples_are_slow(
     clock.step = 0.02
     with monkeypatch.context() as patch:
         patch.setattr(Renderer, "advance", lambda renderer, *_: renderer.step(1))
-        for _ in range(20):
+        session.restart()
+        for _ in range(FIRST_SAMPLES):
             session.advance(0.01)  # learns that a sample takes twice the time of a frame
     session.edit(aside(session.scene), "camera")
     session.advance(0.01)

@@ -1,6 +1,6 @@
 """The scripted window tells what was measured."""
 
-from glrt.ui.tour import Frame, told
+from glrt.ui.tour import Frame, Wait, told, told_rest
 
 
 def test_a_drag_is_told_by_percentiles_and_by_what_was_seen_meanwhile() -> None:
@@ -8,3 +8,13 @@ def test_a_drag_is_told_by_percentiles_and_by_what_was_seen_meanwhile() -> None:
     head, _, row = told("cornell", frames)
     assert "100 frames" in head
     assert row.startswith("| cornell | 50 ms | 95 ms | 99 ms | 320 x 240 pixels, 1.5 samples")
+
+
+def test_a_rest_is_told_by_its_end_its_rate_and_its_frames() -> None:
+    frames = [0.001 * n for n in range(1, 102)]
+    waits = [Wait(False, 52.3, 1.824, frames), Wait(True, 17.2, 5.75, frames)]
+    _, _, *rows = told_rest("cornell", waits)
+    assert rows == [
+        "| without | 52.3 s | 1.82 | 51 ms | 100 ms | 101 ms |",
+        "| with the faster kernel | 17.2 s | 5.75 | 51 ms | 100 ms | 101 ms |",
+    ]

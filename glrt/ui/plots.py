@@ -31,7 +31,8 @@ def figures(app: App) -> list[str]:
     """What is known of the picture, line by line."""
     session, progress = app.session, app.progress
     width, height = session.renderer.size if session.renderer else (0, 0)
-    rate = session.samples * width * height / max(session.rendering, 1e-9)
+    work = session.renderer.work if session.renderer else 0.0
+    rate = work * width * height / max(session.rendering, 1e-9)
     preview = " (coarse while it moves)" if session.is_preview else ""
     lines = [
         f"{session.samples} of {session.settings.samples} samples{preview}",
@@ -87,7 +88,8 @@ def _kernel(app: App) -> None:
     inside = ", ".join(feature.name for feature in features if feature.present)
     layers = f"; {plan.layers} layers" if plan.layers else ""
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_disabled(f"{session.pipeline} kernel: {inside}{layers}")
+    baked = "; shapes written in while they rest" if session.renderer.is_baked else ""
+    imgui.text_disabled(f"{session.pipeline} kernel: {inside}{layers}{baked}")
     left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
     imgui.set_item_tooltip(f"left out\n{left_out}")
     imgui.text_disabled(session.renderer.context.renderer)

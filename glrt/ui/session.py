@@ -19,9 +19,11 @@ from glrt.scene import SKY_GROUP, Scene
 from glrt.settings import Cost, Settings, settings_for
 from glrt.ui.history import History
 from glrt.ui.preview import Preview
+from glrt.ui.rest import Rest
 from glrt.ui.room import Room
 
 ANNOUNCED = 2  # frames that say what is about to stop them
+FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
 
 
@@ -43,8 +45,10 @@ class Session:
         context: Context,
         clock: Callable[[], float] = time.perf_counter,
         pipeline: Pipeline = "auto",
+        rest: Rest | None = None,
     ) -> None:
         """Nothing is compiled before the first frames, which say that it will be."""
+        self.rest = rest
         self.pipeline = resolve(pipeline, context)
         self.state = self.opened = State(scene, settings_for(settings, crop=None))
         self.history: History[State] = History()
@@ -162,7 +166,8 @@ class Session:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
-            if self.samples < target:
+            is_short = self.samples < target
+            if is_short and not (self.rest and self.rest.follow(self.renderer, self.restarts)):
                 self._render(self.renderer, target, seconds)
 
     def reload_shaders(self) -> None:
@@ -185,6 +190,8 @@ class Session:
 
     def release(self) -> None:
         """Free what the driver holds."""
+        if self.rest:
+            self.rest.end()
         if self.renderer:
             self.renderer.release()
 
@@ -198,7 +205,8 @@ class Session:
         renderer.advance(seconds, target)
         spent, done = self._clock() - start, renderer.work - before
         self.rendering += spent
-        if done > 0:
+        is_early = renderer.samples <= FIRST_SAMPLES and not renderer.is_baked
+        if done > 0 and is_early:
             width, height = renderer.size
             self._preview.record(spent / (done * width * height))
 

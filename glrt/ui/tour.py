@@ -1,7 +1,7 @@
-"""The window, driven by a script: `python -m glrt.ui.tour drag`, or `film FILE.webp`.
+"""The window, driven by a script: `python -m glrt.ui.tour drag`, `rest`, or `film FILE.webp`.
 
-`drag` measures frames while the camera turns; `film` makes the README's moving picture. Without a
-display both use an X server without a screen, Xvfb.
+`drag` measures frames while the camera turns, `rest` while nothing is edited; `film` makes the
+README's moving picture. Without a display they use an X server without a screen, Xvfb.
 """
 
 import argparse
@@ -24,6 +24,7 @@ from glrt.settings import settings_for
 from glrt.ui.preferences import Preferences
 
 DRAG = 60  # frames
+WAITED = 256  # samples of a picture at rest
 WARM = 30  # frames before them, in which kernels are compiled and times learnt
 STEP = 0.004  # of the window's width that a frame of the drag turns by
 SHARES = (50, 95, 99)  # percentiles that are told
@@ -34,9 +35,9 @@ Script = Iterator[None]
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Measure a drag, or make the film."""
+    """Measure a drag or a rest, or make the film."""
     parser = argparse.ArgumentParser(prog="python -m glrt.ui.tour", description=__doc__)
-    parser.add_argument("task", choices=["drag", "film"])
+    parser.add_argument("task", choices=["drag", "rest", "film"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
     parser.add_argument("--scene", default="cornell", help="what is shown (default: cornell)")
     parsed = parser.parse_args(arguments)
@@ -48,6 +49,14 @@ def main(arguments: list[str] | None = None) -> int:
         os.environ.update({"DISPLAY": name} if name else {})
         if parsed.task == "drag":
             print("\n".join(told(*measure_drag(parsed.scene))))
+        elif parsed.task == "rest":
+            print(
+                "\n".join(
+                    told_rest(
+                        parsed.scene, [measure_rest(parsed.scene, rests) for rests in (False, True)]
+                    )
+                )
+            )
         else:
             make_film(parsed.file)
     return 0
@@ -91,6 +100,47 @@ def told(place: str, frames: list[Frame]) -> Iterator[str]:
     yield "|---|---|---|---|---|"
     cells = [place, *shares, f"{width} x {height} pixels, {samples:.1f} samples a frame"]
     yield f"| {' | '.join(cells)} |"
+
+
+class Wait(NamedTuple):
+    """A picture that was looked at until it had its samples."""
+
+    rests: bool  # whether the window may take a faster kernel
+    seconds: float  # to all samples
+    rate: float  # million samples of a pixel in a second, over the last quarter of them
+    frames: list[float]  # seconds each
+
+
+def measure_rest(scene: str, rests: bool, width: int = 640, height: int = 480) -> Wait:
+    """Open a scene and edit nothing."""
+    times: list[tuple[float, float]] = []  # and samples of each pixel
+
+    def script(window: Any) -> Script:
+        if not rests:
+            window.app.session.rest = None
+        while not window.app.session.samples:
+            yield
+        while not window.app.session.is_done:
+            times.append((time.perf_counter(), window.app.session.renderer.work))
+            yield
+
+    play(load(scene), script, width=width, height=height, samples=WAITED)
+    seconds, samples = np.array(times).T
+    last = np.searchsorted(samples, 0.75 * samples[-1])
+    rate = (samples[-1] - samples[last]) / (seconds[-1] - seconds[last]) * width * height / 1e6
+    return Wait(rests, seconds[-1] - seconds[0], rate, list(np.diff(seconds)))
+
+
+def told_rest(scene: str, waits: list[Wait]) -> Iterator[str]:
+    """A table in Markdown."""
+    rates = "million samples/s in the end"
+    yield f"| {scene} at rest | to {WAITED} samples | {rates} | frames p50 | p99 | longest |"
+    yield "|---|---|---|---|---|---|"
+    for wait in waits:
+        shares = [f"{1e3 * np.percentile(wait.frames, share):.0f} ms" for share in (50, 99, 100)]
+        name = "with the faster kernel" if wait.rests else "without"
+        cells = [name, f"{wait.seconds:.1f} s", f"{wait.rate:.2f}", *shares]
+        yield f"| {' | '.join(cells)} |"
 
 
 def make_film(file: Path) -> None:

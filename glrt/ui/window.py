@@ -18,6 +18,7 @@ from glrt.ui.panel import draw_panel
 from glrt.ui.picture import Picture
 from glrt.ui.plots import draw_figures
 from glrt.ui.preferences import load_preferences, preferences_file
+from glrt.ui.rest import Rest
 from glrt.ui.session import Session
 from glrt.ui.show import Show
 from glrt.ui.viewport import draw_keys, draw_viewport
@@ -102,7 +103,7 @@ class Window:
         preferences, problem = load_preferences(preferences_file())
         self._rate = RATES[context.is_software]
         self.app = App(
-            session=Session(scene, settings, context, pipeline=self._pipeline),
+            session=Session(scene, settings, context, pipeline=self._pipeline, rest=Rest()),
             show=Show(Picture(context.gl), FalseColors(context.gl)),
             preferences=preferences,
             preferences_file=preferences_file(),
