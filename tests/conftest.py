@@ -1,9 +1,11 @@
 """Fixtures: one OpenGL context for the session, and shader functions run over arrays."""
 
+import os
 import shutil
 import signal
 from collections.abc import Callable, Iterator
 from ctypes.util import find_library
+from pathlib import Path
 from typing import Any
 
 import moderngl
@@ -25,6 +27,12 @@ pytest_plugins = ["tests.slow_share", "tests.alarms"]
 
 # A shell's background jobs ignore Ctrl-C, and so would every command that the tests start there.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# Some commands get an empty cache folder. Mesa keeps its kernels where it always does: to compile
+# them anew takes longer than the tests.
+os.environ.setdefault(
+    "MESA_SHADER_CACHE_DIR", os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+)
 
 Array = np.ndarray[Any, Any]
 CallGlsl = Callable[..., Array]

@@ -68,12 +68,12 @@ MUTANTS = [
             "vec3 next = mean + (step + dither);",
             "vec3 next = mean * (1.0 - weight) + x * weight;",
         ),
-        "test_film.py::test_equal_samples_have_their_value_as_mean_and_no_variance",
+        "test_accumulation.py::test_equal_samples_have_their_value_as_mean_and_no_variance",
     ),
     Mutant(
         "all steps of the running mean are rounded the same way",
         _edit("film.glsl", "mean + (step + dither)", "mean + step"),
-        "test_robust.py::test_film_keeps_its_digits_over_a_million_samples",
+        "test_accumulation.py::test_film_keeps_its_digits_over_a_million_samples",
     ),
     Mutant(
         "hits nearer than a fixed epsilon are ignored",
@@ -166,7 +166,7 @@ MUTANTS = [
             "float(index + 1) - pixel.dropped",
             "float(index + 2) - pixel.dropped",
         ),
-        "test_film.py::test_the_first_sample_is_taken_as_it_is",
+        "test_accumulation.py::test_the_first_sample_is_taken_as_it_is",
     ),
     Mutant(
         "lamps are never in the shade",
@@ -280,7 +280,7 @@ MUTANTS = [
     Mutant(
         "light beyond the last layer is lost",
         _edit("layers.glsl", "i == min(layer, LAYERS - 1)", "i == layer"),
-        "test_relight.py::test_the_light_of_each_length_adds_up",
+        "test_path_lengths.py::test_the_light_of_each_length_adds_up",
     ),
     Mutant(
         "the display adds the halves of a layer as if both had as many samples",

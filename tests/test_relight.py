@@ -1,73 +1,28 @@
 """Light changed without a new render equals a fresh one: to the bit, or up to noise."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
-import moderngl
 import numpy as np
 import pytest
 
-from glrt.again import open_renderer
 from glrt.context import Context
-from glrt.image import Image, Pixels
-from glrt.library import load_recipe, recipe_of
 from glrt.relight import (
     MOST_LAYERS,
     NONE,
     ONE,
     Layering,
-    Weights,
     emitters,
     layer_of_group,
     plan_for,
 )
 from glrt.renderer import Renderer
-from glrt.scene import Background, Light, Scene, with_lights
+from glrt.scene import Background, Scene, with_lights
 from glrt.settings import Cost, settings_for
 from glrt.stats import block_means, z_test
 from glrt.ui.controls import replaced
-from tests.builders import MATTE, lamp, quad, room_of_planes, scene_of, sphere
+from tests.builders import MATTE, lamp, room_of_planes, scene_of, sphere
 from tests.images import same_bits
-
-LAMPS = {
-    "warm": {"type": "light", "emission": [4.0, 2.0, 0.5]},
-    "cold": {"type": "light", "emission": [0.5, 1.0, 6.0]},
-}
-ROOM = [
-    *room_of_planes("white"),
-    sphere([0.4, -0.6, -0.4], 0.4, "white"),
-    quad([-0.9, 0.9, -0.9], [0.5, 0, 0], [0, 0, 0.5], "warm"),
-]
-OTHER = quad([0.4, 0.9, -0.9], [0.5, 0, 0], [0, 0, 0.5], "cold")
-
-
-def room(lamps: int = 1, sky: float = 0.0, **lights: float) -> Scene:
-    """A closed room with one lamp or two; a sky is seen through the missing wall behind."""
-    objects = [*ROOM, OTHER] if lamps > 1 else ROOM
-    objects = objects[:5] + objects[6:] if sky else objects
-    names = ["warm", "cold"][:lamps]
-    materials = {"white": MATTE, **{name: LAMPS[name] for name in names}}
-    background = {"background": {"color": [sky, sky, 2 * sky]}} if sky else {}
-    return scene_of(objects, materials, lights=lights, **background)
-
-
-@contextmanager
-def layered(
-    scene: Scene, context: Context, layering: Layering = "groups", **settings: Any
-) -> Iterator[Renderer]:
-    size = {"width": 16, "height": 16, "bounces": 4, **settings}
-    renderer = Renderer(scene, context=context, layering=layering, **size)
-    try:
-        yield renderer
-    finally:
-        renderer.release()
-
-
-def radiance(renderer: Renderer) -> Pixels:
-    return renderer.image().radiance
-
+from tests.relit import layered, radiance, room, seen, tinted
 
 # --- one light group --------------------------------------------------------------------
 
@@ -115,14 +70,6 @@ def test_another_colour_of_the_only_lamp_equals_a_fresh_render_to_rounding(
         renderer.render(8)
         assert renderer.update(dyed) is Cost.RELIGHT
         assert np.allclose(radiance(renderer), radiance(fresh.render(8)), rtol=1e-5, atol=1e-7)
-
-
-def tinted(scene: Scene, name: str, emission: tuple[float, float, float]) -> Scene:
-    material = scene.materials[name]
-    assert isinstance(material, Light)
-    return replaced(
-        scene, materials={**scene.materials, name: replaced(material, emission=emission)}
-    )
 
 
 def test_light_of_a_channel_that_was_not_traced_restarts(context: Context) -> None:
@@ -285,64 +232,7 @@ def test_lamps_and_a_sky_that_shines_are_groups() -> None:
     assert list(emitters(tinted(room(2), "cold", NONE))) == ["warm", "cold"]
 
 
-# --- path lengths -----------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("limit", [0, 1, 2, 3])
-def test_fewer_bounces_equal_a_fresh_render_to_rounding(context: Context, limit: int) -> None:
-    with (
-        layered(room(2, 0.5), context, "lengths", roulette=False) as renderer,
-        layered(room(2, 0.5), context, "none", bounces=limit, roulette=False) as fresh,
-    ):
-        renderer.render(16)
-        assert renderer.update(bounces=limit) is Cost.RELIGHT
-        assert np.allclose(radiance(renderer), radiance(fresh.render(16)), rtol=1e-5, atol=1e-6)
-        assert renderer.update(bounces=4) is Cost.RELIGHT
-
-
-def test_the_light_of_each_length_adds_up(context: Context) -> None:
-    with layered(room(), context, "lengths", bounces=9) as renderer:
-        assert renderer.plan.layers == MOST_LAYERS
-        renderer.render(8)
-        parts = [seen(renderer, renderer.plan.alone(length)) for length in range(MOST_LAYERS)]
-        assert np.allclose(sum(parts), radiance(renderer), rtol=1e-4, atol=1e-6)
-        assert all(part.any() for part in parts[1:]), "the camera does not see the lamp"
-        assert renderer.plan.alone(8) == renderer.plan.alone(5), "the last layer holds the rest"
-
-
-@pytest.mark.parametrize(("limit", "cost"), [(4, Cost.RELIGHT), (5, Cost.RESTART), (10, None)])
-def test_a_limit_within_the_last_layer_restarts(
-    context: Context, limit: int, cost: Cost | None
-) -> None:
-    with layered(room(), context, "lengths", bounces=10) as renderer:
-        renderer.render(1)
-        assert renderer.update(bounces=limit) is cost
-
-
-def test_more_bounces_than_traced_restart(context: Context) -> None:
-    with layered(room(), context, "lengths", bounces=3) as renderer:
-        renderer.render(1)
-        assert renderer.update(bounces=4) in (Cost.RESTART, Cost.RECOMPILE)
-
-
-def test_turning_layers_on_and_off_begins_anew(context: Context) -> None:
-    with layered(room(2), context, "none") as renderer:
-        renderer.render(4)
-        assert renderer.update(layering="lengths") is Cost.RECOMPILE
-        renderer.render(4)
-        assert renderer.update(layering="groups") is Cost.RECOMPILE
-        assert renderer.update(layering="groups") is None
-
-
 # --- on the driver ----------------------------------------------------------------------
-
-
-def seen(renderer: Renderer, weights: Weights) -> Pixels:
-    """The texture that the display pass gets."""
-    with renderer.context.gl:
-        texture: moderngl.Texture = renderer.weighed(weights)
-        width, height = texture.size
-        return np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)[..., :3].copy()
 
 
 def test_the_driver_shows_the_sum_that_files_hold(context: Context) -> None:
@@ -364,85 +254,3 @@ def test_a_plan_without_change_weighs_nothing() -> None:
     plan = plan_for(scene, settings_for(scene.render), "groups")
     assert plan.weights == (ONE,)
     assert plan.relit(scene, plan.settings, "groups") == plan
-
-
-# --- recipes ----------------------------------------------------------------------------
-
-
-def rendered_again(picture: Path, context: Context, **options: Any) -> Image:
-    """What `glrt render` makes of a picture."""
-    scene, settings = load_recipe(picture)
-    assert settings
-    settings = settings_for(settings, **options)
-    renderer = open_renderer(scene, settings, recipe_of(picture), context, "baked")
-    try:
-        return renderer.render().image()
-    finally:
-        renderer.release()
-
-
-def saved(renderer: Renderer, folder: Path, weights: Weights | None = None) -> tuple[Image, Path]:
-    image, file = renderer.image(weights), folder / "relit.exr"
-    image.save(file)
-    return image, file
-
-
-@pytest.mark.parametrize("lights", [{"warm": 0.3}, {"warm": 0.0, "cold": 1.7}, {"cold": 0.0}])
-def test_a_relit_picture_comes_out_of_its_recipe_to_the_bit(
-    context: Context, tmp_path: Path, lights: dict[str, float]
-) -> None:
-    with layered(room(2, warm=0.7, cold=0.0), context) as renderer:
-        renderer.render(12)
-        relit = tinted(with_lights(renderer.scene, lights), "warm", (3.0, 0.7, 0.5))
-        assert renderer.update(relit) is Cost.RELIGHT
-        image, file = saved(renderer, tmp_path)
-    again = rendered_again(file, context)
-    assert same_bits(again.radiance, image.radiance)
-    assert same_bits(again.stderr, image.stderr)
-    assert again.recipe
-    assert image.recipe
-    assert (again.recipe.scene, again.recipe.traced) == (relit, image.recipe.traced)
-    with layered(relit, context, "none") as fresh:
-        assert not same_bits(radiance(fresh.render(12)), image.radiance), "other random numbers"
-
-
-def test_a_picture_of_fewer_bounces_comes_out_of_its_recipe_to_the_bit(
-    context: Context, tmp_path: Path
-) -> None:
-    with layered(room(2, 0.5), context, "lengths") as renderer:
-        renderer.render(6)
-        assert renderer.update(bounces=2) is Cost.RELIGHT
-        image, file = saved(renderer, tmp_path)
-        again = rendered_again(file, context)
-        assert same_bits(again.radiance, image.radiance)
-        assert again.recipe
-        assert again.recipe.settings.bounces == 2
-        alone, file = saved(renderer, tmp_path, renderer.plan.alone(1))
-    assert same_bits(rendered_again(file, context).radiance, alone.radiance)
-    assert not same_bits(alone.radiance, image.radiance)
-
-
-def test_what_is_asked_for_beside_a_relit_recipe_is_heeded(
-    context: Context, tmp_path: Path
-) -> None:
-    with layered(room(2), context) as renderer:
-        renderer.render(4)
-        renderer.update(room(2, warm=0.3))
-        _, file = saved(renderer, tmp_path)
-    larger = rendered_again(file, context, width=20, samples=6)
-    assert larger.radiance.shape == (16, 20, 3)
-    assert larger.samples == 6
-    more = rendered_again(file, context, bounces=7)
-    with layered(room(2, warm=0.3), context, "none", bounces=7) as fresh:
-        assert same_bits(more.radiance, radiance(fresh.render(4)))
-
-
-def test_a_picture_that_was_not_relit_tells_its_scene_once(context: Context) -> None:
-    with layered(room(2), context) as renderer:
-        renderer.render(2)
-        recipe = renderer.image().recipe
-        assert recipe
-        assert recipe.traced is None
-        renderer.update(room(2, warm=0.3))
-        renderer.update(room(2))
-        assert renderer.image().recipe == recipe

@@ -12,11 +12,10 @@ from glrt.context import Context
 from tests.alarms import assert_near
 from tests.builders import MATTE, glass, lamp, plane, scene_of, sphere
 from tests.conftest import CallGlsl
-from tests.numerics import BELOW_ONE, ULP, Array, directions, dot, float32, length, roots64, wo_at
+from tests.numerics import BELOW_ONE, ULP, directions, dot, float32, length, roots64, wo_at
 from tests.renders import METHODS, assert_mean, rendered, whole
 from tests.test_camera import pinhole
 from tests.test_rng import drawn
-from tests.wgsl.seeds import pcg
 
 HALF_ULP = ULP / 2
 SQUARE = {"width": 256, "height": 256}
@@ -296,51 +295,6 @@ def test_roulette_makes_no_nan_of_any_throughput(call_glsl: CallGlsl) -> None:
     spread = np.sqrt((brought**2 * (1 - chance) * chance)[given <= 1].sum() / 1024)
     total = (found[given <= 1, 0] - given[given <= 1]).sum(dtype=float)
     assert_near(total, 0, spread)
-
-
-STEPS, LANES, PART = 2**20, 16, 2**15  # a driver's loops may end after 65,535 rounds
-ADDED = f"""
-    Pixel pixel = empty_pixel();
-    pixel.mean = mean;
-    pixel.variance = variance;
-    pixel.observations = float(first);
-    for (int k = 0; k < {PART}; ++k) {{
-        float u = unit_float(pcg_hash(seed ^ uint(first + k)));
-        vec3 x = vec3(u, u < 0.0625 ? 64.0 : 0.5, u < 0.875 ? 1.0 : 0.25);
-        add_sample(pixel, even == 1 ? vec3(0.1) : x, first + k);
-    }}"""
-
-
-def after_a_million(call_glsl: CallGlsl, even: bool) -> tuple[Array, Array]:
-    """Mean and variance of the film after 2^20 samples, (LANES, 3) each."""
-    mean, variance = np.zeros((2, LANES, 3), np.float32)
-    given = {"seed": pcg(np.arange(LANES)), "even": np.array([int(even)]), "setup": ADDED}
-    for first in range(0, STEPS, PART):
-        args = {**given, "first": np.array([first]), "mean": mean, "variance": variance}
-        parts = [call_glsl(f"pixel.{name}", "vec3", **args) for name in ("mean", "variance")]
-        mean, variance = parts
-    return mean, variance
-
-
-def test_film_keeps_its_digits_over_a_million_samples(call_glsl: CallGlsl) -> None:
-    """2^20 samples, the most that may be asked for: even ones, spikes, and an edge of two values.
-    Steps rounded to nearest would be off by ten times the noise at the edge (2.4e-3).
-    """
-    mean, variance = after_a_million(call_glsl, even=False)
-    bits = pcg(pcg(np.arange(LANES))[:, None] ^ np.arange(STEPS, dtype=np.uint32))
-    u = (bits >> np.uint32(8)) / np.float32(2**24)
-    spikes, edge = np.where(u < 0.0625, 64.0, 0.5), np.where(u < 0.875, 1.0, 0.25)
-    for channel, x in enumerate((u, spikes, edge)):
-        assert_allclose(mean[:, channel], x.mean(axis=1, dtype=float), rtol=1e-4)
-        assert_allclose(variance[:, channel], x.var(axis=1, dtype=float), rtol=1e-2)
-    noise = edge.std() / math.sqrt(STEPS)
-    assert np.abs(mean[:, 2] - edge.mean(axis=1)).max() < 0.15 * noise
-
-
-def test_equal_samples_leave_the_film_as_it_is_over_a_million_of_them(call_glsl: CallGlsl) -> None:
-    mean, variance = after_a_million(call_glsl, even=True)
-    assert np.all(mean == np.float32(0.1))
-    assert np.all(variance == 0)
 
 
 # --- frames --------------------------------------------------------------------------------
