@@ -7,6 +7,7 @@ import moderngl
 
 from glrt.errors import RenderError
 from glrt.shader import Source
+from glrt.signals import postponed
 
 GROUP = 8  # pixels along the edge of a tile, as in tiles.glsl; a work group of trace.comp
 
@@ -26,7 +27,8 @@ class Kernel:
         """Compile; RenderError tells the driver's message by shader file and line."""
         self._gl = gl
         try:
-            self._program = gl.compute_shader(source.text)
+            with postponed():  # it names a program's parts in Python: Ctrl-C there crashes it
+                self._program = gl.compute_shader(source.text)
         except moderngl.Error as error:
             raise _refusal(source, error) from error
 
@@ -99,7 +101,8 @@ class FragmentKernel:
 def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.Program:
     """A program that draws; RenderError tells the driver's message by shader file and line."""
     try:
-        return gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
+        with postponed():  # as in Kernel
+            return gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
     except moderngl.Error as error:
         raise _refusal(fragment, error) from error
 

@@ -31,16 +31,32 @@ class Interrupted(KeyboardInterrupt):
 def handled(handler: Handler) -> Iterator[None]:
     """Let `handler` take the two signals inside, unless they are ignored, as by nohup.
 
-    Only the main thread can; elsewhere nothing changes.
+    Only the main thread can; elsewhere, and where handlers are not Python's, nothing changes.
     """
     is_main = threading.current_thread() is threading.main_thread()
-    watched = [n for n in _WATCHED if is_main and signal.getsignal(n) is not signal.SIG_IGN]
+    others = (signal.SIG_IGN, None)
+    watched = [n for n in _WATCHED if is_main and signal.getsignal(n) not in others]
     before = {number: signal.signal(number, handler) for number in watched}
     try:
         yield
     finally:
         for number, old in before.items():
             signal.signal(number, old)
+
+
+@contextmanager
+def postponed() -> Iterator[None]:
+    """Let the two signals wait until the end of the block: the first that came is raised anew.
+
+    For compiled code that calls Python and takes for granted that no exception comes of it.
+    """
+    arrived: list[int] = []
+    try:
+        with handled(lambda number, _frame: arrived.append(number)):
+            yield
+    finally:
+        for number in arrived[:1]:
+            signal.raise_signal(number)
 
 
 def interrupt(number: int, _frame: FrameType | None) -> NoReturn:

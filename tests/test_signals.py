@@ -5,11 +5,15 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from glrt import signals
+from glrt.kernel import Kernel, drawing
+from glrt.shader import Source
 
 SAYS = "glrt: interrupted before anything was rendered\n"
 both = pytest.mark.parametrize(
@@ -91,3 +95,47 @@ def test_only_the_command_itself_is_taken_for_it(monkeypatch: pytest.MonkeyPatch
     for line in ("python make.py glrt", "python /usr/bin/pytest glrt", "python -m pytest glrt"):
         monkeypatch.setattr(sys, "orig_argv", line.split())
         assert not signals.is_command(), line
+
+
+class Compiler:
+    """Stands for moderngl, which runs Python while it makes a program: Ctrl-C comes meanwhile."""
+
+    def __init__(self) -> None:
+        self.is_done = False
+
+    def program(self, **_shaders: str) -> None:
+        signal.raise_signal(signal.SIGINT)
+        self.is_done = True
+
+    def compute_shader(self, _text: str) -> None:
+        self.program()
+
+
+@pytest.mark.parametrize(
+    "compiled",
+    [
+        lambda gl: Kernel(gl, Source("trace.comp")),
+        lambda gl: drawing(gl, Source("trace.vert"), Source("trace.frag")),
+    ],
+    ids=["compute", "fragment"],
+)
+def test_it_waits_while_a_program_is_made(compiled: Callable[[Any], Any]) -> None:
+    gl = Compiler()
+    with pytest.raises(KeyboardInterrupt):
+        compiled(gl)
+    assert gl.is_done
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def fail(number: int | None) -> None:
+    with signals.postponed():
+        if number is not None:
+            signal.raise_signal(number)
+        raise ZeroDivisionError
+
+
+def test_it_comes_after_a_block_that_fails() -> None:
+    with pytest.raises(KeyboardInterrupt):
+        fail(signal.SIGINT)
+    with pytest.raises(ZeroDivisionError):
+        fail(None)
