@@ -43,6 +43,7 @@ class Context:
 
     gl: moderngl.Context
     route: str
+    device: int = 0  # of those that the route offers
 
     @property
     def renderer(self) -> str:
@@ -130,7 +131,7 @@ def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Contex
 def open_device(route: str, device: int = 0) -> Context:
     """Open one device of a route; ContextError says why it cannot be. Only EGL has several."""
     try:
-        return Context(_create_newest(route, device, FRAGMENT), route)
+        return Context(_create_newest(route, device, FRAGMENT), route, device)
     except Exception as error:  # as in _try_route
         raise ContextError(f"{route}: {error}") from error
 
@@ -166,7 +167,7 @@ def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Ite
                 failures.append(f"{route}: {error}")
             continue
         has_opened = True
-        yield Context(gl, route)
+        yield Context(gl, route, device)
 
 
 def _create_newest(route: str, device: int, required: int) -> moderngl.Context:

@@ -12,7 +12,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import Any
+from typing import Any, NamedTuple
 
 from glrt.context import MOST_DEVICES, ROUTES
 from glrt.remedies import remedies
@@ -46,6 +46,13 @@ class Examination:
         return any(self.found.get(step, {}).get("furnace", 1.0) < EXACT for step in PIPELINES)
 
 
+class Used(NamedTuple):
+    """What a render would take."""
+
+    route: str
+    device: int
+
+
 def examine(route: str, device: int = 0, command: Sequence[str] = ()) -> Examination:
     """Try a device of a route in a process; `command` stands in for that process in tests."""
     arguments = command or (sys.executable, "-m", "glrt.examination", route, str(device))
@@ -72,7 +79,7 @@ def examine_all() -> list[Examination]:
 def report(as_json: bool = False) -> tuple[str, bool]:
     """What works here, as text or as one line of JSON, and whether anything does."""
     examinations = examine_all()
-    used = examine("auto").found.get("open", {}).get("route", "")
+    used = _used(examine("auto"))
     works = any(examination.works for examination in examinations)
     if as_json:
         return json.dumps(_table(examinations, used)), works
@@ -82,12 +89,19 @@ def report(as_json: bool = False) -> tuple[str, bool]:
     return "\n".join([*lines, _verdict(used, examinations)]), works
 
 
-def _table(examinations: list[Examination], used: str) -> Finding:
+def _used(auto: Examination) -> Used | None:
+    """What `auto` chose, if anything."""
+    opening = auto.found.get("open", {})
+    return Used(opening["route"], opening["device"]) if "route" in opening else None
+
+
+def _table(examinations: list[Examination], used: Used | None) -> Finding:
     routes = [
         {"route": e.route, "device": e.device, "works": e.works, **e.found, "end": e.end or None}
         for e in examinations
     ]
-    return {"version": VERSION, "used": used or None, "routes": routes}
+    route, device = used or (None, None)
+    return {"version": VERSION, "used": route, "used_device": device, "routes": routes}
 
 
 def _read(text: str) -> dict[str, Finding]:
@@ -116,7 +130,7 @@ def _versions() -> str:
     return f"glrt {VERSION}, Python {platform.python_version()}, {packages}, {system}"
 
 
-def _lines(examination: Examination, used: str) -> list[str]:
+def _lines(examination: Examination, used: Used | None) -> list[str]:
     name = examination.route + (f" {examination.device}" if examination.device else "")
     if not examination.opens:
         opening = examination.found.get("open", {})
@@ -124,7 +138,7 @@ def _lines(examination: Examination, used: str) -> list[str]:
         return [f"{name:<8}does not work: {reason} ({_hint(examination.route)})"]
     opening = examination.found["open"]
     kind = "software" if opening["is_software"] else "hardware"
-    is_used = " <- used" if examination.route == used and not examination.device else ""
+    is_used = " <- used" if _is_of(examination, used) else ""
     lines = [
         f"{name:<8}{'works' if examination.works else 'does not work'}: {opening['renderer']}, "
         f"{kind}, OpenGL {opening['version']}, opened in {opening['seconds']:.2f} s{is_used}"
@@ -134,6 +148,10 @@ def _lines(examination: Examination, used: str) -> list[str]:
         lines.append(f"  {step:<14}{_furnace(examination.found.get(step)) or absence}")
     lines += findings(examination.found.get("self_test"))
     return lines + ([f"  {examination.end}"] if examination.end else [])
+
+
+def _is_of(examination: Examination, used: Used | None) -> bool:
+    return (examination.route, examination.device) == used
 
 
 def _hint(route: str) -> str:
@@ -150,14 +168,15 @@ def _furnace(finding: Finding | None) -> str:
     return f"a furnace is {exactness} (with compiling {finding['seconds']:.2f} s)"
 
 
-def _verdict(used: str, examinations: list[Examination]) -> str:
+def _verdict(used: Used | None, examinations: list[Examination]) -> str:
     if not any(examination.works for examination in examinations):
         wanted = "No route renders: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:"
         return "\n".join([wanted, *remedies()])
-    chosen = next((e for e in examinations if e.route == used), examinations[0])
+    chosen = next((e for e in examinations if _is_of(e, used)), examinations[0])
+    route = used.route if used else chosen.route
     if "compute" in chosen.found or not chosen.end:
-        return f"`glrt render` uses {used}; --context chooses another, --pipeline the pipeline."
-    return f"`glrt render` uses {used}, whose compute shaders fail: take --pipeline fragment."
+        return f"`glrt render` uses {route}; --context chooses another, --pipeline the pipeline."
+    return f"`glrt render` uses {route}, whose compute shaders fail: take --pipeline fragment."
 
 
 def findings(found: Finding | None) -> list[str]:

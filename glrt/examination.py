@@ -70,6 +70,7 @@ def main(route: str, device: int) -> None:
         opened.append(context)
         return {
             "route": context.route,
+            "device": context.device,
             "renderer": context.renderer,
             "version": context.version,
             "is_software": context.is_software,

@@ -54,7 +54,7 @@ class Recipe(Frozen):
     samples: int = Field(description="samples of each pixel taken", ge=0, le=MAX_SAMPLES)
     version: str = Field(description="version of glrt")
     renderer: str = Field(description="name of the OpenGL driver")
-    tier: str = Field("generic", description="where the kernel found its shapes")
+    tier: str = Field("generic", description="where the kernel found its shapes, or two did")
     pipeline: str = Field("compute", description="the kind of shader")
     traced: Traced | None = Field(None, description="other light than the scene's, and weights")
 

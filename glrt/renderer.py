@@ -195,9 +195,8 @@ class Renderer:
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
         gathered = fitting(image, self._recipe((ONE,)))
-        self._tracer.turns.schedule.drop()
         with self.context.gl:
-            self.film.write(image.samples, image.radiance, gathered)
+            self._tracer.resume(image.samples, image.radiance, gathered)
         return self
 
     def display(self) -> np.ndarray[Any, Any]:
@@ -225,7 +224,7 @@ class Renderer:
             samples=self.samples,
             version=VERSION,
             renderer=self.context.renderer,
-            tier=self.tier,
+            tier=self._tracer.tier,
             pipeline=self.pipeline,
             traced=traced(self.plan, weights),
         )

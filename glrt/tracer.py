@@ -3,8 +3,10 @@
 import time
 from contextlib import ExitStack
 
+from glrt.blocks import Tier
 from glrt.context import Context
-from glrt.film import Extent, Film
+from glrt.film import Array, Extent, Film
+from glrt.gathered import Gathered
 from glrt.kernel import tile_count
 from glrt.relight import Plan
 from glrt.schedule import (
@@ -34,6 +36,7 @@ class Tracer:
         """
         self._context, self._plan, self._way, gl = context, plan, way, context.gl
         self._rounds, self.most_samples = _limits(context, plan)
+        self._tiers: set[Tier] = set()  # of the kernels that added samples
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
@@ -77,10 +80,27 @@ class Tracer:
         """Samples a pixel, and the share that is done of those in the frame that has begun."""
         return self.film.samples + self.turns.schedule.begun
 
+    @property
+    def tier(self) -> str:
+        """Where the kernel found its shapes; two places, where a driver may tell kernels apart.
+
+        Drivers of software do not: then it is that of the kernel that stays through edits.
+        """
+        if self._context.is_software or not self._tiers:
+            return self.uploaded.tier
+        return " and ".join(sorted(self._tiers))
+
     def restart(self) -> None:
         """Begin to accumulate anew."""
         self.turns.schedule.drop()
         self.film.restart()
+        self._tiers.clear()
+
+    def resume(self, samples: int, mean: Array, gathered: Gathered) -> None:
+        """Take up what another film has read, by a kernel of the same tier."""
+        self.turns.schedule.drop()
+        self.film.write(samples, mean, gathered)
+        self._tiers = {self.uploaded.tier}
 
     def bake(self) -> bool:
         """Go on by a kernel that has the shapes written in; False where there is none."""
@@ -105,7 +125,7 @@ class Tracer:
         self._context.finish()
         taken = time.perf_counter() - start
         if self._fits(portion.samples) and schedule.record(portion, taken):
-            self.film.advance(portion.samples)
+            self._advance(portion.samples)
 
     def release(self) -> None:
         """Free what the driver holds."""
@@ -122,7 +142,11 @@ class Tracer:
             self._dispatch(self.turns.kernel, portion)
         self._context.finish()
         if self._fits(samples):
-            self.film.advance(samples)
+            self._advance(samples)
+
+    def _advance(self, samples: int) -> None:
+        self.film.advance(samples)
+        self._tiers.add("baked" if self.turns.is_passed else self.uploaded.tier)
 
     def _fits(self, samples: int) -> bool:
         """Whether no sample of this frame was lost to the loop limit, or fewer would not help.

@@ -9,7 +9,8 @@ import pytest
 from glrt import turns
 from glrt.blocks import MOST_BAKED
 from glrt.context import Context
-from glrt.errors import RenderError
+from glrt.errors import RenderError, UsageError
+from glrt.image import Image
 from glrt.pipelines import compiled
 from glrt.relight import Layering
 from glrt.renderer import Renderer
@@ -54,6 +55,11 @@ def moved(scene: Scene) -> Scene:
     return replaced(scene, objects=objects)
 
 
+def tier_of(image: Image) -> str:
+    assert image.recipe
+    return image.recipe.tier
+
+
 def seen(scene: Scene, **changes: Any) -> Scene:
     return replaced(scene, camera=replaced(scene.camera, **changes))
 
@@ -80,6 +86,23 @@ def test_kernels_that_take_turns_give_the_bits_of_one(
         image = renderer.render(37).image()
         assert same(image, expected)
         assert image.recipe == expected.recipe, "nobody can tell when it was"
+
+
+def test_a_recipe_tells_kernels_that_took_turns_where_a_driver_may_tell_them_apart(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Then no render gives the same bits, and none goes on from there."""
+    monkeypatch.setattr(Context, "is_software", False)
+    with rendering(everything(), context, sampler="sobol", **SMALL) as renderer:
+        renderer.render(16)
+        assert tier_of(renderer.image()) == "generic"
+        renderer.bake()
+        mixed = renderer.render(32).image()
+        assert tier_of(mixed) == "baked and generic"
+        with pytest.raises(UsageError, match="tier is baked and generic in the picture"):
+            Renderer(everything(), renderer.settings, context, "baked").resume(mixed)
+        renderer.restart()
+        assert tier_of(renderer.render(32).image()) == "baked"
 
 
 def test_a_frame_that_has_begun_is_begun_again(

@@ -3,6 +3,7 @@
 import json
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -35,7 +36,7 @@ def examined() -> list[Examination]:
 @pytest.fixture
 def told(examined: list[Examination], monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
     """The doctor's report of that."""
-    auto = Examination("auto", 0, {"open": {"route": "egl"}}, "")
+    auto = Examination("auto", 0, {"open": {"route": "egl", "device": 0}}, "")
     monkeypatch.setattr(doctor, "examine_all", lambda: examined)
     monkeypatch.setattr(doctor, "examine", lambda _: auto)
     return lambda **how: report(**how)[0]
@@ -60,9 +61,24 @@ def test_json_has_the_findings_of_every_route(told: Callable[..., str]) -> None:
     assert not routes["window"]["works"]
 
 
+def test_the_mark_stands_at_the_device_that_is_used(
+    examined: list[Examination], told: Callable[..., str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A graphics processor may be the second of EGL's devices."""
+    works = next(each for each in examined if each.opens)
+    auto = Examination("auto", 0, {"open": {"route": "egl", "device": 1}}, "")
+    both = [replace(works, route="egl", device=device) for device in (0, 1)]
+    monkeypatch.setattr(doctor, "examine_all", lambda: both)
+    monkeypatch.setattr(doctor, "examine", lambda _: auto)
+    lines = [line for line in told().splitlines() if line.startswith("egl ")]
+    assert [line.endswith("<- used") for line in lines] == [False, True]
+    assert json.loads(told(as_json=True))["used_device"] == 1
+
+
 def test_auto_says_which_route_a_render_would_use() -> None:
-    route = examine("auto").found["open"]["route"]
-    assert route in ROUTES
+    opened = examine("auto").found["open"]
+    assert opened["route"] in ROUTES
+    assert opened["device"] >= 0
 
 
 def test_a_driver_that_crashes_is_a_finding() -> None:

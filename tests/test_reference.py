@@ -1,6 +1,7 @@
 """What charts judge by: two halves without bias, closed forms, and a cache that is only a cache."""
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from glrt.lab import reference
 from glrt.lab.reference import OtherNumbers, Reference, closed_form, reference_for
 from glrt.renderer import Renderer
 from glrt.scene import Scene
-from glrt.settings import settings_for
+from glrt.settings import MAX_SAMPLES, settings_for
 from glrt.stats import relative_error
 from tests.alarms import assert_near
 from tests.builders import MATTE, box_of_quads, glass, lamp, quad, scene_of, sphere
@@ -114,6 +115,29 @@ def test_a_reference_comes_from_the_cache_the_second_time(
     reference_for(LIT, small(LIT, width=9), context, 0.5, 5)
     reference_for(furnace(even=lamp(0.5, 0.5)), small(LIT), context, 0.5, 5)
     assert len(list(cache.iterdir())) == 3
+
+
+class Noisy:
+    """A renderer that knows no end, and whose picture stays as it is."""
+
+    settings = small(LIT)
+
+    def __init__(self, level: float) -> None:
+        self.level, self.taken = level, list[int]()
+
+    def render(self, samples: int) -> "Noisy":
+        self.taken.append(samples)
+        return self
+
+    def image(self) -> Any:
+        return SimpleNamespace(radiance=np.full((2, 2, 3), self.level))
+
+
+def test_a_reference_takes_no_more_samples_than_a_picture_holds() -> None:
+    halves: Any = [Noisy(1.0), Noisy(2.0)]
+    found = reference._rendered(halves, 1e-9, 60.0, None)
+    assert found.samples == MAX_SAMPLES
+    assert [max(half.taken) for half in halves] == [MAX_SAMPLES] * 2
 
 
 # --- random numbers ------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """`glrt inspect --error`: the method and the bounces that it names suffice, and no cheaper do."""
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -178,7 +179,20 @@ def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
 def test_an_error_beyond_reach_is_told(context: Context) -> None:
     verdict = verdict_on(furnace(), 0.02, context, bounces=1)
     assert verdict.best is None
-    assert conclusion(verdict).startswith("Nothing is known to reach 2 %")
+    assert candidate(verdict, "mis").bias.value == pytest.approx(0.25, rel=0.05)
+    assert re.fullmatch(
+        r"Nothing reaches 2 %: `\w+` with 1 bounce misses the least, and that is \d\d %. Allow "
+        "more bounces, or ask for a larger error.",
+        conclusion(verdict),
+    )
+
+
+def test_a_bias_that_may_be_chance_is_told_as_noise() -> None:
+    """1 % in the mean, with a standard error of 1 %, for an error of 0.9 %."""
+    noisy = replace(of_bias(0.0), bias=Bias(0.01**2, 0.01**2))
+    verdict = Verdict(0.009, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
+    assert verdict.best is None
+    assert conclusion(verdict).startswith("Nothing is known to reach 0.9 %: what a measurement of")
 
 
 def test_more_samples_than_a_picture_holds_are_not_enough() -> None:

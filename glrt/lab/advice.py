@@ -86,6 +86,13 @@ def conclusion(verdict: Verdict) -> str:
                 f"would take {wanted:,} samples, and a picture holds {MAX_SAMPLES:,}. Ask for a "
                 "larger error."
             )
+        least = min(verdict.candidates, key=lambda candidate: candidate.bias.value)
+        if least.bias.least >= verdict.error:
+            return (
+                f"Nothing reaches {percent(verdict.error)}: `{least.settings.method}` with "
+                f"{_count(least.settings.bounces, 'bounce')} misses the least, and that is "
+                f"{percent(least.bias.value)}. Allow more bounces, or ask for a larger error."
+            )
         return (
             f"Nothing is known to reach {percent(verdict.error)}: what a measurement of some "
             "seconds finds is too noisy. Ask for a larger error."

@@ -28,7 +28,7 @@ from glrt.renderer import Renderer
 from glrt.resources import folder
 from glrt.scene import Dielectric, Lambertian, Light, Material, Metal, Scene
 from glrt.scene_file import scene_to_dict
-from glrt.settings import Settings, settings_for
+from glrt.settings import MAX_SAMPLES, Settings, settings_for
 from glrt.stats import DARK
 from glrt.version import VERSION
 
@@ -87,7 +87,8 @@ def reference_for(
     """The reference of a scene in the frame of `settings`, from the cache if it is there.
 
     Its samples double until its own relative RMS error is at most `error`, or until that would
-    take longer than `seconds`. `watch` is told the share that is done.
+    take longer than `seconds`, or more samples than a picture holds. `watch` is told the share
+    that is done.
     """
     radiance = closed_form(scene)
     if radiance is not None:
@@ -167,7 +168,7 @@ def _rendered(
         spent = time.perf_counter() - start
         if watch:
             watch(min(1.0, max(spent / seconds, (error / max(result.error, 1e-9)) ** 2)))
-        if result.error <= error or 2 * spent > seconds:
+        if result.error <= error or 2 * spent > seconds or 2 * samples > MAX_SAMPLES:
             return result
         samples *= 2
 

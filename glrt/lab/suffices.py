@@ -49,6 +49,11 @@ class Bias(NamedTuple):
         return math.sqrt(max(self.squared, 0.0))
 
     @property
+    def least(self) -> float:
+        """What it is not below, in 97.5 of 100 cases."""
+        return math.sqrt(max(self.squared - _SURE * self.stderr, 0.0))
+
+    @property
     def most(self) -> float:
         """What it is not above, in 97.5 of 100 cases."""
         return math.sqrt(max(self.squared + _SURE * self.stderr, 0.0))
