@@ -13,9 +13,8 @@ from typing import Any
 from imgui_bundle import imgui
 
 import glfw  # isort: skip
-from glrt import files
+from glrt import files, turns
 from glrt.cli import main
-from glrt.renderer import Renderer
 from glrt.ui.controls import replaced
 from glrt.ui.window import Window
 
@@ -46,7 +45,7 @@ def before(owner: Any, name: str, act: Callable[[], None]) -> None:
 
 def compiling(_window: Window, frame: int) -> None:
     if frame == 0:
-        before(Renderer, "_compile", terminate)
+        before(turns, "compiled", terminate)
 
 
 def dragging(window: Window, frame: int) -> None:
