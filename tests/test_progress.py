@@ -6,6 +6,7 @@ import pytest
 from glrt.context import Context
 from glrt.relight import ONE
 from glrt.stats import Band
+from glrt.ui.plots import forecast
 from glrt.ui.progress import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
 from tests.mixture import everything
 from tests.renders import rendering
@@ -48,6 +49,25 @@ def test_the_forecast_is_that_of_noise() -> None:
     progress.record(seen(64, 2.0, 0.2), 0.0)
     assert progress.remaining(0.1) == pytest.approx(6.0), "half the error takes four times as long"
     assert progress.remaining(0.3) == 0
+
+
+@pytest.mark.parametrize(
+    ("target", "samples", "told"),
+    [
+        (0.3, 64, "30 % is reached"),
+        (0.1, 260, "10 % in about 6 s of rendering"),
+        (0.1, 259, "10 % in about 6 s of rendering: raise samples to 260"),
+        (0.019, 256, "1.9 % in about 4 minutes of rendering: raise samples to 7,100"),
+        (0.0001, 256, "0.01 % takes more samples than a picture holds"),
+    ],
+)
+def test_the_forecast_tells_when_the_samples_end_before(
+    target: float, samples: int, told: str
+) -> None:
+    progress = Progress()
+    assert forecast(progress, target, samples).endswith("at a time not known yet")
+    progress.record(seen(64, 2.0, 0.2), 0.0)
+    assert forecast(progress, target, samples) == told
 
 
 def test_the_line_has_slope_minus_one_half_and_ends_at_the_last_look() -> None:

@@ -6,9 +6,9 @@ import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.needs import explain
-from glrt.settings import Settings
+from glrt.settings import MAX_SAMPLES, Settings
 from glrt.ui.app import App
-from glrt.ui.progress import Look
+from glrt.ui.progress import Look, Progress
 
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
@@ -38,21 +38,24 @@ def figures(app: App) -> list[str]:
         f"{session.samples} of {session.settings.samples} samples{preview}",
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
         f"error {_banded(progress.last, session.settings)}",
-        _forecast(app),
+        forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
     if progress.last and progress.last.nonfinite:
         lines.append(f"{progress.last.nonfinite:,} samples were not finite, and are left out")
     return lines
 
 
-def _forecast(app: App) -> str:
-    target = app.preferences.target_error
-    seconds = app.progress.remaining(target)
-    if seconds is None:
+def forecast(progress: Progress, target: float, samples: int) -> str:
+    """When the error will be small enough, and whether a render of so many samples gets there."""
+    seconds, needed = progress.remaining(target), progress.samples_to(target)
+    if seconds is None or needed is None:
         return f"{_percent(target)} at a time not known yet"
     if seconds == 0:
         return f"{_percent(target)} is reached"
-    return f"{_percent(target)} in about {_duration(seconds)} of rendering"
+    if needed > MAX_SAMPLES:
+        return f"{_percent(target)} takes more samples than a picture holds"
+    more = f": raise samples to {needed:,}" if needed > samples else ""
+    return f"{_percent(target)} in about {_duration(seconds)} of rendering{more}"
 
 
 def _banded(look: Look | None, settings: Settings) -> str:

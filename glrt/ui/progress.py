@@ -1,5 +1,6 @@
 """How the error falls while a picture is rendered, and when it will be small enough."""
 
+import math
 from collections.abc import Hashable
 from typing import NamedTuple
 
@@ -79,6 +80,14 @@ class Progress:
             return None
         last = self.looks[-1]
         return max(0.0, last.seconds * ((last.error / target) ** 2 - 1))
+
+    def samples_to(self, target: float) -> int | None:
+        """Samples to an error, to two digits upwards; None if unknown."""
+        if not self.looks:
+            return None
+        needed = self.looks[-1].samples * (self.looks[-1].error / target) ** 2
+        unit = int(10 ** max(0, math.floor(math.log10(max(needed, 1))) - 1))
+        return unit * math.ceil(needed / unit)
 
     def limits(self) -> tuple[float, float, float, float]:
         """First and last second, least and largest error of a plot of the looks.
