@@ -218,17 +218,17 @@ def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> No
 
 
 def exposure(samples: Array, dropped: int = 0, part: Array = ONE, share: float = 0) -> Exposure:
-    """A film of one pixel: these observations, (n, 3), and a share that is a part of one, (3,)."""
-    mean = (1 - share) * samples.mean(axis=0) + share * part
-    place = (1, 1, 3)
+    """A film of a row of pixels: these observations, (n, width, 3) or (n, 3), and a part of one."""
+    samples = samples.reshape(len(samples), 1, -1, 3)
+    pixels = samples.shape[1:3]
     return Exposure(
-        mean=mean.reshape(place),
-        variance=samples.var(axis=0).reshape(place),
-        dropped=np.full((1, 1), np.float32(dropped)),
-        observations=np.full((1, 1), np.float32(len(samples))),
-        part=part.reshape(place),
-        share=np.full((1, 1), np.float32(share)),
-        layers=np.zeros((2, 0, 1, 1, 4), np.float32),
+        mean=(1 - share) * samples.mean(axis=0) + share * part,
+        variance=samples.var(axis=0),
+        dropped=np.full(pixels, np.float32(dropped)),
+        observations=np.full(pixels, np.float32(len(samples))),
+        part=np.broadcast_to(part, (*pixels, 3)),
+        share=np.full(pixels, np.float32(share)),
+        layers=np.zeros((2, 0, *pixels, 4), np.float32),
     )
 
 
@@ -242,14 +242,14 @@ def test_the_standard_error_is_that_of_the_mean() -> None:
 def test_a_part_of_an_observation_has_a_variance_of_its_own() -> None:
     """Whatever it is: the mean of the estimates is the variance of the means."""
     random = np.random.default_rng(2)
-    blocks = random.normal(5, 1, size=(20_000, 3, 3)).astype(np.float32)
+    blocks = random.normal(5, 1, size=(3, 20_000, 3)).astype(np.float32)
     for spread in (0.5, 1, 4):
         parts = random.normal(5, spread, size=(20_000, 3)).astype(np.float32)
-        films = [exposure(a, part=b, share=0.2) for a, b in zip(blocks, parts, strict=True)]
-        estimate = np.mean([np.square(standard_error(film)) for film in films])
+        film = exposure(blocks, part=parts, share=0.2)
+        estimate = np.mean(np.square(standard_error(film)))
         # Of 60,000 estimates of three degrees of freedom or fewer: 0.6 % is one standard error.
         assert estimate == pytest.approx(0.64 / 3 + 0.04 * spread**2, rel=0.03)
-        assert estimate == pytest.approx(np.var([film.mean for film in films]), rel=0.04)
+        assert estimate == pytest.approx(np.var(film.mean), rel=0.04)
 
 
 def test_fewer_than_two_observations_have_no_standard_error() -> None:

@@ -26,22 +26,26 @@ from tests.judge import Judge, random_scene
 from tests.processes import glrt
 from tests.renders import rendered
 
-SIZE = 16  # pixels of a frame
+SIZE, SLOW_SIZE = 16, 24  # pixels of a frame
 SCENES = sorted(file.stem for file in (folder("scenes") / "methods").glob("*.toml"))
 
 
 @pytest.fixture(autouse=True)
 def small_and_cached(
-    tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+    request: pytest.FixtureRequest,
+    tmp_path_factory: pytest.TempPathFactory,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Frames of 16 pixels, and a cache for all tests of this file."""
+    """Small frames, and a cache for all tests of this file."""
+    size = SLOW_SIZE if request.node.get_closest_marker("slow") else SIZE
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "suffices"))
-    monkeypatch.setattr(suffices, "HEIGHT", SIZE)
+    monkeypatch.setattr(suffices, "HEIGHT", size)
     monkeypatch.setattr(suffices, "REFERENCE_SECONDS", 1.0)
 
 
 def verdict_on(scene: Scene, error: float, context: Context, **more: Any) -> Verdict:
-    settings = settings_for(scene.render, width=SIZE, height=SIZE)
+    size = {"width": suffices.HEIGHT, "height": suffices.HEIGHT}
+    settings = settings_for(scene.render, **size)
     return what_suffices(scene, settings, error, context, **more)
 
 
