@@ -14,13 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt.film import Film
 from glrt.kernel import drawing
+from glrt.layout import read_constants
 from glrt.relight import MOST_LAYERS, NONE, ONE, Weights, are_trivial
-from glrt.shader import Source
+from glrt.shader import Source, read
 from glrt.stats import DARK
 
 Color = tuple[float, float, float]  # sRGB, 0..1
 
-LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear sRGB, Rec. 709
+SHOWS = read_constants(read("false_colors.frag"))
 
 _VERSION = "410 core"
 
@@ -92,7 +93,7 @@ class FalseColors:
 
         `mean`: of the radiance, over pixels and channels.
         """
-        values: dict[str, Any] = {"shows": 0, "dark": DARK * mean**2}
+        values: dict[str, Any] = {"shows": SHOWS["SHOWS_ERROR"], "dark": DARK * mean**2}
         if not are_trivial(weights):
             values["layer_count"] = film.extent.layers
             values["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
@@ -100,7 +101,7 @@ class FalseColors:
 
     def draw_dropped(self, film: Film, light: moderngl.Texture) -> None:
         """How many samples of each pixel were not finite, over a dark picture."""
-        self._draw(film, light, light, DROPPED, {"shows": 1})
+        self._draw(film, light, light, DROPPED, {"shows": SHOWS["SHOWS_DROPPED"]})
 
     def draw_difference(
         self,
@@ -111,7 +112,8 @@ class FalseColors:
         scale: Scale = DIFFERENCE,
     ) -> None:
         """(Y - Y') / sqrt(Y'^2 + 0.01 mean^2) of luminances; Y' and `mean` are the other's."""
-        self._draw(film, light, other, scale, {"shows": 2, "dark": DARK * mean**2})
+        values = {"shows": SHOWS["SHOWS_DIFFERENCE"], "dark": DARK * mean**2}
+        self._draw(film, light, other, scale, values)
 
     def release(self) -> None:
         """Free program and quad."""

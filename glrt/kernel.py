@@ -6,10 +6,11 @@ from itertools import count
 import moderngl
 
 from glrt.errors import RenderError
-from glrt.shader import Source
+from glrt.layout import read_constants
+from glrt.shader import Source, read
 from glrt.signals import postponed
 
-GROUP = 8  # pixels along the edge of a tile, as in tiles.glsl; a work group of trace.comp
+TILE = read_constants(read("tiles.glsl"))["TILE"]  # pixels along the edge of a tile
 
 Resource = moderngl.Buffer | moderngl.Texture
 Images = Mapping[str, moderngl.Texture]
@@ -17,7 +18,7 @@ Images = Mapping[str, moderngl.Texture]
 
 def tile_count(width: int, height: int) -> int:
     """How many tiles cover a picture."""
-    return -(-width // GROUP) * -(-height // GROUP)
+    return -(-width // TILE) * -(-height // TILE)
 
 
 class Kernel:

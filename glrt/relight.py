@@ -8,15 +8,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from glrt.layout import read_constants
 from glrt.needs import used_materials
 from glrt.scene import SKY_GROUP, Background, Light, Radiance, Scene
 from glrt.settings import Cost, Settings, cost_of_change
+from glrt.shader import read
 
 Layering = Literal["none", "groups", "lengths"]
 Weight = tuple[float, float, float]  # a factor for each channel
 Weights = tuple[Weight, ...]  # one for each layer; one alone weighs the whole picture
 
-MOST_LAYERS = 6
+MOST_LAYERS = read_constants(read("most_layers.glsl"))["MOST_LAYERS"]
 ONE: Weight = (1.0, 1.0, 1.0)
 NONE: Weight = (0.0, 0.0, 0.0)
 

@@ -11,16 +11,19 @@ from itertools import count
 from typing import NamedTuple
 
 from glrt.errors import SceneError
+from glrt.layout import read_constants
 from glrt.needs import few_lights, has_tree, is_light
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
+from glrt.shader import read
 
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
 TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
 GROWTH = 4  # of the work from one dispatch to the next, at most
 MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/speed.md)
-HIGHLIGHT_ROUNDS = 52  # of the powers of a highlight, whose exponents stay below 2^24
+# Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
+HIGHLIGHT_ROUNDS = 2 * (read_constants(read("ladder.glsl"))["MOST_EXPONENT"].bit_length() + 1)
 _GOLDEN = 0.618
 
 

@@ -1,6 +1,8 @@
 // A number of each pixel as a colour: how unsure its light is, how many of its samples were
 // dropped, or how its light differs from another film's. Film row 0 is on top.
 
+#include "most_layers.glsl"
+
 const int SHOWS_ERROR = 0;
 const int SHOWS_DROPPED = 1;
 const int SHOWS_DIFFERENCE = 2;
@@ -16,7 +18,7 @@ uniform sampler2D layers;     // as in mix.frag
 uniform sampler2D other;      // radiance to compare with
 uniform int shows;
 uniform int layer_count;      // 0: the light is the mean times weights[0]
-uniform vec3 weights[6];
+uniform vec3 weights[MOST_LAYERS];
 uniform float dark;           // radiance^2, added so that dark pixels do not rule
 uniform bool is_logarithmic;
 uniform vec2 range;           // the numbers of the first and the last colour

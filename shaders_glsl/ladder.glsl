@@ -9,7 +9,7 @@ const int BLINN = 2;    // the same around the half vector (Blinn 1977): the the
 const int WHITTED = 3;  // shadows, mirrors and glass (Whitted 1980): Appendix B
 const int COOK = 4;     // a random point of a lamp, of the lens and of a lobe (Cook et al. 1984)
 
-const int MOST_EXPONENT = 1 << 24;
+const int MOST_EXPONENT = 16777216;  // 2^24
 
 // Whether light is followed beyond this surface. Glass divides it by a random choice, not by a
 // tree: the mean is the same, work does not double at each surface, and antialiasing takes many

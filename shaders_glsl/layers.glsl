@@ -1,7 +1,6 @@
 // Light by layers, so that a picture can be weighed anew without being rendered anew: a layer holds
 // what a light group gives or, BY_LENGTH, what the paths of a length give. LAYERS 0: none are kept.
 
-const int MOST_LAYERS = 6;
 const int DIVISOR = LAYERS > 0 ? LAYERS : 1;  // some compilers refuse to divide by a constant 0
 const vec3 NO_LAYERS[MOST_LAYERS] = vec3[MOST_LAYERS](
     vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));

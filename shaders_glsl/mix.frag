@@ -1,9 +1,11 @@
 // A film weighed: the sum of its layers, or its mean, each by a factor. Film row 0 is on top.
 
+#include "most_layers.glsl"
+
 uniform sampler2D mean;
 uniform sampler2D layers;       // side by side: over one half of the observations, below over the other
 uniform int layer_count;        // 0: the mean alone is weighed
-uniform vec3 weights[6];
+uniform vec3 weights[MOST_LAYERS];
 
 in vec2 place;
 out vec4 color;

@@ -17,6 +17,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "strips.glsl"
 #include "light_choice.glsl"
 #include "light.glsl"
+#include "most_layers.glsl"
 #include "layers.glsl"
 #include "ladder.glsl"
 #include "path.glsl"

@@ -14,6 +14,7 @@
 #include "strips.glsl"
 #include "light_choice.glsl"
 #include "light.glsl"
+#include "most_layers.glsl"
 #include "layers.glsl"
 #include "ladder.glsl"
 #include "path.glsl"

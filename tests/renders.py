@@ -15,9 +15,10 @@ from glrt.context import Context
 from glrt.image import Image
 from glrt.renderer import Renderer
 from glrt.scene import Scene
-from glrt.stats import block_means, block_stderr, sidak_threshold, z_test
+from glrt.stats import block_means, block_stderr, sidak_threshold
 from tests.alarms import ALPHA, book
 from tests.images import same_bits
+from tests.z_test import z_test
 
 METHODS = ("naive", "nee", "mis")
 SAMPLERS = ("independent", "sobol")

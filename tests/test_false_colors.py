@@ -17,7 +17,6 @@ from glrt.false_colors import (
     DIFFERENCE,
     DROPPED,
     ERROR,
-    LUMINANCE,
     VIRIDIS,
     FalseColors,
     Scale,
@@ -32,6 +31,7 @@ from tests.builders import MATTE, lamp, quad, room_of_planes, scene_of, sphere
 
 SIZE: dict[str, Any] = {"width": 24, "height": 20, "bounces": 3, "sampler": "independent"}
 Codes = NDArray[np.uint8]
+LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear sRGB, Rec. 709
 
 
 def room(albedo: float = 0.5, **lights: float) -> Scene:

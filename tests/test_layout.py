@@ -1,5 +1,6 @@
 """The host and the driver agree about where every scalar of every struct lies."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -7,6 +8,7 @@ import moderngl
 import numpy as np
 import pytest
 
+from glrt.kernel import TILE
 from glrt.layout import read_constants, read_structs, record
 from glrt.shader import read
 
@@ -186,3 +188,10 @@ def test_a_record_refuses_missing_and_foreign_names() -> None:
     whole = {"a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1, "h": 1}
     with pytest.raises(KeyError, match="c"):
         record(nested, {**whole, "g": {"a": 1, "b": 1}})
+
+
+def test_a_work_group_of_the_path_tracer_is_a_tile() -> None:
+    """OpenGL 4.3 takes numbers alone for its size, and no constants."""
+    group = re.search(r"local_size_x = (\d+), local_size_y = (\d+)", read("trace.comp"))
+    assert group
+    assert [int(side) for side in group.groups()] == [TILE, TILE]

@@ -7,10 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 from glrt.context import Context
-from glrt.stats import z_test
 from tests.alarms import ALPHA, book
 from tests.builders import glass, lamp, plane, quad, scene_of, sphere
 from tests.renders import Estimate, assert_mean, rendered, rendering, whole
+from tests.z_test import z_test
 
 Floats = NDArray[np.float64]
 

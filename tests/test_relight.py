@@ -18,11 +18,12 @@ from glrt.relight import (
 from glrt.renderer import Renderer
 from glrt.scene import Background, Scene, with_lights
 from glrt.settings import Cost, settings_for
-from glrt.stats import block_means, z_test
+from glrt.stats import block_means
 from glrt.ui.controls import replaced
 from tests.builders import MATTE, lamp, room_of_planes, scene_of, sphere
 from tests.images import same_bits
 from tests.relit import layered, radiance, room, seen, tinted
+from tests.z_test import z_test
 
 # --- one light group --------------------------------------------------------------------
 

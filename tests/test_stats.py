@@ -9,13 +9,11 @@ from glrt.stats import (
     block_means,
     block_stderr,
     error_band,
-    p_value,
     relative_error,
     sidak_threshold,
-    z_scores,
-    z_test,
 )
 from tests.noisy import alarms_allowed, noisy
+from tests.z_test import p_value, z_scores, z_test
 
 SHAPE = (4, 6, 3)
 
