@@ -1,5 +1,7 @@
 """The error over time: when it is looked at, and when it will be small enough."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -90,6 +92,18 @@ def test_a_plot_holds_all_looks_and_a_tick_of_each_axis() -> None:
     for low, high in ((first, last), (least, most)):
         ticks = [share * 10.0**power for power in range(-4, 3) for share in (1, 2, 5)]
         assert any(low <= tick <= high for tick in ticks)
+
+
+@pytest.mark.parametrize("error", [0.0, math.inf])
+def test_a_look_that_no_logarithm_has_a_place_for_is_left_out_of_the_plot(error: float) -> None:
+    progress = Progress()
+    for look in (seen(40, 1.0, error), seen(41, 2.0, error)):
+        progress.record(look, 0.0)
+    assert progress.limits() == EMPTY
+    for look in (seen(42, 3.0, 0.1), seen(43, 4.0, 0.05)):
+        progress.record(look, 0.0)
+    assert [look.samples for look in progress.drawn] == [42, 43]
+    assert progress.limits()[2] > 0
 
 
 def test_a_look_tells_what_the_picture_tells(context: Context) -> None:

@@ -203,7 +203,8 @@ def _edit(app: App, changes: dict[str, Any]) -> None:
 def _preferences(app: App, controls: list[Control]) -> None:
     changes = edited_fields(tuple(controls), dict(app.preferences), "preference")
     if changes:
-        app.prefer(replaced(app.preferences, **changes))
+        with app.telling():
+            app.prefer(replaced(app.preferences, **changes))
 
 
 _SECTIONS = (

@@ -101,7 +101,7 @@ def _kernel(app: App) -> None:
 
 def _plot(app: App) -> None:
     """Error over seconds, both logarithmic, and the line of slope -1/2 that noise follows."""
-    looks = app.progress.looks
+    looks = app.progress.drawn
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
         return

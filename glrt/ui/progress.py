@@ -74,6 +74,11 @@ class Progress:
         """The last look."""
         return self.looks[-1] if self.looks else None
 
+    @property
+    def drawn(self) -> list[Look]:
+        """The looks that logarithmic axes have a place for: a black picture has no error."""
+        return [look for look in self.looks if 0 < look.error < math.inf and look.seconds > 0]
+
     def remaining(self, target: float) -> float | None:
         """Seconds of rendering to an error, which falls with the root of time; None if unknown."""
         if not self.looks:
@@ -94,15 +99,15 @@ class Progress:
 
         However near the looks lie to each other, a tick of 1, 2 or 5 is between the limits.
         """
-        if len(self.looks) < 2:
+        if len(self.drawn) < 2:
             return EMPTY
-        (seconds, errors), known = self.slope(), [look.error for look in self.looks]
+        (seconds, errors), known = self.slope(), [look.error for look in self.drawn]
         ends = min(seconds), max(seconds), min(*errors, *known), max(*errors, *known)
         least, most = 1 / MARGIN, MARGIN
         return ends[0] * least, ends[1] * most, ends[2] * least, ends[3] * most
 
     def slope(self) -> tuple[list[float], list[float]]:
         """Seconds and errors of the line of slope -1/2 through the last look."""
-        first, last = self.looks[0], self.looks[-1]
+        first, last = self.drawn[0], self.drawn[-1]
         seconds = [first.seconds, last.seconds]
         return seconds, [last.error * (last.seconds / max(s, 1e-9)) ** 0.5 for s in seconds]

@@ -17,6 +17,7 @@ COLORS = {
     Cost.RESTART: (0.85, 0.58, 0.13, 1.0),
     Cost.RECOMPILE: (0.88, 0.36, 0.36, 1.0),
 }
+_MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
 
@@ -152,7 +153,8 @@ def _typed_integer(label: str, value: int) -> tuple[bool, int]:
     """A text box: the integers of Dear ImGui end at 2^31."""
     flags = imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
     changed, text = imgui.input_text(label, str(value), int(flags))
-    return changed and text.isdecimal(), int(text) if text.isdecimal() else value
+    digits = text[:_MOST_DIGITS]
+    return changed and text.isdecimal(), int(digits) if digits.isdecimal() else value
 
 
 def _clamped(control: Control, value: Any) -> Any:

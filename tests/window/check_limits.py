@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from imgui_bundle import imgui
 
-from glrt.scene import LARGEST, SMALLEST, Scene
+from glrt.scene import LARGEST, SMALLEST, Scene, with_lights
 from glrt.ui import orbit
 from glrt.ui.controls import replaced
 from glrt.ui.place import with_object
@@ -103,3 +103,41 @@ def an_object_of_any_size_is_framed_or_told(hand: Hand) -> None:
 def sized(hand: Hand, number: int, radius: float) -> Scene:
     scene = hand.session.scene
     return with_object(scene, number, replaced(scene.objects[number], radius=radius))
+
+
+@check
+def whatever_is_typed_into_a_field_ends_nothing(hand: Hand) -> None:
+    """Beyond floats and integers, and limits that are not valid themselves."""
+    ctx, (number, shape) = hand.ctx, ball(hand)
+    hand.window.app.selected = number
+    ctx.set_ref("Controls")
+    ctx.item_open("Window")
+    for label, *texts in (
+        ("seed", "9" * 5000, "-1", "1/0"),
+        ("samples", "9" * 50),
+        ("fov", "0", "1e39", "nan"),
+        ("intensity##lamp", "1e39", "0"),
+        ("emission##lamp/##emission/$$0", "1e39", "0"),
+        ("position/$$2", "1e39", "-1e39", "0"),
+        (f"radius##shape {number}", "0", "1e39"),
+        (f"color##material {shape.material}/##X", "1e39"),
+        ("walk speed##preference", "0"),
+        ("target error##preference", "0", "1e39"),
+        ("scale##preference", "1e39", "-1", "1"),
+    ):
+        for text in texts:
+            ctx.item_input_value(label, text)
+    ctx.item_close("Window")
+    hand.begin()
+    goes_on(hand)
+    hand.window.app.selected = None
+
+
+@check
+def a_black_picture_has_figures(hand: Hand) -> None:
+    """Its error is 0, for which logarithmic axes have no place."""
+    for intensity in (0.0, LARGEST / 100):
+        relit = with_lights(hand.session.scene, {"lamp": intensity})
+        hand.there(partial(hand.session.edit, relit))
+        hand.until(lambda: len(hand.window.app.progress.looks) > 1, frames=2000)
+        goes_on(hand)
