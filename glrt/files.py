@@ -11,8 +11,9 @@ from pathlib import Path
 
 from glrt.errors import RenderError, UsageError
 
-# Of libraries, not only of the system: OpenEXR raises RuntimeError when a disk is full.
-_WRITE_FAILURES = (OSError, RuntimeError, UnicodeError, MemoryError)
+# Of libraries, not only of the system: OpenEXR raises RuntimeError when a disk is full, and Python
+# ValueError for names that no system takes.
+_WRITE_FAILURES = (OSError, RuntimeError, ValueError, MemoryError)
 
 
 def write_whole(path: Path, write: Callable[[Path], None]) -> None:
@@ -23,6 +24,8 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
     """
     try:
         target = path.resolve()  # of a link, the file that it names
+        if target.is_dir():
+            raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
         temporary = _beside(target)
         try:
             _create(temporary)

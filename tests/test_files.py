@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from glrt.errors import GlrtError, RenderError, UsageError
+from glrt.files import write_text
 from glrt.image import Image, check_writable
 from tests.images import picture, same_bits
 
@@ -126,6 +127,12 @@ def test_an_interrupted_save_leaves_nothing(
 def test_a_folder_that_is_missing_fails_the_save(tmp_path: Path, image: Image) -> None:
     with pytest.raises(RenderError, match=r"missing/x\.png: No such file or directory"):
         image.save(tmp_path / "missing" / "x.png")
+
+
+@pytest.mark.parametrize("path", ["/", ".", "x\0.toml", "x" * 5000])
+def test_what_no_file_can_be_called_fails_the_save(path: str) -> None:
+    with pytest.raises(RenderError, match="Cannot write"):
+        write_text(Path(path), "text")
 
 
 @pytest.mark.parametrize("name", ["x.jpg", "x", "x.png.txt", ".png"])

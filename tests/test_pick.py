@@ -1,11 +1,15 @@
 """What lies under a point of the picture, and shapes that are moved by a gizmo."""
 
 import math
+from contextlib import suppress
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from glrt.context import Context
+from glrt.errors import GlrtError
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere
@@ -127,3 +131,42 @@ def test_only_one_object_is_replaced() -> None:
     after = with_object(scene, 2, moved)
     assert [a == b for a, b in zip(scene.objects, after.objects, strict=True)].count(False) == 1
     assert after.objects[2] == moved
+
+
+EXTREMES = [0.0, -0.0, 1.0, -1.0, 1e-20, 1e15, -3e38, math.inf, -math.inf, math.nan]
+ENTRIES = st.one_of(st.sampled_from(EXTREMES), st.floats(width=32))
+
+
+@settings(max_examples=300, derandomize=True, deadline=None, database=None)
+@given(st.sampled_from(SHAPES), st.lists(ENTRIES, min_size=16, max_size=16))
+def test_no_matrix_of_a_gizmo_raises_what_the_window_does_not_catch(
+    shape: Shape, entries: list[float]
+) -> None:
+    with suppress(GlrtError), np.errstate(all="ignore"):
+        moved = moved_to(shape, np.array(entries, np.float32))
+        assert np.isfinite([*middle(moved), reach(moved)]).all()
+
+
+@settings(max_examples=200, derandomize=True, deadline=None, database=None)
+@given(st.lists(st.floats(-1e15, 1e15), min_size=12, max_size=12), st.floats(1e-15, 1e15))
+def test_whatever_lies_there_a_point_is_picked_or_nothing(
+    places: list[float], radius: float
+) -> None:
+    def at(number: int) -> list[float]:
+        return places[3 * number : 3 * number + 3]
+
+    shapes = [sphere(at(0), radius, "a"), plane(at(1), [1e-15, 1, 1e15], "b")]
+    with suppress(GlrtError):
+        shapes.append(quad(at(1), at(2), [1e-15, 0, 1], "c"))
+        scene = scene_of(shapes, LAMPS, {"position": at(3), "look_at": [0, 0, 0]})
+        picked = pick(scene, 1.0, 0.7, 0.2)
+        assert picked is None or not np.isnan(picked.point).any()
+
+
+def test_the_first_of_objects_in_one_place_is_picked_and_of_none_nothing() -> None:
+    scene = scene_of([PANE, FLOOR, BALL, BALL], LAMPS)
+    depth = math.tan(math.radians(22.5)) * 4
+    picked = pick(scene, 1.0, 0.5 + 0.5 * 0.5 / depth, 0.5 - 0.5 * 0.2 / depth)
+    assert picked
+    assert picked.number == 2
+    assert pick(scene_of([], {}, background={"color": [1, 1, 1]}), 1.0, 0.5, 0.5) is None

@@ -1,5 +1,6 @@
 """The part of the panel that edits the selected object and its material."""
 
+from collections import Counter
 from functools import partial
 from typing import Any
 
@@ -10,6 +11,7 @@ from glrt.ui import pick
 from glrt.ui.app import App
 from glrt.ui.controls import Control, controls_of, replaced
 from glrt.ui.place import with_object
+from glrt.ui.same import kept_for_the_same
 from glrt.ui.widgets import edited_fields
 
 _NONE = "nothing"
@@ -17,13 +19,7 @@ _NONE = "nothing"
 
 def draw_object(app: App) -> None:
     """Which object is selected, its shape and its material."""
-    scene = app.session.scene
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    names = [_NONE, *(_name(index, shape) for index, shape in enumerate(scene.objects))]
-    index = 0 if app.selected_shape is None or app.selected is None else app.selected + 1
-    chosen, index = imgui.combo("object", index, names)
-    if chosen:
-        app.selected = index - 1 if index else None
+    _chooser(app)
     shape = app.selected_shape
     if shape is None or app.selected is None:
         imgui.text_disabled("click an object in the picture")
@@ -31,6 +27,32 @@ def draw_object(app: App) -> None:
     _buttons(app, shape)
     _shape(app, app.selected, shape)
     _material(app, app.selected, shape)
+
+
+def _chooser(app: App) -> None:
+    """A list of all objects, of which those in sight are drawn: there may be thousands."""
+    objects, index = app.session.scene.objects, app.selected
+    row = 0 if app.selected_shape is None or index is None else index + 1
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    if not imgui.begin_combo("object", _row(objects, row)):
+        return
+    clipper = imgui.ListClipper()
+    clipper.begin(len(objects) + 1)
+    clipper.include_item_by_index(row)
+    while clipper.step():
+        for number in range(clipper.display_start, clipper.display_end):
+            imgui.push_id(number)
+            if imgui.selectable(_row(objects, number), number == row)[0]:
+                app.selected = number - 1 if number else None
+            if number == row and imgui.is_window_appearing():
+                imgui.set_item_default_focus()
+            imgui.pop_id()
+    imgui.end_combo()
+
+
+def _row(objects: tuple[Shape, ...], number: int) -> str:
+    """Of the list, whose first row is no object."""
+    return _name(number - 1, objects[number - 1]) if number else _NONE
 
 
 def _name(index: int, shape: Shape) -> str:
@@ -65,12 +87,18 @@ def _material(app: App, index: int, shape: Shape) -> None:
     if chosen:
         app.edit_scene("", partial(_reshaped, index, {"material": names[which]}))
         return
-    sharing = sum(1 for other in scene.objects if other.material == name)
+    sharing = _uses(scene.objects)[name]
     imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s)")
     material = scene.materials[name]
     changes = edited_fields(_controls(material), dict(material), f"material {name}")
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
+
+
+@kept_for_the_same
+def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
+    """How many objects each material is of."""
+    return Counter(shape.material for shape in objects)
 
 
 def _controls(material: Material) -> tuple[Control, ...]:

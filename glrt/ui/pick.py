@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from glrt.pack import pack_camera
 from glrt.scene import Camera, Plane, Quad, Scene, Shape, Sphere, Vector
+from glrt.ui.same import kept_for_the_same
 
 Array = NDArray[np.float64]
 
@@ -34,8 +35,9 @@ def ray_through(camera: Camera, aspect: float, x: float, y: float) -> tuple[Arra
 def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
     """The nearest object under a point of the picture; None where there is nothing but sky."""
     origin, direction = ray_through(scene.camera, aspect, x, y)
-    distances = [_distance(shape, origin, direction) for shape in scene.objects]
-    if not distances or min(distances) == math.inf:
+    with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
+        distances = _distances(_tables(scene.objects), origin, direction)
+    if not len(distances) or distances.min() == math.inf:
         return None
     index = int(np.argmin(distances))
     point = origin + distances[index] * direction
@@ -62,44 +64,67 @@ def reach(shape: Shape) -> float:
     return 1.0
 
 
-def _distance(shape: Shape, origin: Array, direction: Array) -> float:
-    """Along the ray; inf if the shape is missed or behind."""
-    if isinstance(shape, Sphere):
-        return _to_sphere(shape, origin, direction)
-    if isinstance(shape, Plane):
-        return _to_plane(np.array(shape.point), np.array(shape.normal), origin, direction)
-    return _to_quad(shape, origin, direction)
+class _Tables(NamedTuple):
+    """The objects by kind, a row each; `numbers` are those of the rows in the scene."""
+
+    numbers: NDArray[np.intp]
+    spheres: Array  # center, radius
+    planes: Array  # point, normal
+    quads: Array  # corner, edge_u, edge_v
 
 
-def _to_sphere(sphere: Sphere, origin: Array, direction: Array) -> float:
-    to_center = np.array(sphere.center) - origin
-    along = float(to_center @ direction)
-    aside = to_center - along * direction
-    rest = sphere.radius**2 - float(aside @ aside)
-    if rest < 0:
-        return math.inf
-    near, far = along - math.sqrt(rest), along + math.sqrt(rest)
-    return near if near > 0 else far if far > 0 else math.inf
-
-
-def _to_plane(point: Array, normal: Array, origin: Array, direction: Array) -> float:
-    slope = float(normal @ direction)
-    if slope == 0:
-        return math.inf
-    distance = float(normal @ (point - origin)) / slope
-    return distance if distance > 0 else math.inf
-
-
-def _to_quad(quad: Quad, origin: Array, direction: Array) -> float:
-    corner, u, v = np.array(quad.corner), np.array(quad.edge_u), np.array(quad.edge_v)
-    normal = np.cross(u, v)
-    distance = _to_plane(corner, normal, origin, direction)
-    if distance == math.inf:
-        return distance
-    offset = origin + distance * direction - corner
-    square = float(normal @ normal)
-    a, b = (
-        float(np.cross(offset, v) @ normal) / square,
-        float(np.cross(u, offset) @ normal) / square,
+@kept_for_the_same
+def _tables(objects: tuple[Shape, ...]) -> _Tables:
+    kinds: list[list[tuple[int, list[float]]]] = [[], [], []]
+    for number, shape in enumerate(objects):
+        if isinstance(shape, Sphere):
+            kinds[0].append((number, [*shape.center, shape.radius]))
+        elif isinstance(shape, Plane):
+            kinds[1].append((number, [*shape.point, *shape.normal]))
+        else:
+            kinds[2].append((number, [*shape.corner, *shape.edge_u, *shape.edge_v]))
+    numbers = np.array([number for kind in kinds for number, _ in kind], np.intp)
+    rows = ([row for _, row in kind] for kind in kinds)
+    spheres, planes, quads = (
+        np.array(part, np.float64).reshape(-1, width)
+        for part, width in zip(rows, (4, 6, 9), strict=True)
     )
-    return distance if 0 <= a <= 1 and 0 <= b <= 1 else math.inf
+    return _Tables(numbers, spheres, planes, quads)
+
+
+def _distances(tables: _Tables, origin: Array, direction: Array) -> Array:
+    """To each object along the ray; inf if it is missed or behind."""
+    distances = np.empty(len(tables.numbers))
+    distances[tables.numbers] = np.concatenate(
+        [
+            _to_spheres(tables.spheres, origin, direction),
+            _to_planes(tables.planes[:, :3], tables.planes[:, 3:], origin, direction),
+            _to_quads(tables.quads, origin, direction),
+        ]
+    )
+    return distances
+
+
+def _to_spheres(spheres: Array, origin: Array, direction: Array) -> Array:
+    to_center = spheres[:, :3] - origin
+    along = to_center @ direction
+    aside = to_center - along[:, None] * direction
+    rest = np.sqrt(spheres[:, 3] ** 2 - np.square(aside).sum(axis=1))  # NaN beside the sphere
+    near, far = along - rest, along + rest
+    return np.where(near > 0, near, np.where(far > 0, far, math.inf))
+
+
+def _to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
+    distances: Array = ((points - origin) * normals).sum(axis=1) / (normals @ direction)
+    return np.where(distances > 0, distances, math.inf)
+
+
+def _to_quads(quads: Array, origin: Array, direction: Array) -> Array:
+    corner, u, v = quads[:, :3], quads[:, 3:6], quads[:, 6:]
+    normal = np.cross(u, v)
+    distance = _to_planes(corner, normal, origin, direction)
+    offset = origin + distance[:, None] * direction - corner
+    square = np.square(normal).sum(axis=1)
+    a = (np.cross(offset, v) * normal).sum(axis=1) / square
+    b = (np.cross(u, offset) * normal).sum(axis=1) / square
+    return np.where((a >= 0) & (a <= 1) & (b >= 0) & (b <= 1), distance, math.inf)

@@ -6,9 +6,11 @@ import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.needs import explain
+from glrt.relight import Plan
 from glrt.settings import MAX_SAMPLES, Settings
 from glrt.ui.app import App
 from glrt.ui.progress import Look, Progress
+from glrt.ui.same import kept_for_the_same
 
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
@@ -86,17 +88,23 @@ def _kernel(app: App) -> None:
     session = app.session
     if not session.renderer:
         return
-    plan = session.renderer.plan
-    features = explain(plan.scene, plan.settings)
-    inside = ", ".join(feature.name for feature in features if feature.present)
-    layers = f"; {plan.layers} layers" if plan.layers else ""
+    inside, left_out = _contents(session.renderer.plan)
     imgui.push_text_wrap_pos(0.0)
     baked = "; shapes written in while they rest" if session.renderer.is_baked else ""
-    imgui.text_disabled(f"{session.pipeline} kernel: {inside}{layers}{baked}")
-    left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
+    imgui.text_disabled(f"{session.pipeline} kernel: {inside}{baked}")
     imgui.set_item_tooltip(f"left out\n{left_out}")
     imgui.text_disabled(session.renderer.context.renderer)
     imgui.pop_text_wrap_pos()
+
+
+@kept_for_the_same
+def _contents(plan: Plan) -> tuple[str, str]:
+    """What a kernel contains; and what it does not, with the reasons."""
+    features = explain(plan.scene, plan.settings)
+    inside = ", ".join(feature.name for feature in features if feature.present)
+    layers = f"; {plan.layers} layers" if plan.layers else ""
+    left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
+    return f"{inside}{layers}", left_out
 
 
 def _plot(app: App) -> None:

@@ -15,12 +15,13 @@ from glrt.needs import needs_of
 from glrt.pipelines import resolve
 from glrt.relight import Layering, Weights, emitters, layer_of_group, plan_for
 from glrt.renderer import Renderer
-from glrt.scene import SKY_GROUP, Scene
+from glrt.scene import SKY_GROUP, Radiance, Scene
 from glrt.settings import Cost, Settings, settings_for
 from glrt.ui.history import History
 from glrt.ui.preview import Preview
 from glrt.ui.rest import Rest
 from glrt.ui.room import Room
+from glrt.ui.same import kept_for_the_same
 
 ANNOUNCED = 2  # frames that say what is about to stop them
 FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
@@ -111,10 +112,9 @@ class Session:
 
     def cost_of_light(self, group: str, is_tint: bool = False) -> Cost:
         """What another intensity of a light group costs now, or another colour of one lamp."""
-        layers = layer_of_group(self.scene)
+        layers, lamps = _lamps(self.scene)
         shares = [other for other in layers if layers[other] == layers.get(group)]
-        lamps = emitters(self.scene).get(group, [])
-        is_weighed = len(shares) == 1 and not (is_tint and len(lamps) > 1)
+        is_weighed = len(shares) == 1 and not (is_tint and len(lamps.get(group, [])) > 1)
         if is_weighed and self.layering == "groups":
             return Cost.RELIGHT
         return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
@@ -287,3 +287,9 @@ class Session:
             size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
             settings = settings_for(settings, **size)
         return State(self.scene, settings)
+
+
+@kept_for_the_same
+def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
+    """The layer of each light group, and what its lamps emit."""
+    return layer_of_group(scene), emitters(scene)

@@ -2,9 +2,12 @@
 
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
+from imgui_bundle.imguizmo import im_guizmo
 
 from glrt.scene import LARGEST, SMALLEST, Scene, with_lights
 from glrt.ui import orbit
@@ -141,3 +144,76 @@ def a_black_picture_has_figures(hand: Hand) -> None:
         hand.there(partial(hand.session.edit, relit))
         hand.until(lambda: len(hand.window.app.progress.looks) > 1, frames=2000)
         goes_on(hand)
+
+
+@check
+def handles_that_scale_an_object_to_nothing_tell_it(hand: Hand) -> None:
+    number, shape = ball(hand)
+    hand.window.app.selected = number
+    handles: Any = im_guizmo
+    manipulate = handles.manipulate
+
+    def shrink(view: Any, projection: Any, operation: Any, mode: Any, matrix: Any) -> bool:
+        matrix.values[:12] = 0.0
+        return True
+
+    try:
+        handles.manipulate = shrink
+        hand.until(lambda: "radius" in hand.session.problem)
+    finally:
+        handles.manipulate = manipulate
+    goes_on(hand)
+    assert hand.session.scene.objects[number] == shape
+    hand.window.app.selected = None
+
+
+@check
+def what_is_no_scene_and_what_is_no_file_is_told(hand: Hand) -> None:
+    app, before = hand.window.app, hand.session.state
+    noise = Path.cwd() / "noise.png"
+    noise.write_bytes(bytes(range(256)) * 9)
+    for source in (".", "/", str(noise), "/dev/null", "x" * 5000, "x\0y", "~", "..", " "):
+        told(hand, partial(app.open, source))
+    for path in (".", "/", "x" * 5000 + ".png", "picture", "/dev/full", "x.png/y.png", " "):
+        told(hand, partial(app.save, path))
+    for path in (".", "/", "x" * 5000 + ".toml", "noise.png/y.toml"):
+        told(hand, partial(app.save_scene, path))
+    for text in (
+        "",
+        "{",
+        "null",
+        "[]",
+        '{"scene": {}}',
+        '{"scene": {"title": "\\ud800"}}',
+        "9" * 5000,
+    ):
+        hand.there(partial(imgui.set_clipboard_text, text))
+        told(hand, app.paste_recipe)
+    assert hand.session.state == before
+    reopen(hand)
+
+
+def told(hand: Hand, act: Callable[[], None]) -> None:
+    """A command that is refused in a line, and changes nothing."""
+    hand.session.problem = ""
+    hand.there(act)
+    assert hand.session.problem, act
+
+
+@check
+def undo_and_redo_end_where_there_is_nothing_more(hand: Hand) -> None:
+    for _ in range(3):
+        hand.there(lambda: hand.session.edit(seed=hand.session.settings.seed + 1))
+    last = hand.session.state
+    for step in (hand.session.undo, hand.session.redo):
+        hand.there(partial(repeated, step))
+        goes_on(hand)
+    assert not hand.session.history.can_redo
+    assert hand.session.history.can_undo
+    hand.there(lambda: hand.session.edit(last.scene, **dict(last.settings)))
+
+
+def repeated(act: Callable[[], None]) -> None:
+    """More often than there are steps to undo."""
+    for _ in range(600):
+        act()

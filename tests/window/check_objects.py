@@ -1,13 +1,18 @@
 """Objects: selected, moved and edited."""
 
 import math
+from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
 
+from glrt.needs import explain
+from glrt.scene import Shape
 from glrt.settings import Cost
+from glrt.ui import objects, plots
 from glrt.ui.gizmo import is_held
 from glrt.ui.orbit import axes
+from tests.builders import MATTE, scene_of, sphere
 from tests.window.gestures import ball, click, place_of
 from tests.window.hand import Hand, check
 
@@ -80,3 +85,39 @@ def an_object_is_edited_in_the_panel(hand: Hand) -> None:
     assert hand.session.scene.materials[shape.material].color[0] == 0.1  # type: ignore[union-attr]
     assert (hand.pixels() != before).any()
     hand.window.app.selected = None
+
+
+@check
+def an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_them(
+    hand: Hand,
+) -> None:
+    app, ctx, named = hand.window.app, hand.ctx, objects._name
+    panel: Any = objects
+    figures: Any = plots
+    crowd = [sphere([0.01 * n - 20, 0, -40], 0.1, "matte") for n in range(3000)]
+    scene = scene_of(crowd, {"matte": MATTE}, background={"color": [1, 1, 1]})
+    hand.there(lambda: hand.session.edit(scene))
+    hand.settle()
+    ctx.set_ref("Controls")
+    ctx.combo_click("object/$$3/2: sphere of matte")
+    assert app.selected == 2
+    asked: list[int] = []
+
+    def count(index: int, shape: Shape) -> str:
+        asked.append(index)
+        return named(index, shape)
+
+    def fail(*_: object) -> Any:
+        raise AssertionError("asked again for the same scene")
+
+    try:
+        panel._name, figures.explain = count, fail
+        ctx.yield_(10)
+        assert set(asked) == {2}
+        ctx.item_click("object")
+        ctx.yield_(3)
+        assert len(set(asked)) < 100
+        ctx.popup_close_all()
+    finally:
+        panel._name, figures.explain = named, explain
+    app.selected = None
