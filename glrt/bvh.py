@@ -62,6 +62,21 @@ def build(lower: Floats, upper: Floats) -> Tree:
     return tree
 
 
+def refit(item: Ints, skip: Ints, lower: Floats, upper: Floats) -> Tree:
+    """The tree with these nodes over boxes that have moved: it stays as good where all moved alike.
+
+    Depth-first, what lies below a node lies in a row behind it.
+    """
+    place = np.arange(len(item))
+    inner = place[skip > place + 1]
+    ends = np.column_stack([inner + 1, skip[inner]]).ravel()
+    corners = np.zeros((2, len(item), 3))
+    for corner, boxes, most in zip(corners, (lower, upper), (np.minimum, np.maximum), strict=True):
+        rows = boxes[[*item, item[-1]]]  # `skip` may be the end
+        corner[inner] = most.reduceat(rows, ends)[::2] if len(inner) else 0
+    return Tree(item, corners[0], corners[1], skip)
+
+
 def _rest(level: _Level) -> _Level:
     """The nodes that have children, without their own items, which come first."""
     is_rest = np.ones(len(level.items), bool)

@@ -18,14 +18,18 @@ SLACK = 2.0**-18  # of boxes, as of rays in bvh.glsl: the float32 rounding of a 
 MOST_CELLS = 2**16 - 1  # along the grid
 
 
-def pack_nodes(spheres: Array, dtype: np.dtype[Any]) -> Array:
+def pack_nodes(spheres: Array, dtype: np.dtype[Any], known: Array | None = None) -> Array:
     """Rows of Node for rows of Sphere: one for the grid, then the tree, its boxes wide enough for
-    float32. None without spheres."""
+    float32. None without spheres.
+
+    `known` are nodes of the same spheres, seen from elsewhere: their order serves again.
+    """
     if not len(spheres):
         return np.zeros(0, dtype)
     center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
     slack = SLACK * (np.abs(center).max(axis=1, keepdims=True) + radius)
-    tree = bvh.build(center - radius - slack, center + radius + slack)
+    boxes = center - radius - slack, center + radius + slack
+    tree = bvh.build(*boxes) if known is None else bvh.refit(*_order(known), *boxes)
     corner, cell = _grid(tree.lower[0], tree.upper[0])
     rows = np.zeros(1 + len(spheres), dtype)
     rows["sphere"][0] = np.array([*corner, cell], np.float32).view(np.uint32)
@@ -37,6 +41,12 @@ def pack_nodes(spheres: Array, dtype: np.dtype[Any]) -> Array:
     rows["box"][1:, :3] = lower | upper << 16
     rows["box"][1:, 3] = (tree.item | below << 16).astype(np.uint32)
     return rows
+
+
+def _order(nodes: Array) -> tuple[Array, Array]:
+    """The items of a tree, and where each node goes on."""
+    links = nodes["box"][1:, 3].astype(int)
+    return links & 0xFFFF, (links >> 16) + np.arange(len(links)) + 1
 
 
 def _grid(lower: Array, upper: Array) -> tuple[Array, float]:

@@ -45,8 +45,11 @@ def shapes_of(scene: Scene) -> Shapes:
     )
 
 
-def pack_scene(scene: Scene) -> dict[str, Array]:
-    """Arrays for the storage blocks of the kernel, keyed by block name."""
+def pack_scene(scene: Scene, known: Array | None = None) -> dict[str, Array]:
+    """Arrays for the storage blocks of the kernel, keyed by block name.
+
+    `known` are the nodes of a scene with the same objects: a tree is not built again.
+    """
     shapes = shapes_of(scene)
     eye = np.array(scene.camera.position, np.float64)
     names = {name: index for index, name in enumerate(used_materials(scene))}
@@ -59,7 +62,7 @@ def pack_scene(scene: Scene) -> dict[str, Array]:
         "Quads": _pack_quads(
             shapes.quads, eye, names, light_of, len(shapes.spheres) + len(shapes.planes)
         ),
-        "Nodes": pack_nodes(spheres if has_tree(scene) else spheres[:0], STRUCTS["Node"]),
+        "Nodes": pack_nodes(spheres if has_tree(scene) else spheres[:0], STRUCTS["Node"], known),
         "Materials": _pack_materials(scene),
         "Lights": _pack_lights(scene, shapes, lamps),
     }

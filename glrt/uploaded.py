@@ -13,6 +13,7 @@ from glrt.needs import has_tree, needs_of
 from glrt.pack import STRUCTS, pack_frame, pack_scene
 from glrt.pipelines import Arrays, Resolved, scene_text, sources, upload
 from glrt.relight import Plan
+from glrt.scene import Scene
 from glrt.schedule import Portion, stride_of
 from glrt.shader import Source
 
@@ -36,8 +37,7 @@ class Uploaded:
         The same scene as `before` is not packed again. RenderError if the driver has no room.
         """
         self._gl, self._way, self._scene = context.gl, way, plan.scene
-        is_known = before is not None and before._scene == plan.scene
-        self._arrays: Arrays = before._arrays if before and is_known else pack_scene(plan.scene)
+        self._arrays: Arrays = _packed(plan.scene, before)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._constants = needs_of(plan.scene, plan.settings).constants() | plan.constants()
         self._has_tree = has_tree(plan.scene)  # without one none are lost
@@ -113,6 +113,14 @@ class Uploaded:
 
     def _shaders(self, parts: Mapping[str, str]) -> list[Source]:
         return sources(self._way.pipeline, self._constants, parts)
+
+
+def _packed(scene: Scene, before: Uploaded | None) -> Arrays:
+    """The arrays of a scene; what those from before hold of it is not computed again."""
+    if before and before._scene == scene:
+        return before._arrays
+    is_elsewhere = before is not None and before._scene.objects == scene.objects
+    return pack_scene(scene, before._arrays["Nodes"] if before and is_elsewhere else None)
 
 
 def same_rows(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:

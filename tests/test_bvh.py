@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from glrt import needs, schedule
-from glrt.bvh import Tree, build
+from glrt.bvh import Tree, build, refit
 from glrt.cli import main
 from glrt.context import Context
 from glrt.image import Image
@@ -22,6 +22,7 @@ from tests.mixture import EYE, MATERIALS, OBJECTS, everything
 from tests.renders import rendered, rendering, same
 
 Array = np.ndarray[Any, Any]
+WHITE = {"color": [1.0, 1.0, 1.0]}
 
 # --- the tree --------------------------------------------------------------------------------
 
@@ -59,6 +60,48 @@ def test_every_box_is_one_node_and_lies_in_the_boxes_of_all_above_it(name: str) 
         rest = tree.item[below(tree, node)]
         assert len(rest) == 0 or np.array_equal(tree.lower[node], lower[rest].min(axis=0))
         assert len(rest) == 0 or np.array_equal(tree.upper[node], upper[rest].max(axis=0))
+
+
+@pytest.mark.parametrize("name", TREES)
+def test_boxes_that_have_moved_keep_their_order_and_every_box_holds_what_lies_below_it(
+    name: str,
+) -> None:
+    lower, upper = TREES[name]
+    tree = build(lower, upper)
+    again = refit(tree.item, tree.skip, lower, upper)
+    assert all(np.array_equal(a, b) for a, b in zip(again, tree, strict=True))
+    way = np.array([0.37, -11.0, 5.3])
+    moved = refit(tree.item, tree.skip, lower + way, upper + way)
+    for node in range(len(lower)):
+        rest = tree.item[below(tree, node)]
+        assert len(rest) == 0 or np.array_equal(moved.lower[node], (lower + way)[rest].min(axis=0))
+        assert len(rest) == 0 or np.array_equal(moved.upper[node], (upper + way)[rest].max(axis=0))
+
+
+def test_a_camera_that_moves_builds_no_tree_again(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To the bits of a render from there."""
+    rng = np.random.default_rng(5)
+    balls = [sphere(p.tolist(), 0.3, "m") for p in rng.uniform(-2, 2, (200, 3))]
+    near, far = (
+        scene_of(balls, {"m": MATTE}, {"position": [0.3, 0, z]}, background=WHITE)
+        for z in (5.0, 6.0)
+    )
+    with rendering(near, context, width=32, height=32) as renderer:
+        renderer.render(1)
+        with monkeypatch.context() as patch:
+            patch.setattr("glrt.bvh.build", None)
+            assert renderer.update(far) is Cost.RESTART
+        assert same(renderer.render(4).image(), rendered(far, context, 4, width=32, height=32))
+        others = [sphere([0.1, 0.2, 1.0], 0.5, "m"), *balls[1:]]
+        moved = scene_of(others, {"m": MATTE}, {"position": [0.3, 0, 6.0]}, background=WHITE)
+        with monkeypatch.context() as patch:
+            patch.setattr("glrt.bvh.build", None)
+            with pytest.raises(TypeError):  # other balls want another tree
+                renderer.update(moved)
+        renderer.update(moved)
+        assert same(renderer.render(4).image(), rendered(moved, context, 4, width=32, height=32))
 
 
 @pytest.mark.parametrize("name", TREES)
