@@ -140,3 +140,8 @@ def unused(name: str) -> str:
         number += 1
         path = path.with_stem(f"{Path(name).stem}-{number}")
     return str(path)
+
+
+def printable(name: str) -> str:
+    """A name of a file as text: systems have names that are none, which no window can draw."""
+    return name.encode(errors="replace").decode()

@@ -10,7 +10,7 @@ from typing import Any
 from imgui_bundle import imgui
 
 from glrt.errors import GlrtError, UsageError
-from glrt.files import unused
+from glrt.files import printable, unused
 from glrt.library import load, load_recipe, scene_file_of
 from glrt.recipe import Recipe
 from glrt.scene import LARGEST, SMALLEST, Camera, Scene, Shape, Vector
@@ -221,7 +221,7 @@ class App:
 
     def tell(self, message: str) -> None:
         """Show for a while what was done."""
-        self.message, self.told = message, time.perf_counter()
+        self.message, self.told = printable(message), time.perf_counter()
 
     def recent_message(self, now: float) -> str:
         """What was done a moment ago; "" for nothing."""
@@ -229,7 +229,7 @@ class App:
 
     def complain(self, problem: str) -> None:
         """Show what went wrong, if anything did."""
-        self.session.problem = problem or self.session.problem
+        self.session.problem = printable(problem) or self.session.problem
 
     @property
     def picture(self) -> Picture:

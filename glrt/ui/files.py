@@ -2,6 +2,7 @@
 
 from imgui_bundle import hello_imgui, imgui
 
+from glrt.files import printable
 from glrt.library import scene_names
 from glrt.ui import dialogs
 from glrt.ui.app import App
@@ -64,9 +65,10 @@ def _recipe(app: App, has_picture: bool) -> None:
 def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
     """A box for a path: its text, and whether Enter ended it."""
     imgui.set_next_item_width(min(hello_imgui.em_size(12), 0.5 * imgui.get_window_width()))
-    _, path = imgui.input_text_with_hint(f"##{name}", hint, path)
+    shown = printable(path)
+    _, typed = imgui.input_text_with_hint(f"##{name}", hint, shown)
     is_entered = imgui.is_item_deactivated() and imgui.is_key_pressed(imgui.Key.enter)
-    return path, is_entered
+    return path if typed == shown else typed, is_entered
 
 
 def _browse(name: str) -> bool:

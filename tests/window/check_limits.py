@@ -1,5 +1,6 @@
 """Whatever a user does, to its extremes: the window goes on, and tells what cannot be."""
 
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -190,6 +191,23 @@ def what_is_no_scene_and_what_is_no_file_is_told(hand: Hand) -> None:
         hand.there(partial(imgui.set_clipboard_text, text))
         told(hand, app.paste_recipe)
     assert hand.session.state == before
+    reopen(hand)
+
+
+@check
+def a_name_that_is_no_text_is_shown_and_kept(hand: Hand) -> None:
+    """Linux has names of files that are not UTF-8."""
+    app, file = hand.window.app, Path.cwd() / os.fsdecode(b"caf\xe9.toml")
+    file.write_text((Path.cwd() / "scenes" / "cornell.toml").read_text())
+    hand.ctx.item_open("//Controls/Files")
+    hand.there(partial(app.open, str(file)))
+    goes_on(hand)
+    assert app.scene_path == str(file)
+    hand.there(partial(app.save, str(file.with_suffix(".png"))))
+    hand.there(app.save_scene)
+    goes_on(hand)
+    assert not hand.session.problem
+    hand.ctx.item_close("//Controls/Files")
     reopen(hand)
 
 
