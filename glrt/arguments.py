@@ -254,7 +254,7 @@ def _render_settings(parser: argparse.ArgumentParser) -> None:
             action.choices = [*(action.choices or ()), AUTO]
             action.help = (
                 f"{action.help}; {AUTO}: the cheapest that reaches --error, by a measurement of "
-                "some seconds, whatever --time says"
+                "some seconds, or of half of --time"
             )
 
 

@@ -11,7 +11,8 @@ import numpy as np
 from glrt.context import Context
 from glrt.lab import reference as references
 from glrt.lab.reference import Reference, reference_for
-from glrt.lab.suffices import LIMITS, Candidate, Verdict
+from glrt.lab.suffices import Verdict
+from glrt.lab.trial import LIMITS, Candidate
 from glrt.renderer import Renderer
 from glrt.scene import Scene
 from glrt.settings import Settings, settings_for

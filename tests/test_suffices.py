@@ -12,10 +12,11 @@ import pytest
 from glrt.cli import main
 from glrt.context import Context
 from glrt.lab import reference as references
-from glrt.lab import suffices
+from glrt.lab import suffices, trial
 from glrt.lab.advice import advice, conclusion
 from glrt.lab.reference import Reference
-from glrt.lab.suffices import Bias, Candidate, Verdict, what_suffices
+from glrt.lab.suffices import Verdict, what_suffices
+from glrt.lab.trial import Bias, Candidate, OutOfTimeError
 from glrt.library import load
 from glrt.needs import LADDER
 from glrt.resources import folder
@@ -228,6 +229,60 @@ def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
     assert f"method {chosen}," in again.stdout, "the recipe names the method that was chosen"
 
 
+# --- time ----------------------------------------------------------------------------------
+
+
+class Clock:
+    """Stands for the module `time`: each look at it takes a second."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def perf_counter(self) -> float:
+        self.now += 1.0
+        return self.now
+
+
+def verdict_within(seconds: float, context: Context, monkeypatch: pytest.MonkeyPatch) -> Verdict:
+    clock = Clock()
+    monkeypatch.setattr(suffices, "time", clock)
+    monkeypatch.setattr(trial, "time", clock)
+    return verdict_on(load("methods/glass"), 0.3, context, seconds=seconds)
+
+
+def test_a_measurement_ends_with_its_time_and_tells_what_it_did_not_try(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The longer, the more methods; without one that is known to suffice there is no verdict."""
+    whole = {c.name for c in verdict_on(load("methods/glass"), 0.3, context).candidates}
+    tried = []
+    for looks in (5, 80, 120, 160, 1e6):
+        try:
+            verdict = verdict_within(looks, context, monkeypatch)
+        except OutOfTimeError:
+            tried.append(0)
+            continue
+        names = {c.name for c in verdict.candidates}
+        assert names.isdisjoint(verdict.untried)
+        assert names.union(verdict.untried) == whole
+        assert all(f"`{name}`" in conclusion(verdict) for name in verdict.untried)
+        assert ("too short" in conclusion(verdict)) == bool(verdict.untried)
+        assert verdict.best is not None
+        tried.append(len(names))
+    assert tried == sorted(tried)
+    assert (tried[0], tried[-1]) == (0, len(whole))
+    assert set(tried) - {0, len(whole)}, f"none of {tried} was cut short"
+
+
+def test_auto_without_time_to_measure_renders_and_says_so(tmp_path: Path) -> None:
+    """A second goes by before the first picture that could tell anything."""
+    picture = tmp_path / "a.png"
+    line = ("render", "methods/glass", "-o", picture, "--width", "16", "--height", "16")
+    done = glrt(*line, "--method", "auto", "--error", "0.9", "--time", "0.001")
+    assert "Not decided: half of --time is too short to measure. Taken: `mis` with" in done.stderr
+    assert picture.exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -265,4 +320,4 @@ def test_the_choice_is_right_in_nineteen_of_twenty_random_scenes(context: Contex
 
 
 def test_the_reference_is_another_than_the_one_that_the_choice_was_made_by() -> None:
-    assert not set(references.SEEDS) & set(suffices.SEEDS)
+    assert not set(references.SEEDS) & set(trial.SEEDS)

@@ -8,13 +8,16 @@ from dataclasses import replace
 
 from glrt.context import open_context
 from glrt.errors import UsageError
-from glrt.job import Limits
+from glrt.job import Limits, since_start
 from glrt.lab.chart_words import number, percent
-from glrt.lab.suffices import Candidate, Verdict, what_suffices
+from glrt.lab.suffices import Verdict, what_suffices
+from glrt.lab.trial import LEADER, Candidate, OutOfTimeError
 from glrt.needs import LADDER
 from glrt.omissions import omissions
 from glrt.scene import Scene
-from glrt.settings import MAX_SAMPLES, Settings
+from glrt.settings import MAX_SAMPLES, Settings, settings_for
+
+SHARE = 0.5  # of what is left of `--time`, at most, that the measurement takes
 
 
 def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> None:
@@ -27,13 +30,19 @@ def choose(
 ) -> tuple[Settings, Limits]:
     """Settings with the cheapest method that reaches the error, and limits that leave room for
     its bias. The samples that it is known to need come before its own estimate is believed, which
-    is too low where few paths carry the light. Raises UsageError without an error.
+    is too low where few paths carry the light. Where a deadline leaves no time to measure, LEADER
+    with the bounces of `settings`. Raises UsageError without an error.
     """
     if limits.error is None:
         raise UsageError("--method auto is chosen by the error that is asked for: give --error E.")
-    verdict = _verdict(arguments, scene, settings, limits.error)
-    if not arguments.quiet:
-        print(conclusion(verdict), file=sys.stderr)
+    left = math.inf if limits.deadline is None else limits.deadline - since_start()
+    try:
+        verdict = _verdict(arguments, scene, settings, limits.error, SHARE * left)
+    except OutOfTimeError:
+        settings = settings_for(settings, method=LEADER)
+        _tell(arguments, _undecided(settings))
+        return settings, limits
+    _tell(arguments, conclusion(verdict))
     chosen = verdict.best or verdict.candidates[-1]
     noise = math.sqrt(max(limits.error**2 - chosen.bias.most**2, 0.0)) or limits.error
     first_look = max(limits.first_look, chosen.samples_to(limits.error) or 0)
@@ -41,15 +50,31 @@ def choose(
 
 
 def _verdict(
-    arguments: argparse.Namespace, scene: Scene, settings: Settings, error: float
+    arguments: argparse.Namespace,
+    scene: Scene,
+    settings: Settings,
+    error: float,
+    seconds: float = math.inf,
 ) -> Verdict:
-    if not getattr(arguments, "quiet", False):
-        print("Measuring which method suffices ...", file=sys.stderr, flush=True)
+    _tell(arguments, "Measuring which method suffices ...")
     context = open_context(arguments.context)
     bounces = getattr(arguments, "bounces", None)
-    verdict = what_suffices(scene, settings, error, context, bounces)
-    context.gl.release()
-    return verdict
+    try:
+        return what_suffices(scene, settings, error, context, bounces, seconds)
+    finally:
+        context.gl.release()
+
+
+def _tell(arguments: argparse.Namespace, text: str) -> None:
+    if not getattr(arguments, "quiet", False):
+        print(text, file=sys.stderr, flush=True)
+
+
+def _undecided(settings: Settings) -> str:
+    return (
+        f"Not decided: half of --time is too short to measure. Taken: `{settings.method}` with "
+        f"{_count(settings.bounces, 'bounce')}. Give more --time, or choose --method yourself."
+    )
 
 
 def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
@@ -76,7 +101,15 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
 
 
 def conclusion(verdict: Verdict) -> str:
-    """One sentence: what to take, or that nothing is known to do."""
+    """What to take, or that nothing is known to do, and what was not tried for want of time."""
+    found = _finding(verdict)
+    if not verdict.untried:
+        return found
+    names = ", ".join(f"`{name}`" for name in verdict.untried)
+    return f"{found} Half of --time was too short to try {names}."
+
+
+def _finding(verdict: Verdict) -> str:
     best = verdict.best
     if best is None:
         wanted = verdict.nearest.samples_to(verdict.error)
