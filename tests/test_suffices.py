@@ -22,7 +22,7 @@ from glrt.needs import LADDER
 from glrt.resources import folder
 from glrt.scene import Scene
 from glrt.settings import settings_for
-from tests.builders import MATTE, box_of_quads, lamp, scene_of, sphere
+from tests.builders import MATTE, box_of_quads, lamp, plane, scene_of, sphere
 from tests.judge import Judge, random_scene
 from tests.processes import glrt
 from tests.renders import rendered
@@ -60,6 +60,17 @@ def furnace(albedo: float = 0.5, bounces: int = 10) -> Scene:
     return box.model_copy(update={"render": box.render.model_copy(update={"bounces": bounces})})
 
 
+class Clock:
+    """Stands for the module `time`: each look at it takes a second."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def perf_counter(self) -> float:
+        self.now += 1.0
+        return self.now
+
+
 # --- bounces -------------------------------------------------------------------------------
 
 
@@ -90,6 +101,48 @@ def test_a_scene_that_reflects_nothing_needs_one_bounce_and_the_cheapest_method(
     assert verdict.least_bounces == 1
     assert all(abs(c.bias.squared) <= 4 * c.bias.stderr for c in verdict.candidates)
     assert verdict.best is not None
+
+
+# --- crops ---------------------------------------------------------------------------------
+
+
+def half_lit() -> Scene:
+    """A glowing plane fills the lower half of the picture; the sky above it is black."""
+    return scene_of([plane([0, -1, 0], [0, 1, 0], "lamp")], {"lamp": lamp()})
+
+
+@pytest.mark.parametrize(
+    ("crop", "mean"), [((0, 0, 40, 10), 0.0), ((0, 30, 40, 10), 1.0), ((3, 31, 2, 1), 1.0)]
+)
+def test_what_is_measured_of_a_crop_is_the_crop(
+    context: Context, crop: tuple[int, int, int, int], mean: float
+) -> None:
+    """In a frame where it has about as many pixels as a whole one has; the time is its own."""
+    wanted = settings_for(half_lit().render, width=40, height=40, crop=crop)
+    verdict = what_suffices(half_lit(), wanted, 0.5, context)
+    assert np.unique(verdict.reference.radiance) == mean
+    rows, columns, _ = verdict.reference.radiance.shape
+    assert rows * columns == pytest.approx(SIZE**2, rel=0.25)
+    assert columns / rows == pytest.approx(crop[2] / crop[3], rel=0.25)
+    found = candidate(verdict, "mis")
+    assert found.settings.crop == crop
+    assert f"at {crop[2]} x {crop[3]}." in conclusion(verdict)
+
+
+def test_the_time_of_a_crop_is_its_share_of_the_frame(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By a clock that goes on by one at each look, all pictures take the same time."""
+    monkeypatch.setattr(trial, "time", Clock())
+    monkeypatch.setattr(suffices, "time", Clock())
+    scene = furnace()
+    whole = settings_for(scene.render, width=64, height=64)
+    part = settings_for(whole, crop=(8, 8, 16, 16))
+    seconds = [
+        candidate(what_suffices(scene, wanted, 0.5, context), "mis").seconds_per_sample
+        for wanted in (whole, part)
+    ]
+    assert seconds[1] == pytest.approx(seconds[0] / 16, rel=0.5)
 
 
 # --- biases --------------------------------------------------------------------------------
@@ -181,6 +234,16 @@ def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
     assert conclusion(verdict).startswith("Enough: `")
 
 
+def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> None:
+    sky = scene_of([], {}, background={"color": [1, 0.5, 0.2]})
+    text = "\n".join(advice(sky, verdict_on(sky, 0.2, context)))
+    assert "nothing was seen beyond 1 bounce" in text
+    assert "light beyond" not in text
+    cut = furnace()
+    text = "\n".join(advice(cut, verdict_on(cut, 0.2, context)))
+    assert "light beyond" in text
+
+
 def test_an_error_beyond_reach_is_told(context: Context) -> None:
     verdict = verdict_on(furnace(), 0.02, context, bounces=1)
     assert verdict.best is None
@@ -230,17 +293,6 @@ def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
 
 
 # --- time ----------------------------------------------------------------------------------
-
-
-class Clock:
-    """Stands for the module `time`: each look at it takes a second."""
-
-    def __init__(self) -> None:
-        self.now = 0.0
-
-    def perf_counter(self) -> float:
-        self.now += 1.0
-        return self.now
 
 
 def verdict_within(seconds: float, context: Context, monkeypatch: pytest.MonkeyPatch) -> Verdict:

@@ -130,12 +130,11 @@ def _finding(verdict: Verdict) -> str:
             f"Nothing is known to reach {percent(verdict.error)}: what a measurement of some "
             "seconds finds is too noisy. Ask for a larger error."
         )
-    settings = best.settings
+    settings, (width, height) = best.settings, best.settings.size
     return (
         f"Enough: `{settings.method}` with {_count(settings.bounces, 'bounce')} reaches "
         f"{percent(verdict.error)} with {_count(best.samples_to(verdict.error) or 0, 'sample')}, "
-        f"in about {_seconds(best.seconds_to(verdict.error))} s at {settings.width} x "
-        f"{settings.height}."
+        f"in about {_seconds(best.seconds_to(verdict.error))} s at {width} x {height}."
     )
 
 
@@ -157,5 +156,6 @@ def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> st
         missing = omissions(scene, settings)
         reason = "; ".join(missing) if missing else "leaves nothing out here"
     else:
-        reason = f"light beyond {_count(settings.bounces, 'bounce')}"
+        seen = "light" if candidate.bias.value > 0 else "nothing was seen"
+        reason = f"{seen} beyond {_count(settings.bounces, 'bounce')}"
     return f"{candidate.name:<{width}} {settings.bounces:>7}  {bias:<8} {seconds:<8} {reason}"

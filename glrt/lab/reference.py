@@ -92,7 +92,8 @@ def reference_for(
     """
     radiance = closed_form(scene)
     if radiance is not None:
-        whole = np.full((settings.height, settings.width, 3), radiance)
+        width, height = settings.size
+        whole = np.full((height, width, 3), radiance)
         return Reference(whole, whole, 0, BOUNCES)
     path = _cache_folder() / f"{_key(scene, settings, error, seconds)}.npz"
     found = _loaded(path)

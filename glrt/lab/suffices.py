@@ -13,6 +13,7 @@ from glrt.needs import LADDER
 from glrt.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
+MOST_PIXELS = 16000  # along an edge of the frame that a crop is measured in
 HEIGHT = 48  # pixels of the frame that is measured
 REFERENCE_SECONDS = 10.0
 REFERENCE_SHARE = 0.25  # of the seconds that are allowed, at most
@@ -67,12 +68,11 @@ def what_suffices(
     of bounces known to suffice.
     """
     deadline = time.perf_counter() + seconds
-    small = frame_of(scene, HEIGHT)
-    small = settings_for(settings, width=small.width, height=small.height, crop=None)
+    small = _small_frame(scene, settings)
     small = small if bounces is None else settings_for(small, bounces=bounces)
     allowed = _reference_seconds(seconds)
     reference = reference_for(scene, small, context, 0.25 * error, allowed)
-    pixels = settings.width * settings.height / (small.width * small.height)
+    pixels = math.prod(settings.size) / math.prod(small.size)
     trial = Trial(scene, settings, context, reference, pixels, deadline)
     limits = trial.limits(small, error, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
@@ -84,6 +84,27 @@ def what_suffices(
     untried = {variant.name for variant in variants} - {candidate.name for candidate in found}
     candidates = tuple(trial.in_turns(ranked, small))
     return Verdict(error, reference, candidates, beyond, tuple(sorted(untried)))
+
+
+def _small_frame(scene: Scene, settings: Settings) -> Settings:
+    """A frame of HEIGHT rows; of a crop, one in which it has about HEIGHT^2 pixels."""
+    if settings.crop is None:
+        small = frame_of(scene, HEIGHT)
+        return settings_for(settings, width=small.width, height=small.height)
+    scale = HEIGHT / math.sqrt(math.prod(settings.size))
+    scale = min(scale, MOST_PIXELS / max(settings.width, settings.height))
+    left, top, columns, rows = settings.crop
+    x, across = _scaled(left, columns, scale)
+    y, down = _scaled(top, rows, scale)
+    width = max(round(scale * settings.width), x + across)
+    height = max(round(scale * settings.height), y + down)
+    return settings_for(settings, width=width, height=height, crop=(x, y, across, down))
+
+
+def _scaled(start: int, length: int, scale: float) -> tuple[int, int]:
+    """Start and length of a stretch, of one pixel at least."""
+    first = math.floor(scale * start)
+    return first, max(1, round(scale * (start + length)) - first)
 
 
 def _reference_seconds(allowed: float) -> float:
