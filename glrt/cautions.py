@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.scene import Scene, Sphere, number, quoted
+from glrt.scene import Plane, Quad, Scene, Shape, Sphere, number, quoted
 from glrt.settings import Settings
 
 ROUNDING = 2.0**-24  # of a float32, as a share of it
@@ -22,7 +22,12 @@ Floats = NDArray[np.float64]
 
 def cautions(scene: Scene, settings: Settings) -> list[str]:
     """A paragraph for each limit overstepped: where, by how much, and what to do."""
-    found = (_narrow_pixels(scene, settings), _huge_ball(scene), _crossing_glass(scene))
+    found = (
+        _narrow_pixels(scene, settings),
+        _huge_ball(scene),
+        _crossing_glass(scene),
+        _walled_in(scene),
+    )
     return [text for text in found if text]
 
 
@@ -83,6 +88,38 @@ def _crossing(center: Floats, radius: Floats) -> Iterator[tuple[int, int]]:
         slack = 1e-6 * total  # for balls that were meant to touch
         for second in np.flatnonzero((apart < total - slack) & (apart > np.abs(rest) + slack)):
             yield first, first + 1 + int(second)
+
+
+def _walled_in(scene: Scene) -> str:
+    """A camera in a ball that is not glass; a lamp that may be in it too makes it a room."""
+    walls = [i for i in _balls(scene) if _kind(scene, i) != "dielectric"]
+    center, radius = _places(scene, walls)
+    around = np.flatnonzero(np.linalg.norm(center, axis=1) < radius)
+    lamps = [thing for thing in scene.objects if any(scene.emission(thing.material))]
+    for index in [walls[i] for i in around]:
+        ball = scene.objects[index]
+        assert isinstance(ball, Sphere)
+        if not any(_reaches_into(ball, lamp) for lamp in lamps):
+            return (
+                f"{_name(scene, index)}: the camera is inside this ball, which "
+                "is not glass and has no lamp inside: nothing outside is seen, and paths find no "
+                "light. Move the camera out, or put a lamp inside."
+            )
+    return ""
+
+
+def _reaches_into(ball: Sphere, lamp: Shape) -> bool:
+    """Whether some of a lamp's surface may lie in a ball, or on it; a quad is taken for a ball."""
+    middle = np.array(ball.center)
+    if isinstance(lamp, Plane):
+        normal = np.array(lamp.normal) / np.linalg.norm(lamp.normal)
+        return bool(abs((middle - lamp.point) @ normal) < ball.radius)
+    if isinstance(lamp, Quad):
+        u, v = np.array(lamp.edge_u), np.array(lamp.edge_v)
+        reach = max(np.linalg.norm(u + v), np.linalg.norm(u - v)) / 2
+        return bool(np.linalg.norm(lamp.corner + (u + v) / 2 - middle) < ball.radius + reach)
+    apart = float(np.linalg.norm(middle - lamp.center))
+    return abs(apart - lamp.radius) <= ball.radius
 
 
 def _balls(scene: Scene) -> list[int]:

@@ -7,10 +7,12 @@ import pytest
 
 from glrt.cautions import cautions
 from glrt.cli import main
+from glrt.context import Context
 from glrt.library import load, scene_names
 from glrt.scene import Scene
 from glrt.settings import settings_for
-from tests.builders import MATTE, glass, lamp, plane, scene_of, sphere
+from tests.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
+from tests.renders import rendered
 
 MATERIALS = {"m": MATTE, "glass": glass(1.5), "lamp": lamp(1.0)}
 
@@ -70,6 +72,39 @@ def test_glass_that_crosses_glass_is_told(center: Any, radius: float, warns: boo
     assert len(found) == warns
     assert all(text.startswith("objects[1] and objects[2] are glass") for text in found)
     assert not told(with_balls(first, sphere(center, radius, "m")))
+
+
+AROUND = sphere([0, 0, 0.5], 2, "m")  # the camera is at the origin
+
+
+@pytest.mark.parametrize(
+    ("things", "warns"),
+    [
+        ([AROUND], True),
+        ([sphere([0, 0, 0.5], 2, "glass")], False),
+        ([sphere([0, 0, 0.5], 2, "lamp")], False),
+        ([sphere([0, 0, 2.5], 2, "m")], False),  # beside it
+        ([AROUND, sphere([0, 0, 5], 1, "lamp")], True),  # a lamp outside
+        ([AROUND, sphere([0, 0, 0.5], 4, "lamp")], True),  # around
+        ([AROUND, sphere([0, 1, 0], 0.2, "lamp")], False),  # inside
+        ([AROUND, sphere([0, 3, 0], 2, "lamp")], False),  # through the wall
+        ([AROUND, quad([-1, 1, -1], [2, 0, 0], [0, 0, 2], "lamp")], False),
+        ([AROUND, quad([-1, 4, -1], [2, 0, 0], [0, 0, 2], "lamp")], True),
+        ([AROUND, plane([0, 1, 0], [0, 3, 0], "lamp")], False),
+        ([AROUND, plane([0, 4, 0], [0, 3, 0], "lamp")], True),
+        ([AROUND, sphere([0, 1, 0], 0.2, "lamp"), sphere([0, 0, 0], 0.5, "m")], True),  # in two
+    ],
+)
+def test_a_camera_within_a_dark_ball_is_told(
+    context: Context, things: list[dict[str, Any]], warns: bool
+) -> None:
+    """And its picture is black, under a white sky; all others show something."""
+    scene = scene_of(things, MATERIALS, background={"color": [1, 1, 1]})
+    found = told(scene)
+    assert len(found) == warns
+    assert all("the camera is inside this ball, which is not glass" in text for text in found)
+    picture = rendered(scene, context, 64, width=16, height=16).radiance
+    assert picture.any() != warns
 
 
 @pytest.mark.parametrize(("fov", "height", "warns"), [(1e-3, 64, False), (1e-3, 512, True)])

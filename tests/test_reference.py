@@ -101,6 +101,12 @@ def test_a_closed_form_is_what_is_rendered(context: Context, cache: Path) -> Non
     assert not cache.exists()
 
 
+def test_a_closed_form_has_the_size_of_the_crop(context: Context) -> None:
+    scene = furnace()
+    cropped = settings_for(small(scene), crop=(1, 2, 3, 4))
+    assert reference_for(scene, cropped, context, 0.1, 1).radiance.shape == (4, 3, 3)
+
+
 def test_a_reference_comes_from_the_cache_the_second_time(
     context: Context, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
