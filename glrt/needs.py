@@ -9,7 +9,7 @@ from glrt.settings import Settings
 
 TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/speed.md)
 LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
-MOST_NEAR = 32  # lamps that are weighed at each point; more are chosen by a table
+MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
 NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0}
 
 
@@ -32,7 +32,8 @@ class Needs:
     weight_both: bool
     roulette: bool
     model: int  # of the ladder; 0: paths are traced
-    few_lights: int  # lamps to sample, up to MOST_NEAR; 0: more, or none
+    many_lights: bool  # more than MOST_NEAR to sample
+    clusters: int  # lamps to weigh at each point, or of many clusters of them
     block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
 
     def constants(self) -> dict[str, bool | int]:
@@ -55,6 +56,7 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
     used = list(used_materials(scene).values())
     lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
     method = settings.method
+    chooses = method in ("nee", "mis", "cook")
     is_lit = method != "naive" and bool(lamps & {"sphere", "quad"})
     follows = method not in ("phong", "blinn")  # mirrors and glass
     metals = [m for m in used if m.type == "metal"]
@@ -74,7 +76,8 @@ def needs_of(scene: Scene, settings: Settings) -> Needs:
         weight_both=is_lit and method == "mis",
         roulette=settings.roulette and follows,
         model=_number_of(method, metals),
-        few_lights=few_lights(scene) if is_lit and method in ("nee", "mis", "cook") else 0,
+        many_lights=chooses and has_many_lights(scene),
+        clusters=clusters_of(scene) if chooses else 0,
         block=settings.block,
     )
 
@@ -91,14 +94,22 @@ def _number_of(method: str, metals: Sequence[Metal]) -> int:
     return LADDER.get(method, 0)
 
 
-def few_lights(scene: Scene) -> int:
-    """How many lamps can be sampled: all but planes. 0 if they are too many to weigh each."""
-    lamps = [
-        shape
+def has_many_lights(scene: Scene) -> bool:
+    """Whether there are more lamps than are weighed one by one."""
+    return sampled_lamps(scene) > MOST_NEAR
+
+
+def sampled_lamps(scene: Scene) -> int:
+    """How many lamps can be sampled: all but planes."""
+    return sum(
+        shape.shape != "plane" and is_light(scene.materials[shape.material])
         for shape in scene.objects
-        if shape.shape != "plane" and is_light(scene.materials[shape.material])
-    ]
-    return len(lamps) if len(lamps) <= MOST_NEAR else 0
+    )
+
+
+def clusters_of(scene: Scene) -> int:
+    """How many clusters of lamps are weighed at each point; of few lamps each is one."""
+    return min(sampled_lamps(scene), MOST_NEAR)
 
 
 def is_light(material: Material) -> bool:
@@ -139,7 +150,8 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
         Feature("sphere lamps", needs.has_sphere_light, f"method {method}, {lamps}"),
         Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
-        Feature("near lamps", needs.few_lights > 1, f"method {method}, {lamps}"),
+        Feature("near lamps", needs.clusters > 1, f"method {method}, {lamps}"),
+        Feature("lamps in clusters", needs.many_lights, f"{lamps}; from {MOST_NEAR + 1} on"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
         Feature("lighting model", needs.model > 0, _model(settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),

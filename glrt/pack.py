@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt.lamps import lamps_of, pack_clusters, pack_lights
 from glrt.layout import read_constants, read_structs, record
 from glrt.needs import has_tree, is_light, used_materials
 from glrt.nodes import pack_nodes
@@ -53,8 +54,8 @@ def pack_scene(scene: Scene, known: Array | None = None) -> dict[str, Array]:
     shapes = shapes_of(scene)
     eye = np.array(scene.camera.position, np.float64)
     names = {name: index for index, name in enumerate(used_materials(scene))}
-    lamps = _lamp_shapes(scene, shapes)
-    light_of = {shape: light for light, shape in enumerate(lamps)}
+    lamps = lamps_of(scene, shapes.in_order())
+    light_of = {shape: light for light, shape in enumerate(lamps.shapes)}
     spheres = _pack_spheres(shapes.spheres, eye, names, light_of)
     return {
         "Spheres": spheres,
@@ -64,7 +65,8 @@ def pack_scene(scene: Scene, known: Array | None = None) -> dict[str, Array]:
         ),
         "Nodes": pack_nodes(spheres if has_tree(scene) else spheres[:0], STRUCTS["Node"], known),
         "Materials": _pack_materials(scene),
-        "Lights": _pack_lights(scene, shapes, lamps),
+        "Lights": pack_lights(lamps, STRUCTS["Light"]),
+        "Clusters": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
     }
 
 
@@ -120,30 +122,6 @@ def pack_frame(
     return record(STRUCTS["Frame"], frame).tobytes()
 
 
-def light_probabilities(power: Sequence[float]) -> Array:
-    """How often each lamp is chosen: half by its power, half evenly, so that none is left out."""
-    weight = np.asarray(power, np.float64)
-    count = len(weight)
-    even = np.full(count, 1 / count)
-    return even if weight.sum() == 0 else 0.5 * even + 0.5 * weight / weight.sum()
-
-
-def alias_table(probability: Array) -> tuple[Array, Array]:
-    """Vose's tables (`keep`, `alias`) for drawing an index in constant time (IEEE TSE 1991)."""
-    count = len(probability)
-    keep, alias = np.ones(count), np.arange(count)
-    share = np.asarray(probability, np.float64) * count
-    small = [i for i in range(count) if share[i] < 1]
-    large = [i for i in range(count) if share[i] >= 1]
-    while small and large:
-        low, high = small.pop(), large[-1]
-        keep[low], alias[low] = share[low], high
-        share[high] -= 1 - share[low]
-        if share[high] < 1:
-            small.append(large.pop())
-    return keep, alias
-
-
 def _pack_spheres(
     spheres: list[Sphere], eye: Array, names: dict[str, int], light_of: dict[int, int]
 ) -> Array:
@@ -197,49 +175,6 @@ def _pack_materials(scene: Scene) -> Array:
         row["layer"] = layers.get(getattr(material, "group", None) or name, 0)
         row["emission"] = scene.emission(name) if is_light(material) else 0.0
     return rows
-
-
-def _lamp_shapes(scene: Scene, shapes: Shapes) -> list[int]:
-    """The numbers of the shapes that can be sampled: lamps of finite area."""
-    return [
-        number
-        for number, shape in enumerate(shapes.in_order())
-        if not isinstance(shape, Plane) and is_light(scene.materials[shape.material])
-    ]
-
-
-def _pack_lights(scene: Scene, shapes: Shapes, lamps: list[int]) -> Array:
-    rows = np.zeros(len(lamps), STRUCTS["Light"])
-    if lamps:
-        everything = shapes.in_order()
-        probability = light_probabilities([_power(scene, everything[n]) for n in lamps])
-        rows["shape"], rows["probability"] = lamps, probability
-        rows["keep"], rows["alias"] = alias_table(probability)
-        for row, number in zip(rows, lamps, strict=True):
-            center, row["reach2"] = _center(everything[number])
-            row["center"] = center - _vector(scene.camera.position)
-    return rows
-
-
-def _power(scene: Scene, shape: Shape) -> float:
-    """Flux of a lamp, up to a factor common to all: area of its bright sides times radiance."""
-    if isinstance(shape, Sphere):
-        area = 4 * math.pi * shape.radius**2
-    elif isinstance(shape, Quad):
-        normal = np.cross(_vector(shape.edge_u), _vector(shape.edge_v))
-        area = 2 * float(np.linalg.norm(normal))
-    else:
-        area = 0.0
-    return area * sum(scene.emission(shape.material))
-
-
-def _center(lamp: Shape) -> tuple[Array, float]:
-    """The centre of a lamp, and the mean squared distance of its points from there."""
-    if isinstance(lamp, Sphere):
-        return _vector(lamp.center), lamp.radius**2
-    assert isinstance(lamp, Quad)
-    u, v = _vector(lamp.edge_u), _vector(lamp.edge_v)
-    return _vector(lamp.corner) + (u + v) / 2, float(u @ u + v @ v) / 12
 
 
 def _vector(value: Sequence[float]) -> Array:

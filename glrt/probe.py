@@ -100,7 +100,12 @@ def scene_blocks(scene: Scene | None = None) -> dict[str, bytes]:
     """
     if not scene:
         blocks = {"Spheres": "Sphere", "Planes": "Plane", "Quads": "Quad", "Lights": "Light"}
-        blocks |= {"Materials": "Material", "Nodes": "Node", "FrameBlock": "Frame"}
+        blocks |= {
+            "Clusters": "Cluster",
+            "Materials": "Material",
+            "Nodes": "Node",
+            "FrameBlock": "Frame",
+        }
         return {name: bytes(STRUCTS[row].itemsize) for name, row in blocks.items()}
     arrays = pack_scene(scene)
     counts = {name: len(rows) for name, rows in arrays.items()}

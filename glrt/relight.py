@@ -66,7 +66,8 @@ def plan_for(scene: Scene, settings: Settings, layering: Layering) -> Plan:
 
     So one that is turned on is there at once.
     """
-    dark = [group for group in emitters(scene) if scene.light_groups[group] == 0]
+    intensities = scene.light_groups
+    dark = [group for group in emitters(scene) if intensities[group] == 0]
     if layering != "groups" or not dark:
         return Plan(scene, settings, layering)
     lights = {**scene.lights, **dict.fromkeys(dark, 1.0)}

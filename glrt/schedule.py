@@ -11,8 +11,9 @@ from itertools import count
 from typing import NamedTuple
 
 from glrt.errors import SceneError
+from glrt.lamps import PARTS
 from glrt.layout import read_constants
-from glrt.needs import few_lights, has_tree, is_light
+from glrt.needs import clusters_of, has_many_lights, has_tree, is_light
 from glrt.scene import Scene
 from glrt.settings import RenderSettings
 from glrt.shader import read
@@ -50,8 +51,9 @@ def iterations_per_sample(
 
     At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
-    it finds that there are no more. Few lamps are weighed twice: for their sum, and to
-    choose one; that loop takes a round less.
+    it finds that there are no more. Lamps are weighed twice: for their sum, and to choose one;
+    that loop takes a round less. Of many, the parts of a cluster are weighed so too, and their
+    sum for the density of the lamp that is sampled, and of the one that is met.
     """
     kinds = len({shape.shape for shape in scene.objects})
     search = len(scene.objects) + kinds
@@ -60,8 +62,13 @@ def iterations_per_sample(
         search += round(tree_rounds * math.log2(spheres)) - spheres
     if settings.method in ("phong", "blinn", "whitted"):
         return 1 + _rounds_of_shading(scene, settings, search)
-    rays, choice = (1, 0) if settings.method == "naive" else (2, 2 * few_lights(scene))
+    rays, choice = (1, 0) if settings.method == "naive" else (2, _rounds_of_choice(scene))
     return 1 + (settings.bounces + 1) * (1 + rays * search + choice)
+
+
+def _rounds_of_choice(scene: Scene) -> int:
+    parts = 4 * PARTS + 2 if has_many_lights(scene) else 0
+    return 2 * clusters_of(scene) + parts
 
 
 def _rounds_of_shading(scene: Scene, settings: RenderSettings, search: int) -> int:

@@ -7,6 +7,7 @@ layout(std430) readonly buffer Quads { Quad quads[]; };
 layout(std430) readonly buffer Nodes { Node nodes[]; };
 layout(std430) readonly buffer Materials { Material materials[]; };
 layout(std430) readonly buffer Lights { Light lights[]; };
+layout(std430) readonly buffer Clusters { Cluster clusters[]; };
 
 Sphere sphere_at(int index) { return spheres[index]; }
 Plane plane_at(int index) { return planes[index]; }
@@ -14,6 +15,7 @@ Quad quad_at(int index) { return quads[index]; }
 Node node_at(int index) { return nodes[index]; }
 Material material_at(int index) { return materials[index]; }
 Light light_at(int index) { return lights[index]; }
+Cluster cluster_at(int index) { return clusters[index]; }
 
 int sphere_count() { return frame.sphere_count; }
 int plane_count() { return frame.plane_count; }

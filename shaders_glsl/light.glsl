@@ -64,10 +64,10 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
     if (is_of_sphere(light)) {
         Sphere sphere = sphere_at(light.shape);
         float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
-        float pdf = choice_pdf(light, ray, lamps) / (2.0 * PI * one_minus_cos);
+        float pdf = choice_pdf(index, ray, lamps) / (2.0 * PI * one_minus_cos);
         return pdf;
     }
-    float pdf = choice_pdf(light, ray, lamps) * pdf_quad(quad_of(light), ray, distance);
+    float pdf = choice_pdf(index, ray, lamps) * pdf_quad(quad_of(light), ray, distance);
     return pdf;
 }
 
@@ -75,7 +75,7 @@ LightSample no_light_sample(Ray ray) {
     return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0);
 }
 
-LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
+LightSample sample_sphere(Ray ray, int index, int shape, vec2 u, float lamps) {
     Sphere sphere = sphere_at(shape);
     vec3 to_center = sphere.center - ray.origin;
     float one_minus_cos = cone_of_sphere(to_center, sphere.radius);
@@ -86,11 +86,11 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u) {
     float distance = sphere_distance(ray, sphere, shape);
     if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
     Material lamp = material_at(sphere.material);
-    float pdf = pdf_light(index, ray, distance, total_weight(ray));
+    float pdf = pdf_light(index, ray, distance, lamps);
     return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
 }
 
-LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
+LightSample sample_quad(Ray ray, int index, int shape, vec2 u, float lamps) {
     Quad quad = quad_at(shape - sphere_count() - plane_count());
     vec2 share = u;
     if (!WEIGHT_BOTH) share = sample_strips(quad, view_strips(quad, ray.origin), u);
@@ -100,18 +100,20 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u) {
     vec3 direction = to_point / distance;
     ray.direction = direction;
     Material lamp = material_at(quad.material);
-    float pdf = pdf_light(index, ray, distance, total_weight(ray));
+    float pdf = pdf_light(index, ray, distance, lamps);
     return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
 }
 
-// From the origin of `ray`, whose direction is ignored.
-LightSample sample_light(Ray ray, inout Sampler rng) {
-    float choice = FEW_LIGHTS == 1 ? 0.0 : next_1d(rng);
+// From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.
+LightSample sample_light(Ray ray, float lamps, inout Sampler rng) {
+    vec3 choice = vec3(0.0);
+    if (MANY_LIGHTS) choice.yz = next_2d(rng);
+    if (CLUSTERS > 1) choice.x = next_1d(rng);
     vec2 u = next_2d(rng);
-    int index = choose_light(ray, total_weight(ray), choice);
+    int index = choose_light(ray, lamps, choice);
     int shape = light_at(index).shape;
     if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
-        return sample_sphere(ray, index, shape, u);
+        return sample_sphere(ray, index, shape, u, lamps);
     }
-    return sample_quad(ray, index, shape, u);
+    return sample_quad(ray, index, shape, u, lamps);
 }

@@ -1,48 +1,82 @@
-// Which lamp is sampled. Few lamps are weighed at each point, by their flux over their squared
-// distance, so that near ones are chosen more often; of many, a table chooses by flux alone.
-// FEW_LIGHTS: how many there are; 0: many. The flux is that of the last restart, and no lamp's
-// share of it is 0: light groups can be dimmed and lit later.
+// Which lamp is sampled. Clusters of lamps are weighed at each point, by their flux over their squared
+// distance, so that near ones are chosen more often. CLUSTERS: how many there are. Of few lamps each
+// is a cluster. Of MANY_LIGHTS, the PARTS of the chosen cluster are weighed alike, and within a part
+// a table chooses by flux. The flux is that of the last restart, and no lamp's share of it is 0:
+// light groups can be dimmed and lit later.
 
-// From the origin of `ray`, whose direction is ignored; 0 for the lamp that it leaves.
-float light_weight(Light light, Ray ray) {
-    if (light.shape == ray.leaves) return 0.0;
-    vec3 away = light.center - ray.origin;
-    float weight = light.probability / max(dot(away, away), light.reach2);
+// Of a cluster or a part, from the origin of `ray`, whose direction is ignored; 0 for the lamp that
+// it leaves, where that is alone.
+float cluster_weight(int index, Ray ray) {
+    Cluster cluster = cluster_at(index);
+    if (cluster.shape == ray.leaves) return 0.0;
+    vec3 away = cluster.center - ray.origin;
+    float weight = cluster.probability / max(dot(away, away), cluster.reach2);
     return weight;
 }
 
 // Of all lamps together.
 float total_weight(Ray ray) {
     float total = 0.0;
-    for (int i = 0; i < FEW_LIGHTS; ++i) total += light_weight(light_at(i), ray);
+    for (int i = 0; i < CLUSTERS; ++i) total += cluster_weight(i, ray);
     return total;
 }
 
-// How likely a lamp is chosen where all together have the weight `total`.
-float choice_pdf(Light light, Ray ray, float total) {
-    if (FEW_LIGHTS == 1) return 1.0;
-    if (FEW_LIGHTS == 0) return light.probability;
-    float pdf = light_weight(light, ray) / total;
-    return pdf;
-}
-
-// The alias method (Vose 1991): one number chooses a lamp, however many there are.
-int choose_by_table(float u) {
-    float scaled = u * float(light_count());
-    int index = min(int(scaled), light_count() - 1);
-    Light light = light_at(index);
-    float rest = scaled - float(index);
-    return rest < light.keep ? index : light.alias;
-}
-
-int choose_light(Ray ray, float total, float u) {
-    if (FEW_LIGHTS == 0) return choose_by_table(u);
+int choose_cluster(Ray ray, float total, float u) {
     float target = u * total;
     float sum = 0.0;
     int chosen = 0;
-    for (int i = 1; i < FEW_LIGHTS; ++i) {
-        sum += light_weight(light_at(i - 1), ray);
+    for (int i = 1; i < CLUSTERS; ++i) {
+        sum += cluster_weight(i - 1, ray);
         if (sum <= target) chosen = i;
     }
     return chosen;
+}
+
+int first_part(int cluster) { return CLUSTERS + PARTS * cluster; }
+
+// Of all parts of a cluster together.
+float parts_weight(int cluster, Ray ray) {
+    float total = 0.0;
+    for (int i = 0; i < PARTS; ++i) total += cluster_weight(first_part(cluster) + i, ray);
+    return total;
+}
+
+int choose_part(int cluster, Ray ray, float u) {
+    float target = u * parts_weight(cluster, ray);
+    float sum = 0.0;
+    int chosen = first_part(cluster);
+    for (int i = 1; i < PARTS; ++i) {
+        sum += cluster_weight(first_part(cluster) + i - 1, ray);
+        if (sum <= target) chosen = first_part(cluster) + i;
+    }
+    return chosen;
+}
+
+// The alias method (Vose 1991): one number chooses a lamp, however many there are.
+int choose_by_table(Cluster part, float u) {
+    float scaled = u * float(part.count);
+    int index = min(int(scaled), part.count - 1);
+    Light light = light_at(part.first + index);
+    float rest = scaled - float(index);
+    return rest < light.keep ? part.first + index : light.alias & 0xFFFF;
+}
+
+int choose_light(Ray ray, float total, vec3 u) {
+    int cluster = choose_cluster(ray, total, u.x);
+    return MANY_LIGHTS ? choose_by_table(cluster_at(choose_part(cluster, ray, u.y)), u.z) : cluster;
+}
+
+// How likely a lamp, not the one just left, is chosen where all together have the weight `total`.
+float choice_pdf(int index, Ray ray, float total) {
+    if (!MANY_LIGHTS) {
+        if (CLUSTERS == 1) return 1.0;
+        float pdf = cluster_weight(index, ray) / total;
+        return pdf;
+    }
+    Light light = light_at(index);
+    int part = light.alias >> 16;
+    int cluster = (part - CLUSTERS) / PARTS;
+    float chance = cluster_weight(part, ray) / parts_weight(cluster, ray);
+    float pdf = cluster_weight(cluster, ray) / total * chance * light.share;
+    return pdf;
 }

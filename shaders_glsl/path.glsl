@@ -84,7 +84,7 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
     }
     if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
     if (MODEL == COOK) {
-        LightSample light = sample_light(from, rng);
+        LightSample light = sample_light(from, total_weight(from), rng);
         vec3 direct = weight * direct_light(vertex, from, light);
         gather(path, direct, light.layer, path.depth + 1);
         return;
@@ -108,8 +108,9 @@ bool scatter_path(inout Path path, Surface surface, Material material, inout Sam
         shade(path, vertex, ray, rng);
         return false;
     }
+    float lamps = total_weight(ray);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
-        LightSample light = sample_light(ray, rng);
+        LightSample light = sample_light(ray, lamps, rng);
         vec3 direct = path.scale * path.throughput * direct_light(vertex, ray, light);
         gather(path, direct, light.layer, path.depth + 1);
     }
@@ -122,7 +123,7 @@ bool scatter_path(inout Path path, Surface surface, Material material, inout Sam
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
     path.pdf = next.pdf;
-    path.lamps = total_weight(ray);
+    path.lamps = lamps;
     path.depth += 1;
     return true;
 }

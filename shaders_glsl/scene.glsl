@@ -7,6 +7,9 @@
 
 const int NO_SHAPE = -1;
 const int NO_LIGHT = -1;
+const int SEVERAL = -2;  // no shape either
+
+const int PARTS = 8;  // of a cluster, among many lamps
 
 const int MATTE = 0;       // Lambert's law; lamps are of this kind too
 const int METAL = 1;       // mirror or GGX
@@ -57,11 +60,20 @@ struct Material {
 
 struct Light {
     int shape;
-    float probability;  // of being chosen, by the table
-    float keep;         // alias method: this light with probability `keep`, else `alias`
-    int alias;
-    vec3 center;
-    float reach2;       // mean squared distance of its points from the center
+    float share;  // of the flux of its part
+    float keep;   // alias method: this light with probability `keep`, else its alias
+    int alias;    // its part, an index into the clusters, << 16 | its alias
+};
+
+// Lamps close together. Of few lamps each is a cluster; the clusters of many are followed by PARTS
+// of each, those of the first one first. A part holds the lamps from `first` on, or none.
+struct Cluster {
+    vec3 center;        // mean place of their flux
+    float reach2;       // mean squared distance of their points from the center
+    float probability;  // their share of all flux
+    int first;
+    int count;
+    int shape;          // of the lamp if it is one, else SEVERAL
 };
 
 struct Camera {

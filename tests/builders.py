@@ -11,7 +11,7 @@ EVERYTHING: dict[str, bool | int] = {
     **{field.name.upper(): True for field in fields(Needs)},
     "BLOCK": 1,
     "MODEL": 0,
-    "FEW_LIGHTS": 0,
+    "CLUSTERS": 0,
     **NO_LAYERS,
 }
 

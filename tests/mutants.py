@@ -267,15 +267,24 @@ MUTANTS = [
         "few lamps are chosen evenly, and weighed as if by flux over squared distance",
         _edit(
             "light_choice.glsl",
-            "sum += light_weight(light_at(i - 1), ray);",
-            "sum += total / float(FEW_LIGHTS);",
+            "sum += cluster_weight(i - 1, ray);",
+            "sum += total / float(CLUSTERS);",
         ),
         "test_light_choice.py::test_few_lamps_are_chosen_by_flux_over_squared_distance",
     ),
     Mutant(
         "the table of lamps takes every alias",
-        _edit("light_choice.glsl", "rest < light.keep ? index : light.alias", "light.alias"),
-        "test_light_choice.py::test_a_lamp_is_chosen_as_often_as_its_density_says",
+        _edit(
+            "light_choice.glsl",
+            "rest < light.keep ? part.first + index : light.alias & 0xFFFF",
+            "light.alias & 0xFFFF",
+        ),
+        "test_clusters.py::test_a_lamp_is_chosen_as_often_as_its_density_says",
+    ),
+    Mutant(
+        "among many lamps the density of one is that of its part of a cluster",
+        _edit("light_choice.glsl", "chance * light.share", "chance"),
+        "test_clusters.py::test_densities_are_the_chances_of_clusters_and_of_lamps_in_them",
     ),
     Mutant(
         "light beyond the last layer is lost",

@@ -37,6 +37,7 @@ ORDER = [
         "omissions",
         "bvh",
         "nodes",
+        "lamps",
         "pack",
         "texels",
         "blocks",

@@ -13,7 +13,7 @@ import pytest
 
 from glrt import shader
 from glrt.kernel import Kernel
-from glrt.needs import TREE_FROM, Needs, needs_of
+from glrt.needs import MOST_NEAR, TREE_FROM, Needs, needs_of
 from glrt.resources import folder
 from glrt.settings import settings_for
 from glrt.shader import Source
@@ -35,6 +35,7 @@ PROBES = {
     "HAS_QUAD_LIGHT": ("light.glsl", "length(to_point)", "length({} * to_point)"),
     "SAMPLE_LIGHTS": ("path.glsl", "weight * light.radiance", "{} * weight * light.radiance"),
     "WEIGHT_BOTH": ("path.glsl", "p_b / p_a", "{} * p_b / p_a"),
+    "MANY_LIGHTS": ("light_choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
     "ROULETTE": ("path.glsl", "throughput /= survival", "throughput /= {} + survival"),
 }
 ALWAYS = ("film.glsl", "1.0 / count", "{} / count")
@@ -44,12 +45,13 @@ NEEDED_TOO = {
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
+    "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
 }
 
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT"},
-    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH"},
+    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"},
 }
 
 
@@ -91,9 +93,10 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [sphere([9, 9, 9], 1, "matte")] * (TREE_FROM if "HAS_TREE" in flags else 0)
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
-    objects += [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
+    lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
     lit = "HAS_QUAD_LIGHT" in flags
-    objects += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
+    lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
+    objects += lamps + lamps[-1:] * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
     scene = scene_of(
         objects,
         MATERIALS,

@@ -118,7 +118,7 @@ def test_each_row_of_a_texture_is_read_where_it_lies(
     for code, name in enumerate((names[0], names[-1])):
         rows[name].reshape(count, -1)[:, 0] = 2 * np.arange(count) + code
     texture = texture_of(ctx, rows)
-    value = {"Node": "vec2(row.sphere.x, row.box.x)", "Light": "vec2(row.shape, row.reach2)"}
+    value = {"Node": "vec2(row.sphere.x, row.box.x)", "Light": "vec2(row.shape, row.alias)"}
     probe = Probe(
         value.get(struct, "vec2(row.corner.x, row.dual_v.x)"),
         "vec2",

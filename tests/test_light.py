@@ -30,11 +30,12 @@ MANY = scene_of(
 )
 SETUP = """
     Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), leaves, false);
-    int index = choose_light(from, total_weight(from), u.x);
+    float total = total_weight(from);
+    int index = choose_light(from, total, vec3(u, 0.0));
     int shape = light_at(index).shape;
     LightSample light = no_light_sample(from);
-    if (shape < frame.sphere_count) light = sample_sphere(from, index, shape, v);
-    else light = sample_quad(from, index, shape, v);"""
+    if (shape < frame.sphere_count) light = sample_sphere(from, index, shape, v, total);
+    else light = sample_quad(from, index, shape, v, total);"""
 
 
 def sampled(call_glsl: CallGlsl, scene: Scene, what: str, returns: str, **inputs: Any) -> Array:
@@ -204,7 +205,8 @@ def test_a_density_contains_the_choice_and_is_0_for_the_lamp_just_left(
             for shape in (row["shape"], 4)
         )
         assert np.all(left == 0)
-        chance = row["probability"] / max((row["center"] ** 2).sum(), row["reach2"])
+        own = rows["Clusters"][index]
+        chance = own["probability"] / max((own["center"] ** 2).sum(), own["reach2"])
         exact = chance * exact_density(rows, row["shape"], direction, 2.5)
         assert_allclose(free, exact, rtol=1e-5)
 

@@ -88,7 +88,13 @@ def measure(
     ways: Mapping[str, Way] = SWITCHES,
 ) -> list[Row]:
     """Interleave the variants of one scene, at `size` x `size` pixels."""
-    scene = scene_of(name)
+    return measure_scene(context, name, scene_of(name), size, rounds, ways)
+
+
+def measure_scene(
+    context: Context, name: str, scene: Scene, size: int, rounds: int, ways: Mapping[str, Way]
+) -> list[Row]:
+    """The same of any scene, under this name."""
     runs = {label: Runs(renderer_of(scene, way, size, context)) for label, way in ways.items()}
     for number in range(rounds + 1):  # the first one warms up
         for place, one in enumerate(runs.values()):

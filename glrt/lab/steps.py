@@ -29,7 +29,10 @@ def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
 
 
 BEFORE = roulette("1.0", 3)
-BY_FLUX = [Edit(file, "FEW_LIGHTS", "0") for file in ("light_choice.glsl", "light.glsl")]
+BY_FLUX = [  # and one lamp costs a random number
+    Edit("light_choice.glsl", "max(dot(away, away), cluster.reach2)", "1.0"),
+    Edit("light.glsl", "if (CLUSTERS > 1) choice.x", "choice.x"),
+]
 STRIPS = [  # points on quads by solid angle, as in `nee`
     Edit("light.glsl", "if (WEIGHT_BOTH) {", "if (false) {"),
     Edit("light.glsl", "!WEIGHT_BOTH", "true"),

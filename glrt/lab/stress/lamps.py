@@ -53,15 +53,16 @@ FROM_FLOOR = "Ray ray = Ray(vec3(0.0), vec3(0.0, 1.0, 0.0), NO_SHAPE, false);"
 CHOSEN = f"""
     Sampler rng = make_sampler(pcg_hash(uint(x)));
     {FROM_FLOOR}
-    LightSample light = sample_light(ray, rng);"""
+    LightSample light = sample_light(ray, total_weight(ray), rng);"""
 EVENLY = f"""
     Sampler rng = make_sampler(pcg_hash(uint(x)));
     {FROM_FLOOR}
     float choice = next_1d(rng);
     vec2 u = next_2d(rng);
     int index = min(int(choice * float(light_count())), light_count() - 1);
-    LightSample light = sample_quad(ray, index, light_at(index).shape, u);
-    light.pdf /= light_at(index).probability * float(light_count());"""
+    float total = total_weight(ray);
+    LightSample light = sample_quad(ray, index, light_at(index).shape, u, total);
+    light.pdf /= choice_pdf(index, ray, total) * float(light_count());"""
 RECEIVED = "light.pdf > 0.0 ? light.radiance.x * light.ray.direction.y / light.pdf : 0.0"
 
 

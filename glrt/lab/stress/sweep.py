@@ -10,7 +10,7 @@ import numpy as np
 from glrt.context import Context
 from glrt.image import Image
 from glrt.lab.plot import Chart, Curve
-from glrt.needs import Needs
+from glrt.needs import Needs, clusters_of, has_many_lights
 from glrt.probe import Probe, path_files, scene_blocks
 from glrt.renderer import Renderer
 from glrt.scene import Scene
@@ -81,9 +81,10 @@ class Lab:
     ) -> Array:
         """An expression over arrays, of the functions that trace paths (`Probe` says more).
 
-        They see `scene`, or nothing. Every feature is compiled in.
+        They see `scene`, or nothing. Every feature is compiled in, and lamps are chosen as there.
         """
-        probe = Probe(expression, returns, setup, functions, path_files(), _EVERYTHING)
+        constants = _EVERYTHING | (_choice_of(scene) if scene else {})
+        probe = Probe(expression, returns, setup, functions, path_files(), constants)
         with self.context.gl as gl:
             blocks = {name: gl.buffer(data) for name, data in scene_blocks(scene).items()}
             result = probe.run(gl, inputs, blocks)
@@ -119,7 +120,11 @@ def mean_of(image: Image) -> tuple[float, float]:
 
 
 _FLAGS: Any = {field.name: True for field in fields(Needs)}
-_EVERYTHING = Needs(**{**_FLAGS, "model": 0, "few_lights": 0, "block": 1}).constants()
+_EVERYTHING = Needs(**{**_FLAGS, "model": 0, "clusters": 0, "block": 1}).constants()
+
+
+def _choice_of(scene: Scene) -> dict[str, bool | int]:
+    return {"CLUSTERS": clusters_of(scene), "MANY_LIGHTS": has_many_lights(scene)}
 
 
 @dataclass(frozen=True)
