@@ -25,7 +25,7 @@ PROBES = {
     "HAS_SPHERE": ("shape.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
     "HAS_PLANE": ("shape.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
     "HAS_QUAD": ("shape.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
-    "HAS_TREE": ("bvh.glsl", "min(last.z, limit)", "min(last.z, {} * limit)"),
+    "HAS_TREE": ("bvh.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
     "HAS_MIRROR": ("material.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("material.glsl", "2.0 * PI * u.x", "{} * u.x"),
     "HAS_DIELECTRIC": ("material.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
