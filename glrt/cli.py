@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import signal
 import sys
 from collections.abc import Callable
 
@@ -31,7 +32,7 @@ def main(arguments: list[str] | None = None) -> int:
     except GlrtError as error:
         return fail(str(error), error.exit_code)
     except KeyboardInterrupt as error:
-        return fail(signals.NOTHING, getattr(error, "exit_code", INTERRUPTED + 2))
+        return fail(signals.PLAIN, _signal_code(error))
     except BrokenPipeError:
         streams.silence(sys.stdout)
         return 0
@@ -60,6 +61,10 @@ def _run(arguments: list[str] | None) -> int:
     return commands[parsed.command](parsed)
 
 
+def _signal_code(error: KeyboardInterrupt) -> int:
+    return int(getattr(error, "exit_code", INTERRUPTED + signal.SIGINT))
+
+
 def _what_failed(error: OSError) -> str:
     name = getattr(error, "filename", None)
     return f"the command failed at {name}" if name else "the command failed"
@@ -67,9 +72,12 @@ def _what_failed(error: OSError) -> str:
 
 def render(arguments: argparse.Namespace) -> int:
     """`glrt render`: the exit code says whether the picture is what was asked for."""
-    from glrt import render_command
+    try:
+        from glrt import render_command
 
-    return render_command.render(arguments)
+        return render_command.render(arguments)
+    except KeyboardInterrupt as error:
+        return fail(signals.NOTHING, _signal_code(error))
 
 
 def view(arguments: argparse.Namespace) -> int:

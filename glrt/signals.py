@@ -11,6 +11,7 @@ from types import FrameType
 from typing import NoReturn
 
 INTERRUPTED = 128  # plus the number of the signal: the exit code
+PLAIN = "interrupted"  # of a command that renders no picture, or not yet known to
 NOTHING = "interrupted before anything was rendered"
 
 _WATCHED = (signal.SIGINT, signal.SIGTERM)
@@ -94,5 +95,5 @@ def leave_at_once(number: int, _frame: FrameType | None) -> None:
 
     One that is raised while a compiled package is loaded can end in C++'s terminate: SIGABRT.
     """
-    os.write(2, f"glrt: {NOTHING}\n".encode())
+    os.write(2, f"glrt: {PLAIN}\n".encode())
     os._exit(INTERRUPTED + number)

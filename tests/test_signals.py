@@ -15,7 +15,8 @@ from glrt import signals
 from glrt.kernel import Kernel, drawing
 from glrt.shader import Source
 
-SAYS = "glrt: interrupted before anything was rendered\n"
+SAYS = "glrt: interrupted\n"
+NOTHING_RENDERED = "glrt: interrupted before anything was rendered\n"
 both = pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=["INT", "TERM"]
 )
@@ -59,8 +60,18 @@ def test_before_the_render_watches_for_it(
     """OpenEXR is imported when a picture is read as a scene: the command runs, nothing is saved."""
     (tmp_path / "a.exr").write_bytes(b"\x76\x2f\x31\x01")
     line = f"render {tmp_path}/a.exr -o {tmp_path}/b.png".split()
-    assert interrupted_in(tmp_path, "OpenEXR", number, *line) == (code, SAYS)
+    assert interrupted_in(tmp_path, "OpenEXR", number, *line) == (code, NOTHING_RENDERED)
     assert not (tmp_path / "b.png").exists()
+
+
+@both
+@pytest.mark.parametrize("line", ["compare {0}/a.exr {0}/a.exr", "inspect {0}/a.exr"])
+def test_a_command_that_renders_no_picture_is_only_interrupted(
+    tmp_path: Path, line: str, number: signal.Signals, code: int
+) -> None:
+    (tmp_path / "a.exr").write_bytes(b"\x76\x2f\x31\x01")
+    words = line.format(tmp_path).split()
+    assert interrupted_in(tmp_path, "OpenEXR", number, *words) == (code, SAYS)
 
 
 def test_a_signal_that_is_ignored_stays_ignored(tmp_path: Path) -> None:
