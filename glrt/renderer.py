@@ -174,8 +174,9 @@ class Renderer:
     def render(
         self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
     ) -> "Renderer":
-        """Step until each pixel has `samples` (default: the settings'), or `goes_on` says no.
+        """Step until each pixel has `samples` in all, or `goes_on` says no.
 
+        By default, those of the settings; where there are as many already, nothing is done.
         `goes_on` is asked after each dispatch, of which a frame may need several.
         """
         target = self.settings.samples if samples is None else samples

@@ -73,6 +73,13 @@ def test_scene_file_renders() -> None:
     renderer.release()
 
 
+def test_extras_named_exist() -> None:
+    named = set(re.findall(r"(?:glrt|\.)\[(\w+)\]", README))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert "chart" in named
+    assert named <= set(project["optional-dependencies"])
+
+
 def test_map_names_every_module() -> None:
     names = {path.name for path in (ROOT / "glrt").glob("*.py")} - {"__init__.py", "__main__.py"}
     named = set(re.findall(r"`(?:glrt/)?(\w+\.py)`", README))

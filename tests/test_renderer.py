@@ -259,3 +259,4 @@ def test_as_many_samples_as_are_asked_for_even_none(context: Context, samples: i
         assert plain.advance(10.0, samples) is False
         assert plain.samples == samples
         assert plain.render().samples == 5
+        assert plain.render(samples).samples == 5, "up to so many in all"
