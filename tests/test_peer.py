@@ -1,8 +1,12 @@
 """Peers answer over pipes; what goes wrong with them is told, and hurts nobody else."""
 
+import os
 import sys
+import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -49,6 +53,23 @@ def painter() -> Iterator[Peer]:
         yield peer
     finally:
         peer.close()
+
+
+def test_folders_of_killed_processes_are_gone_after_the_next_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of peers that are at work stay, and so do all others."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    for name, days in (("glrt-peer-old", 1.1), ("glrt-peer-new", 0.9), ("other-old", 1.1)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "log").touch()
+        then = time.time() - days * 24 * 3600
+        os.utime(tmp_path / name, (then, then))
+    with painter():
+        names = {path.name for path in tmp_path.iterdir()}
+        assert len(names) == 3, "those that stay, and the peer's own"
+        assert names > {"glrt-peer-new", "other-old"}
+    assert {path.name for path in tmp_path.iterdir()} == {"glrt-peer-new", "other-old"}
 
 
 def test_a_peer_renders_the_scene_that_it_is_sent() -> None:

@@ -6,10 +6,13 @@ through files. So glrt never imports them, and a crash of theirs ends them alone
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +21,9 @@ from glrt.errors import GlrtError, RenderError
 from glrt.image import Image
 from glrt.scene import Scene
 from glrt.scene_file import parse_scene, scene_to_dict
+
+PREFIX = "glrt-peer-"  # of folders for pictures on their way, among the temporary files
+FORGOTTEN = 24 * 3600.0  # seconds without a new picture
 
 
 @dataclass(frozen=True)
@@ -50,7 +56,8 @@ class Peer:
 
     def __init__(self, command: Sequence[str]) -> None:
         """Start it; RenderError, with the reason that it gave, if it does not get ready."""
-        self._folder = tempfile.TemporaryDirectory(prefix="glrt-peer-")
+        _remove_forgotten_folders()
+        self._folder = tempfile.TemporaryDirectory(prefix=PREFIX)
         self._log = Path(self._folder.name, "log")
         with self._log.open("w") as log:
             self._process = subprocess.Popen(
@@ -94,6 +101,14 @@ class Peer:
         code = self._process.wait()
         said = self._log.read_text(errors="replace").strip().splitlines()
         return RenderError(said[-1] if said else f"it ended with exit code {code}")
+
+
+def _remove_forgotten_folders() -> None:
+    """Those of processes that were killed: nobody else is left to do it."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        with suppress(OSError):
+            if time.time() - folder.stat().st_mtime > FORGOTTEN:
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 def serve(name: str, render: Callable[[Request], tuple[Image, float]]) -> None:
