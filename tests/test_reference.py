@@ -107,6 +107,21 @@ def test_a_closed_form_has_the_size_of_the_crop(context: Context) -> None:
     assert reference_for(scene, cropped, context, 0.1, 1).radiance.shape == (4, 3, 3)
 
 
+def test_a_reference_that_is_given_up_is_not_kept(context: Context, cache: Path) -> None:
+    calls = []
+
+    def check(renderer: Renderer) -> bool:
+        calls.append(renderer.samples)
+        if len(calls) == 3:
+            raise TimeoutError
+        return True
+
+    with pytest.raises(TimeoutError):
+        reference_for(LIT, small(LIT), context, 1e-9, 1e9, check=check)
+    assert len(calls) == 3
+    assert not cache.exists()
+
+
 def test_a_reference_comes_from_the_cache_the_second_time(
     context: Context, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,7 +146,7 @@ class Noisy:
     def __init__(self, level: float) -> None:
         self.level, self.taken = level, list[int]()
 
-    def render(self, samples: int) -> "Noisy":
+    def render(self, samples: int, _check: None) -> "Noisy":
         self.taken.append(samples)
         return self
 
@@ -141,7 +156,7 @@ class Noisy:
 
 def test_a_reference_takes_no_more_samples_than_a_picture_holds() -> None:
     halves: Any = [Noisy(1.0), Noisy(2.0)]
-    found = reference._rendered(halves, 1e-9, 60.0, None)
+    found = reference._rendered(halves, 1e-9, 60.0, None, None)
     assert found.samples == MAX_SAMPLES
     assert [max(half.taken) for half in halves] == [MAX_SAMPLES] * 2
 

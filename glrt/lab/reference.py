@@ -83,12 +83,13 @@ def reference_for(
     error: float,
     seconds: float,
     watch: Callable[[float], None] | None = None,
+    check: Callable[[Renderer], bool] | None = None,
 ) -> Reference:
     """The reference of a scene in the frame of `settings`, from the cache if it is there.
 
     Its samples double until its own relative RMS error is at most `error`, or until that would
     take longer than `seconds`, or more samples than a picture holds. `watch` is told the share
-    that is done.
+    that is done; `check` is called after each dispatch, and may raise to give up.
     """
     radiance = closed_form(scene)
     if radiance is not None:
@@ -99,9 +100,11 @@ def reference_for(
     found = _loaded(path)
     if found is None:
         halves = _halves(scene, settings, context)
-        found = _rendered(halves, error, seconds, watch)
-        for half in halves:
-            half.release()
+        try:
+            found = _rendered(halves, error, seconds, watch, check)
+        finally:
+            for half in halves:
+                half.release()
         _save(found, path)
     return found
 
@@ -160,11 +163,13 @@ def _rendered(
     error: float,
     seconds: float,
     watch: Callable[[float], None] | None,
+    check: Callable[[Renderer], bool] | None,
 ) -> Reference:
     start = time.perf_counter()
     samples = FIRST_LOOK
     while True:
-        first, second = (half.render(samples).image().radiance.astype(float) for half in halves)
+        images = [half.render(samples, check).image() for half in halves]
+        first, second = (image.radiance.astype(float) for image in images)
         result = Reference(first, second, samples, halves[0].settings.bounces)
         spent = time.perf_counter() - start
         if watch:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from glrt.context import Context
 from glrt.lab.experiment import frame_of
 from glrt.lab.reference import Reference, reference_for
-from glrt.lab.trial import LEADER, Bias, Candidate, Trial
+from glrt.lab.trial import LEADER, Bias, Candidate, Trial, until
 from glrt.lab.variants import METHODS, variants_of
 from glrt.needs import LADDER
 from glrt.scene import Scene
@@ -67,13 +67,13 @@ def what_suffices(
     What is not done within `seconds` is left out. Raises OutOfTimeError where that leaves no number
     of bounces known to suffice.
     """
-    deadline = time.perf_counter() + seconds
+    check = until(time.perf_counter() + seconds)
     small = _small_frame(scene, settings)
     small = small if bounces is None else settings_for(small, bounces=bounces)
     allowed = _reference_seconds(seconds)
-    reference = reference_for(scene, small, context, 0.25 * error, allowed)
+    reference = reference_for(scene, small, context, 0.25 * error, allowed, check=check)
     pixels = math.prod(settings.size) / math.prod(small.size)
-    trial = Trial(scene, settings, context, reference, pixels, deadline)
+    trial = Trial(scene, settings, context, reference, pixels, check)
     limits = trial.limits(small, error, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.seconds_to(error))

@@ -38,6 +38,20 @@ class OutOfTimeError(Exception):
     """The seconds that were allowed have passed."""
 
 
+Check = Callable[[Renderer | None], bool]  # after each dispatch: True, or OutOfTimeError
+
+
+def until(deadline: float) -> Check:
+    """True before a time by time.perf_counter; OutOfTimeError from then on."""
+
+    def check(_renderer: Renderer | None) -> bool:
+        if time.perf_counter() >= deadline:
+            raise OutOfTimeError
+        return True
+
+    return check
+
+
 class Bias(NamedTuple):
     """A squared relative bias with its standard error over pixels."""
 
@@ -94,7 +108,7 @@ class Trial:
     context: Context
     reference: Reference
     pixels: float
-    deadline: float  # by time.perf_counter
+    check: Check
 
     def limits(
         self, small: Settings, error: float, fixed: int | None, most: int
@@ -183,7 +197,7 @@ class Trial:
 
     @contextmanager
     def _opened(self, settings: Settings, **changes: Any) -> Iterator[Renderer]:
-        self._check_time()
+        self.check(None)
         renderer = Renderer(self.scene, settings, self.context, tier="baked", **changes)
         try:
             yield renderer
@@ -195,13 +209,7 @@ class Trial:
     ) -> "_Picture":
         limit = renderer.settings.bounces if bounces is None else bounces
         renderer.update(seed=seed, bounces=limit)
-        return _Picture.of(renderer, samples, self._check_time)
-
-    def _check_time(self, _renderer: Renderer | None = None) -> bool:
-        """True; OutOfTimeError from the deadline on."""
-        if time.perf_counter() >= self.deadline:
-            raise OutOfTimeError
-        return True
+        return _Picture.of(renderer, samples, self.check)
 
     def _noise(self, pictures: Sequence["_Picture"]) -> Bias:
         return self._relative(np.mean([picture.squared_stderr for picture in pictures], axis=0))
@@ -240,13 +248,11 @@ class _Picture:
     seconds: float
 
     @classmethod
-    def of(
-        cls, renderer: Renderer, samples: int, goes_on: Callable[[Renderer], bool]
-    ) -> "_Picture":
+    def of(cls, renderer: Renderer, samples: int, check: Check) -> "_Picture":
         warm = samples // 4  # the first dispatches are small
-        renderer.render(warm, goes_on)
+        renderer.render(warm, check)
         start = time.perf_counter()
-        renderer.render(samples, goes_on)
+        renderer.render(samples, check)
         seconds = (time.perf_counter() - start) * samples / (samples - warm)
         image = renderer.image()
         squared = np.square(image.stderr.astype(float))
