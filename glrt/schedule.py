@@ -32,9 +32,7 @@ class Rhythm(NamedTuple):
     """How often a render stops: to be told to end, or to show what it has."""
 
     limit: float  # seconds that no dispatch may exceed: drivers end those of some seconds
-    share: (
-        float  # of the samples that the picture has: so many a frame may add, and lose if it ends
-    )
+    share: float  # of the picture's samples: so many a frame may add, and lose if it ends early
     patience: float  # seconds that a frame may take, if one sample takes no longer
 
 
