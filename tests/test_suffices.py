@@ -216,6 +216,13 @@ def test_no_cheaper_rung_reaches_the_error_on_scenes_that_separate_methods(
     assert judge.cheaper_ones() == []
 
 
+def test_the_judge_finds_what_is_cheaper_than_a_wasteful_choice(context: Context) -> None:
+    scene = load("methods/diffuse")
+    judge = Judge(scene, verdict_on(scene, 0.5, context), context)
+    judge.best = candidate(judge.verdict, "naive")
+    assert "mis" in " ".join(found.name for found in judge.cheaper_ones())
+
+
 # --- words ---------------------------------------------------------------------------------
 
 
