@@ -241,17 +241,17 @@ MUTANTS = [
             ),
             Edit("glrt/nodes.py", "SLACK = 2.0**-18", "SLACK = 0.0"),
         ),
-        "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+        "test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
         "of equal spheres the tree takes the one that it meets first",
         _edit("bvh.glsl", "t == hit.distance && shape < hit.shape", "false"),
-        "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+        "test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
         "a ray that misses a box of the tree leaves out the node behind it, too",
         _edit("bvh.glsl", "? 1 : 1 + below;", "? 1 : 2 + below;"),
-        "test_bvh.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+        "test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
         "strips of a lamp are chosen by their width, not by their angle",

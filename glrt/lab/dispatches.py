@@ -12,7 +12,7 @@ from glrt.lab.program import exit_code_of, machine, parser_of
 from glrt.library import load
 from glrt.renderer import Renderer
 from glrt.scene import Scene
-from glrt.schedule import INTERACTIVE
+from glrt.schedule import INTERACTIVE, Rhythm
 from glrt.tracer import Tracer
 
 SIZE = 1920, 1080  # of the picture, in pixels
@@ -48,9 +48,9 @@ def _timed() -> Iterator[list[float]]:
     seconds: list[float] = []
     work_on = Tracer.work_on
 
-    def timed(*arguments: object) -> None:
+    def timed(tracer: Tracer, remaining: int, rhythm: Rhythm, seconds_left: float) -> None:
         start = time.perf_counter()
-        work_on(*arguments)  # type: ignore[arg-type]
+        work_on(tracer, remaining, rhythm, seconds_left)
         seconds.append(time.perf_counter() - start)
 
     with patch.object(Tracer, "work_on", timed):

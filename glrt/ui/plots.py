@@ -90,10 +90,10 @@ def _kernel(app: App) -> None:
         return
     inside, left_out = _contents(session.renderer.plan)
     imgui.push_text_wrap_pos(0.0)
-    baked = "; shapes written in while they rest" if session.renderer.is_baked else ""
-    imgui.text_disabled(f"{session.pipeline} kernel: {inside}{baked}")
+    imgui.text_disabled(f"{session.pipeline} kernel: {inside}")
     imgui.set_item_tooltip(f"left out\n{left_out}")
-    imgui.text_disabled(session.renderer.context.renderer)
+    baked = "; the kernel of a scene at rest" if session.renderer.is_baked else ""
+    imgui.text_disabled(f"{session.renderer.context.renderer}{baked}")
     imgui.pop_text_wrap_pos()
 
 

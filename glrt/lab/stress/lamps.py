@@ -11,7 +11,7 @@ from glrt.lab.stress.scenes import lamp as emitter
 from glrt.lab.stress.scenes import matte, plane, quad, scene_of
 from glrt.lab.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.renderer import Renderer
-from glrt.scene import Scene
+from glrt.scene import Quad, Scene
 from glrt.settings import Method
 
 # Points on quads evenly by area, where `nee` else takes them by solid angle.
@@ -111,7 +111,8 @@ def _flux(scene: Scene) -> float:
     """Irradiance over pi at the origin, facing up, times pi: the sum over the squares above."""
     total = 0.0
     for square in scene.objects:
-        x, _, z = square.corner  # type: ignore[union-attr]
+        assert isinstance(square, Quad)
+        x, _, z = square.corner
         u, v = np.array([x, x + 0.1]), np.array([z, z + 0.1])
         parts = _corner(u[:, None], v[None, :])
         share = parts[1, 1] - parts[0, 1] - parts[1, 0] + parts[0, 0]
