@@ -7,7 +7,6 @@ is for those who ask for that.
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -50,22 +49,21 @@ class Source:
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
         files = _Files(parts or {})
         lines = [Line(line, "prelude") for line in head] + files.expand(entry, "the kernel")
-        self._origins = [line.origin for line in lines]
-        self.text = _precise("\n".join(line.text for line in lines) + "\n")  # for the driver
+        texts = _precise("\n".join(line.text for line in lines)).split("\n")
+        self.lines = [Line(text, line.origin) for text, line in zip(texts, lines, strict=True)]
 
     @property
-    def lines(self) -> list[Line]:
-        """The text by lines."""
-        texts = self.text.removesuffix("\n").split("\n")
-        return [Line(*pair) for pair in zip(texts, self._origins, strict=True)]
+    def text(self) -> str:
+        """What the driver compiles."""
+        return "\n".join(line.text for line in self.lines) + "\n"
 
     def explain(self, log: str) -> str:
         """A driver's message with `file:line` in place of positions in the assembled text."""
         return _LOCATION.sub(lambda match: self._origin(int(match[1])), log)
 
     def _origin(self, number: int) -> str:
-        known = 0 < number <= len(self._origins)
-        return f"{self._origins[number - 1]}:" if known else f"line {number}:"
+        known = 0 < number <= len(self.lines)
+        return f"{self.lines[number - 1].origin}:" if known else f"line {number}:"
 
 
 def read(name: str) -> str:
@@ -92,7 +90,6 @@ def _text_of(path: Path) -> str:
     return _texts[path]
 
 
-@lru_cache(maxsize=32)  # each edit asks for the text of its kernel, which is mostly the same
 def _precise(text: str) -> str:
     """The text with `precise` before initialised float and struct locals, and inout parameters."""
     kinds = "|".join([*_FLOATS, *_STRUCT.findall(text)])
@@ -105,16 +102,6 @@ def _declare(constant: tuple[str, bool | int]) -> str:
     if isinstance(value, bool):
         return f"const bool {name} = {str(value).lower()};"
     return f"const int {name} = {value};"
-
-
-@lru_cache(maxsize=128)
-def _lines(name: str, text: str) -> tuple[tuple[Line, str], ...]:
-    """The lines of a file, each with the name of the file it includes, or ""."""
-    lines = [Line(line, f"{name}:{n}") for n, line in enumerate(text.splitlines(), start=1)]
-    found = [_INCLUDE.match(line.text) for line in lines]
-    return tuple(
-        (line, match[1] if match else "") for line, match in zip(lines, found, strict=True)
-    )
 
 
 class _Files:
@@ -130,8 +117,10 @@ class _Files:
             return []
         self._seen.add(name)
         lines: list[Line] = []
-        for line, included in _lines(name, self._text(name, wanted_by)):
-            lines += self.expand(included, line.origin) if included else [line]
+        for number, line in enumerate(self._text(name, wanted_by).splitlines(), start=1):
+            origin = f"{name}:{number}"
+            match = _INCLUDE.match(line)
+            lines += self.expand(match[1], origin) if match else [Line(line, origin)]
         return lines
 
     def _text(self, name: str, wanted_by: str) -> str:
