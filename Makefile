@@ -33,17 +33,17 @@ check: ## look over the source: ruff and mypy
 
 gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
-	$(IN_ENVIRONMENT) glrt.lab.gallery
+	$(IN_ENVIRONMENT) bench.gallery
 
 bench: ## measure how fast the kernel, its variants and the window are, and other renderers
 	@$(BOOTSTRAP) test
-	$(IN_ENVIRONMENT) glrt.ui.tour drag
-	$(IN_ENVIRONMENT) glrt.lab.bench --seconds 0.1
-	$(IN_ENVIRONMENT) glrt.lab.crowds
-	$(IN_ENVIRONMENT) glrt.lab.memory
-	$(IN_ENVIRONMENT) glrt.lab.roofline
-	$(IN_ENVIRONMENT) glrt.lab.rivals
-	$(IN_ENVIRONMENT) glrt.lab.efficiency
+	$(IN_ENVIRONMENT) bench.window_tour drag
+	$(IN_ENVIRONMENT) bench.kernels --seconds 0.1
+	$(IN_ENVIRONMENT) bench.sphere_counts
+	$(IN_ENVIRONMENT) bench.memory
+	$(IN_ENVIRONMENT) bench.roofline
+	$(IN_ENVIRONMENT) bench.rivals
+	$(IN_ENVIRONMENT) bench.efficiency
 
 charts: ## measure error against time on six scenes that separate the methods, into docs/chart/
 	@$(BOOTSTRAP) test
@@ -51,7 +51,7 @@ charts: ## measure error against time on six scenes that separate the methods, i
 
 mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
 	@$(BOOTSTRAP) test
-	$(IN_ENVIRONMENT) tests.mutation
+	$(IN_ENVIRONMENT) tests.mutation.__main__
 
 clean: ## remove .venv and all caches; pictures stay
 	rm -rf .venv build dist .pytest_cache .hypothesis .mypy_cache .ruff_cache

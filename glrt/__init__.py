@@ -1,21 +1,46 @@
-"""glrt: a physically based path tracer in OpenGL compute shaders."""
+"""glrt: a physically based path tracer in OpenGL compute shaders.
 
-from typing import Any
+Importing it loads nothing else: each public name is imported when it is first used.
 
-from glrt.garbage import leave_imports_alone
-from glrt.signals import leave_at_once_while_loading
+Modules and packages, each importing only what stands above it:
 
-leave_at_once_while_loading()
-leave_imports_alone()
+- version: the version of glrt
+- errors: what can go wrong, with the exit code of each kind
+- text: words and numbers of the user in messages
+- signals: Ctrl-C and SIGTERM
+- resources: where shaders and scenes lie
+- files: files that appear whole or not at all
+- settings: every render setting, once
+- gpu: OpenGL alone, which knows no scene
+- scene: frozen models of what is rendered, and TOML in and out
+- methods: what a method and a scene need of a kernel, and what a method leaves out
+- accel: trees over shapes and groups of lamps; arrays in, arrays out
+- error: estimates of the error of a picture, and how far they can be believed
+- image: pictures in files, with their recipe and the state of their film
+- comparison: whether two pictures differ by more than their noise
+- rendering: a scene and settings in, samples on a film out
+- doctor: which OpenGL routes work on a machine
+- analysis: experiments over the renderer: chart, stress, choice of a method
+- view: the window
+- api: the public functions that are not defined elsewhere
+- cli: the commands
+- __main__: `python -m glrt`
+"""
 
-from glrt.compare import compare
-from glrt.comparison import Comparison
-from glrt.image import Image
-from glrt.library import load
-from glrt.renderer import Renderer
-from glrt.scene import Scene
-from glrt.settings import Settings
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from glrt.version import VERSION
+
+if TYPE_CHECKING:
+    from glrt.api import render
+    from glrt.comparison.result import Comparison
+    from glrt.comparison.verdict import compare
+    from glrt.image.image import Image
+    from glrt.image.sources import load
+    from glrt.rendering.renderer import Renderer
+    from glrt.scene.scene import Scene
+    from glrt.settings import Settings
 
 __all__ = [
     "Comparison",
@@ -31,11 +56,24 @@ __all__ = [
 
 __version__ = VERSION
 
+_HOMES = {
+    "Comparison": "comparison.result",
+    "Image": "image.image",
+    "Renderer": "rendering.renderer",
+    "Scene": "scene.scene",
+    "Settings": "settings",
+    "compare": "comparison.verdict",
+    "load": "image.sources",
+    "render": "api",
+}
 
-def render(scene: Scene, samples: int = 64, **settings: Any) -> Image:
-    """Render a scene; `settings` are fields of Settings, and `context`."""
-    renderer = Renderer(scene, tier="baked", samples=samples, **settings)
-    try:
-        return renderer.render().image()
-    finally:
-        renderer.release()
+
+def __getattr__(name: str) -> Any:
+    """A public name, imported from where it is defined."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'glrt' has no attribute {name!r}")
+    return getattr(import_module(f"glrt.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -2,6 +2,6 @@
 
 import sys
 
-from glrt.cli import main
+from glrt.cli.main import main
 
 sys.exit(main())

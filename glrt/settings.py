@@ -3,10 +3,12 @@
 The command line, the panel and the kernel read these models; so does `[render]` in a scene.
 """
 
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, TypedDict
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic.fields import FieldInfo
 
 from glrt.errors import UsageError
 
@@ -27,17 +29,18 @@ class Cost(StrEnum):
     RECOMPILE = "recompile"  # another kernel
 
 
-def _setting(
-    default: Any,
-    help_text: str,
-    cost: Cost,
-    unit: str = "",
-    slider: tuple[float, float] | None = None,
-    **limits: Any,
-) -> Any:
-    """`slider`: the range that is worth dragging through; the limits are what is valid."""
-    extra: dict[str, Any] = {"cost": cost.value, "unit": unit, "slider": slider}
-    return Field(default, description=help_text, json_schema_extra=extra, **limits)
+@dataclass(frozen=True)
+class Editable:
+    """What a widget must know of a field beside its limits: part of its annotation."""
+
+    cost: Cost = Cost.RESTART  # of an edit
+    unit: str = ""
+    slider: tuple[float, float] | None = None  # the range worth dragging through
+
+
+def editable_of(field: FieldInfo) -> Editable:
+    """The control of a field of a model."""
+    return next((part for part in field.metadata if isinstance(part, Editable)), Editable())
 
 
 class Frozen(BaseModel):
@@ -49,54 +52,53 @@ class Frozen(BaseModel):
 class RenderSettings(Frozen):
     """How a scene wants to be rendered: its `[render]` table."""
 
-    width: int = _setting(
-        512, "width of the frame", Cost.RESTART, "pixels", (16, 4096), ge=1, le=16384
+    width: Annotated[int, Editable(Cost.RESTART, "pixels", (16, 4096))] = Field(
+        512, description="width of the frame", ge=1, le=16384
     )
-    height: int = _setting(
-        512, "height of the frame", Cost.RESTART, "pixels", (16, 4096), ge=1, le=16384
+    height: Annotated[int, Editable(Cost.RESTART, "pixels", (16, 4096))] = Field(
+        512, description="height of the frame", ge=1, le=16384
     )
-    samples: int = _setting(
-        256, "samples of each pixel", Cost.FREE, "samples", (1, 65536), ge=1, le=MAX_SAMPLES
+    samples: Annotated[int, Editable(Cost.FREE, "samples", (1, 65536))] = Field(
+        256, description="samples of each pixel", ge=1, le=MAX_SAMPLES
     )
-    bounces: int = _setting(
-        10,
-        "largest number of scattering events on a path",
-        Cost.RESTART,
-        "",
-        (0, 32),
-        ge=0,
-        le=1000,
+    bounces: Annotated[int, Editable(Cost.RESTART, "", (0, 32))] = Field(
+        10, description="largest number of scattering events on a path", ge=0, le=1000
     )
-    method: Method = _setting(
+    method: Annotated[Method, Editable(Cost.RECOMPILE)] = Field(
         "mis",
-        "naive: scattering alone finds the lamps; nee: light sampling; mis: both, weighted; phong, "
-        "blinn, whitted, cook: older models, which leave light out",
-        Cost.RECOMPILE,
+        description="naive: scattering alone finds the lamps; nee: light sampling; mis: both, "
+        "weighted; phong, blinn, whitted, cook: older models, which leave light out",
     )
 
 
 Pixels = Annotated[int, Field(ge=0, le=16384)]
+Crop = tuple[Pixels, Pixels, Pixels, Pixels]
 
 
 class Settings(RenderSettings):
     """Everything that a render can be told, beyond what the scene itself asks for."""
 
-    crop: tuple[Pixels, Pixels, Pixels, Pixels] | None = _setting(
-        None, "the part of the frame to render: left, top, width, height", Cost.RESTART, "pixels"
+    crop: Annotated[Crop | None, Editable(Cost.RESTART, "pixels")] = Field(
+        None, description="the part of the frame to render: left, top, width, height"
     )
-    sampler: Sampler = _setting(
+    sampler: Annotated[Sampler, Editable(Cost.RECOMPILE)] = Field(
         "sobol",
-        "sobol: blocks of 16 samples that fill the space evenly; independent: any random numbers",
-        Cost.RECOMPILE,
+        description="sobol: blocks of 16 samples that fill the space evenly; independent: any "
+        "random numbers",
     )
-    roulette: bool = _setting(
-        True, "end dim paths by Russian roulette: another variance, the same mean", Cost.RECOMPILE
+    roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+        True,
+        description="end dim paths by Russian roulette: another variance, the same mean",
     )
-    seed: int = _setting(0, "chooses the random numbers", Cost.RESTART, "", ge=0, le=0xFFFFFFFF)
-    exposure: float = _setting(
-        0.0, "brightness of PNG files and of the display", Cost.FREE, "EV", (-8, 8), ge=-50, le=50
+    seed: Annotated[int, Editable(Cost.RESTART)] = Field(
+        0, description="chooses the random numbers", ge=0, le=0xFFFFFFFF
     )
-    tonemap: ToneMap = _setting("neutral", "tone curve of PNG files and of the display", Cost.FREE)
+    exposure: Annotated[float, Editable(Cost.FREE, "EV", (-8, 8))] = Field(
+        0.0, description="brightness of PNG files and of the display", ge=-50, le=50
+    )
+    tonemap: Annotated[ToneMap, Editable(Cost.FREE)] = Field(
+        "neutral", description="tone curve of PNG files and of the display"
+    )
 
     @property
     def size(self) -> tuple[int, int]:
@@ -117,6 +119,27 @@ class Settings(RenderSettings):
                 f"the frame of {self.width} x {self.height} pixels"
             )
         return self
+
+
+class FrameOptions(TypedDict, total=False):
+    """The fields of Settings as keywords, but samples: for editors. A test holds the two alike."""
+
+    width: int
+    height: int
+    bounces: int
+    method: Method
+    crop: tuple[int, int, int, int] | None
+    sampler: Sampler
+    roulette: bool
+    seed: int
+    exposure: float
+    tonemap: ToneMap
+
+
+class SettingOptions(FrameOptions, total=False):
+    """All fields of Settings as keywords."""
+
+    samples: int
 
 
 def settings_for(base: RenderSettings, **overrides: Any) -> Settings:
@@ -141,9 +164,7 @@ def cost_of_change(before: Settings, after: Settings) -> Cost:
 
 def cost_of(name: str) -> Cost:
     """The class of a field of Settings."""
-    extra = Settings.model_fields[name].json_schema_extra
-    assert isinstance(extra, dict)
-    return Cost(str(extra["cost"]))
+    return editable_of(Settings.model_fields[name]).cost
 
 
 def _advice(problem: Any) -> str:

@@ -1,12 +1,9 @@
 """SIGINT and SIGTERM: how the command ends by them, from its first import to its last file."""
 
-import os
 import signal
-import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
@@ -25,7 +22,12 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, number: int) -> None:
         """`number` of the signal."""
         super().__init__()
-        self.exit_code = INTERRUPTED + number
+        self.number = number
+
+
+def exit_code_of(error: KeyboardInterrupt) -> int:
+    """The exit code of a command that this ended; Python's own is of SIGINT."""
+    return INTERRUPTED + int(getattr(error, "number", signal.SIGINT))
 
 
 @contextmanager
@@ -63,37 +65,3 @@ def postponed() -> Iterator[None]:
 def interrupt(number: int, _frame: FrameType | None) -> NoReturn:
     """A handler: raises Interrupted."""
     raise Interrupted(number)
-
-
-def is_command() -> bool:
-    """Whether this process is the command `glrt`, not a program that imports it."""
-    words = sys.orig_argv[1:3]
-    return words == ["-m", "glrt"] or any(Path(word).stem == "glrt" for word in words[:1])
-
-
-def leave_at_once_while_loading() -> None:
-    """Where the process is the command: no traceback from an import that Ctrl-C meets.
-
-    Imports take most of the first half second. Nothing is open yet that must be closed.
-    """
-    if is_command():
-        for number in _WATCHED:
-            if signal.getsignal(number) is not signal.SIG_IGN:
-                signal.signal(number, leave_at_once)
-
-
-def loaded() -> None:
-    """The command's own handling takes over: Ctrl-C raises KeyboardInterrupt again."""
-    if signal.getsignal(signal.SIGINT) is leave_at_once:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-    if signal.getsignal(signal.SIGTERM) is leave_at_once:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-
-
-def leave_at_once(number: int, _frame: FrameType | None) -> None:
-    """A handler: ends the process without an exception.
-
-    One that is raised while a compiled package is loaded can end in C++'s terminate: SIGABRT.
-    """
-    os.write(2, f"glrt: {PLAIN}\n".encode())
-    os._exit(INTERRUPTED + number)

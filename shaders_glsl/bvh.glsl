@@ -1,4 +1,4 @@
-// Rays against the tree over the spheres (glrt/bvh.py). Its nodes lie in depth-first order and
+// Rays against the tree over the spheres (glrt/accel/bvh.py). Its nodes lie in depth-first order and
 // say where to go on when a ray misses them, so a ray needs no stack.
 //
 // The picture is that of the loop over all spheres, bit for bit: a box only says what may be left

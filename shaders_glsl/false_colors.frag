@@ -27,14 +27,14 @@ uniform vec3 colors[COLORS];  // sRGB
 in vec2 place;
 out vec4 color;
 
-// The twin of glrt.film.standard_error, squared. Negative below two observations.
+// The twin of glrt.rendering.film.standard_error, squared. Negative below two observations.
 vec3 variance_of_mean(ivec2 texel) {
     vec4 observed = texelFetch(variance, texel, 0);
     if (observed.a < 2.0) return vec3(-1.0);
     return observed.rgb / (observed.a - 1.0);
 }
 
-// From two halves of the observations: the twin of glrt.mix.mixed.
+// From two halves of the observations: the twin of glrt.rendering.weighting.mixed.
 vec3 variance_by_halves(ivec2 texel) {
     ivec2 size = textureSize(mean, 0);
     vec3 apart = vec3(0.0);
@@ -50,7 +50,7 @@ vec3 variance_by_halves(ivec2 texel) {
     return apart * apart * (counts.x * counts.y / (total * total));
 }
 
-// A pixel's share in the relative error of the picture (glrt.stats.relative_error).
+// A pixel's share in the relative error of the picture (glrt.error.estimate.relative_error).
 float relative_error(ivec2 texel) {
     vec3 radiance = texelFetch(light, texel, 0).rgb;
     vec3 squared = layer_count > 0 ? variance_by_halves(texel)

@@ -1,4 +1,4 @@
-// The structs that host and kernels share. The host reads this very file (glrt/layout.py), so a
+// The structs that host and kernels share. The host reads this very file (glrt/gpu/structs.py), so a
 // field is declared once, here. Rows of four words: std140 and std430 then agree, and the same
 // array can lie in a uniform block or in a storage block.
 //

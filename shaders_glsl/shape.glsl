@@ -57,7 +57,7 @@ float quad_distance(Ray ray, Quad quad) {
     return inside ? t : 0.0;
 }
 
-// Some drivers end loops early, silently (glrt/selftest.py); see add_samples.
+// Some drivers end loops early, silently (glrt/gpu/driver_checks.py); see add_samples.
 bool loop_was_cut = false;
 
 void note_end(int reached, int end) {

@@ -1,5 +1,5 @@
 // From radiance to the colours of a screen: exposure, tone curve, sRGB encoding.
-// Colours are linear sRGB (Rec. 709 primaries). The twin of glrt/tonemap.py, which names the sources.
+// Colours are linear sRGB (Rec. 709 primaries). The twin of glrt/image/tonemap.py, which names the sources.
 
 const int TONEMAP_NONE = 0;
 const int TONEMAP_ACES = 1;

@@ -12,18 +12,19 @@ import moderngl
 import numpy as np
 import pytest
 
-from glrt.context import Context, open_context
+from bench.screens import screen
 from glrt.errors import ContextError
-from glrt.lab.screens import screen
-from glrt.needs import needs_of
-from glrt.probe import Probe, path_files, scene_blocks
-from glrt.scene import Scene
+from glrt.gpu.context import Context, open_context
+from glrt.gpu.evaluate import Probe, path_files
+from glrt.methods.features import needs_of
+from glrt.rendering.pack import scene_blocks
+from glrt.scene.scene import Scene
 from glrt.settings import settings_for
-from tests.builders import EVERYTHING
-from tests.packages import needs_package
+from tests.support.builders import EVERYTHING
+from tests.support.system_packages import needs_package
 from tests.wgsl.device import Device, open_device
 
-pytest_plugins = ["tests.slow_share", "tests.alarms"]
+pytest_plugins = ["tests.support.slow_share", "tests.support.alarms"]
 
 # A shell's background jobs ignore Ctrl-C, and so would every command that the tests start there.
 signal.signal(signal.SIGINT, signal.default_int_handler)

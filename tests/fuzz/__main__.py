@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from glrt.context import open_context
+from glrt.gpu.context import open_context
 from tests.fuzz.hunt import hunt, kinds
 
 

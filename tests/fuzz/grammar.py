@@ -4,7 +4,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from glrt.scene import LARGEST, SMALLEST
+from glrt.scene.values import LARGEST, SMALLEST
 
 Table = dict[str, Any]
 

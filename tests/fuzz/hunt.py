@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
-from glrt.context import Context
+from glrt.gpu.context import Context
 from tests.fuzz import checks, pictures
 from tests.fuzz.grammar import scenes
 from tests.fuzz.mutation import broken_files, broken_scenes

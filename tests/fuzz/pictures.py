@@ -7,9 +7,9 @@ import numpy as np
 from hypothesis import strategies as st
 
 from glrt.errors import GlrtError
-from glrt.image import Image
-from glrt.library import load, load_recipe
-from glrt.recipe import Recipe
+from glrt.image.image import Image
+from glrt.image.recipe import Recipe
+from glrt.image.sources import load, load_recipe
 from glrt.settings import settings_for
 from tests.fuzz.checks import check_refusal
 

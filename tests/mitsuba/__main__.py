@@ -6,8 +6,8 @@ import sys
 import time
 
 from glrt.errors import GlrtError
-from glrt.image import check_writable
-from glrt.library import load
+from glrt.image.image import check_writable
+from glrt.image.sources import load
 from glrt.settings import Settings, settings_for
 from tests.mitsuba.convert import Liberties
 from tests.mitsuba.engine import Engine, load_mitsuba

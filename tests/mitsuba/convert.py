@@ -7,7 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.errors import SceneError
-from glrt.scene import Dielectric, Light, Metal, Plane, Quad, Radiance, Scene, Sphere
+from glrt.scene.materials import Dielectric, Light, Metal
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Quad, Sphere
+from glrt.scene.values import Radiance
 from glrt.settings import Settings
 from tests.mitsuba import metal
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident

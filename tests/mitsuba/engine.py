@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from glrt.errors import UsageError
-from glrt.image import Image
-from glrt.recipe import Recipe
-from glrt.scene import Scene
+from glrt.image.image import Image
+from glrt.image.recipe import Recipe
+from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
 from tests.mitsuba.convert import Liberties, convert

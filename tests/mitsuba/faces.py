@@ -4,7 +4,8 @@ which coincide, so that it would show one or the other at random."""
 import numpy as np
 
 from glrt.errors import SceneError
-from glrt.scene import Plane, Quad, Scene, Shape, Sphere
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Quad, Shape, Sphere
 from tests.mitsuba.near import Vector, corners, length, normal_of
 
 TOUCH = 1e-6  # of a radius or an edge: surfaces that come as near only touch

@@ -11,7 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.scene import Dielectric, Plane, Quad, Scene, Sphere
+from glrt.scene.materials import Dielectric
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Quad, Sphere
 
 Vector = NDArray[np.float64]
 

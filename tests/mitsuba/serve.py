@@ -1,13 +1,13 @@
-"""A peer of `glrt.lab.peer`: `python -m tests.mitsuba.serve` renders by Mitsuba."""
+"""A peer of `bench.peer`: `python -m tests.mitsuba.serve` renders by Mitsuba."""
 
 import sys
 import time
 from dataclasses import replace
 from functools import lru_cache
 
+from bench.peer import Request, serve
 from glrt.errors import UsageError
-from glrt.image import Image
-from glrt.lab.peer import Request, serve
+from glrt.image.image import Image
 from glrt.settings import settings_for
 from tests.mitsuba.convert import Liberties
 from tests.mitsuba.engine import Engine, load_mitsuba, name_of

@@ -9,11 +9,11 @@ import sys
 import time
 from typing import Any
 
+from glrt.cli.process import peak_bytes, since_start
 from glrt.errors import GlrtError
-from glrt.image import check_writable
-from glrt.job import peak_bytes, since_start
-from glrt.library import load_recipe
-from glrt.scene import Scene
+from glrt.image.image import check_writable
+from glrt.image.sources import load_recipe
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.device import describe, open_device
 from tests.wgsl.program import RayTracer

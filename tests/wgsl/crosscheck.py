@@ -5,12 +5,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.context import Context
-from glrt.image import Image
-from glrt.renderer import Renderer
-from glrt.scene import Scene
+from glrt.gpu.context import Context
+from glrt.image.image import Image
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
-from tests.ulps import ulps, words
+from tests.support.ulps import ulps, words
 from tests.wgsl.device import Device
 from tests.wgsl.display import DisplayPass
 from tests.wgsl.program import RayTracer

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.scene import Scene
-from tests.builders import box_of_quads, lamp, quad, scene_of
+from glrt.scene.scene import Scene
+from tests.support.builders import box_of_quads, lamp, quad, scene_of
 from tests.wgsl.device import Device
 from tests.wgsl.display import DisplayPass
 from tests.wgsl.program import RayTracer

@@ -1,15 +1,15 @@
 """A scene as the bytes of the thesis's buffers.
 
-The numbers are those of `glrt.pack`, relative to the camera: both versions read the same ones.
+The numbers are those of `glrt.rendering.pack`, relative to the camera: both versions read these.
 """
 
 from typing import Any
 
 import numpy as np
 
-from glrt.layout import read_constants, record
-from glrt.pack import pack_camera, pack_scene
-from glrt.scene import Scene
+from glrt.gpu.structs import read_constants, record
+from glrt.rendering.pack import pack_camera, pack_scene
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.text import read, struct
 
@@ -20,7 +20,7 @@ _POSITIONS = {"SPHERE": "center", "PLANE": "point", "QUAD": "corner"}
 
 
 def camera_buffer(scene: Scene, settings: Settings) -> bytes:
-    """Position is the origin; orientation, focus and lens as in `glrt.pack`."""
+    """Position is the origin; orientation, focus and lens as in `glrt.rendering.pack`."""
     camera = pack_camera(scene.camera, settings.width / settings.height)
     return record(struct("Camera"), camera).tobytes()
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.scene import Scene
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl import packing
 from tests.wgsl.device import Device

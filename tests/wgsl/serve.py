@@ -1,11 +1,11 @@
-"""A peer of `glrt.lab.peer`: `python -m tests.wgsl.serve` renders by the WGSL version."""
+"""A peer of `bench.peer`: `python -m tests.wgsl.serve` renders by the WGSL version."""
 
 import sys
 import time
 
+from bench.peer import Request, serve
 from glrt.errors import GlrtError
-from glrt.image import Image
-from glrt.lab.peer import Request, serve
+from glrt.image.image import Image
 from tests.wgsl.device import describe, open_device
 from tests.wgsl.program import RayTracer
 from tests.wgsl.tracer import Tracer, naive

@@ -9,11 +9,11 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from glrt.context import Context, open_context
 from glrt.errors import GlrtError
-from glrt.library import load
-from glrt.renderer import Renderer
-from glrt.scene import Scene
+from glrt.gpu.context import Context, open_context
+from glrt.image.sources import load
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.device import describe, open_device
 from tests.wgsl.program import RayTracer

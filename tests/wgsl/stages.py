@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from glrt.blocks import blocks_text, padded, tier_for
-from glrt.context import Context
-from glrt.kernel import Kernel
-from glrt.needs import needs_of
-from glrt.pack import pack_frame, pack_scene
-from glrt.probe import path_files
-from glrt.scene import Scene
+from glrt.gpu.context import Context
+from glrt.gpu.evaluate import path_files
+from glrt.gpu.glsl import Source, read
+from glrt.gpu.program import Kernel
+from glrt.gpu.struct_arrays import blocks_text, padded, tier_for
+from glrt.methods.features import needs_of
+from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
-from glrt.shader import Source, read
 from tests.wgsl.device import Device
 from tests.wgsl.program import OUTPUT, SEEDS, Program
 from tests.wgsl.resources import RandomTexture, SceneBuffers, output_buffer

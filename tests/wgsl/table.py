@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 
-from glrt.context import Choice, Context, open_context
 from glrt.errors import GlrtError
-from glrt.library import load
-from glrt.scene import Scene
+from glrt.gpu.context import Choice, Context, open_context
+from glrt.image.sources import load
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
-from tests.mixture import everything
+from tests.support.mixed_scene import everything
 from tests.wgsl.crosscheck import Agreement, Record, WgslVersion, agreements, glsl_record
 from tests.wgsl.device import Device, describe, open_device
 from tests.wgsl.findings import SUSPICIONS, symptoms

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.layout import read_structs
+from glrt.gpu.structs import read_structs
 
 FOLDER = Path(__file__).parent
 PATH = ("exact", "scene", "rng", "warp", "camera", "shape", "material", "path")

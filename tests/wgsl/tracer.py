@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 from glrt.errors import SceneError
-from glrt.film import Exposure, standard_error
-from glrt.image import Image
-from glrt.recipe import Recipe
-from glrt.scene import Scene
+from glrt.image.image import Image
+from glrt.image.recipe import Recipe
+from glrt.rendering.film import Exposure, standard_error
+from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
 from tests.wgsl.device import describe

@@ -11,9 +11,9 @@ from pathlib import Path
 from imgui_bundle import hello_imgui, imgui
 from imgui_bundle.immapp import testing
 
-from glrt.library import load
+from glrt.image.sources import load
 from glrt.settings import settings_for
-from glrt.ui import watch, window
+from glrt.view import file_watch, window
 from tests.window.hand import CHECKS, SMALL, Hand
 
 SCENE = "cornell"
@@ -23,7 +23,7 @@ SOON = 0.05  # seconds between looks at files and preferences, which checks wait
 
 def opened() -> window.Window:
     """The window that the checks are done in."""
-    watch.INTERVAL = window.KEEP_EVERY = SOON
+    file_watch.INTERVAL = window.KEEP_EVERY = SOON
     scene = load(SCENE)
     result = window.Window(SCENE, scene, settings_for(scene.render, **SMALL))
     result.params.app_window_params.window_geometry.size = SIZE

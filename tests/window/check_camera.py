@@ -5,7 +5,7 @@ import math
 import numpy as np
 from imgui_bundle import imgui
 
-from glrt.ui import orbit
+from glrt.view.viewport import orbit
 from tests.window.gestures import drag, far_apart
 from tests.window.hand import Hand, check
 

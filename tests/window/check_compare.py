@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.ui.picture import Picture
+from glrt.view.viewport.picture import Picture
 from tests.window.gestures import ball, move
 from tests.window.hand import Hand, check
 

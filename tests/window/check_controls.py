@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from glrt.settings import Cost
-from glrt.ui import panel, widgets
-from glrt.ui.controls import Control
+from glrt.view.panels import panel, widgets
+from glrt.view.state.controls import Control
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import move
 from tests.window.hand import Hand, check

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from glrt.image import read_recipe
-from glrt.library import load
-from glrt.scene_file import read_scene
-from glrt.ui import dialogs
+from glrt.image.image import read_recipe
+from glrt.image.sources import load
+from glrt.scene.toml import read_scene
+from glrt.view import file_dialogs
 from tests.window.gestures import reopen, replaced_fov
 from tests.window.hand import SMALL, Hand, check
 
@@ -90,8 +90,8 @@ def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
 
 @check
 def without_dialogs_the_boxes_serve(hand: Hand) -> None:
-    app, ctx, before = hand.window.app, hand.ctx, dialogs.PROGRAMS
-    dialogs.PROGRAMS = ()  # type: ignore[assignment]
+    app, ctx, before = hand.window.app, hand.ctx, file_dialogs.PROGRAMS
+    file_dialogs.PROGRAMS = ()  # type: ignore[assignment]
     ctx.item_open("//Controls/Files")
     ctx.yield_(2)
     assert not ctx.item_exists("//Controls/...##open")
@@ -101,7 +101,7 @@ def without_dialogs_the_boxes_serve(hand: Hand) -> None:
     assert read_scene(Path.cwd() / "typed.toml") == load("cornell").model_copy(
         update={"render": load("cornell").render.model_copy(update=SMALL)}
     )
-    dialogs.PROGRAMS = before
+    file_dialogs.PROGRAMS = before
     assert app.message.startswith("Saved")
     reopen(hand)
 

@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from glrt.ui.preferences import Preferences
+from glrt.view.state.preferences import Preferences
 from tests.window.gestures import drag, press
 from tests.window.hand import Hand, check
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from glrt.renderer import Renderer
+from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
 from tests.window.gestures import move
 from tests.window.hand import Hand, check

@@ -10,11 +10,12 @@ import numpy as np
 from imgui_bundle import imgui
 from imgui_bundle.imguizmo import im_guizmo
 
-from glrt.scene import LARGEST, SMALLEST, Scene, with_lights
-from glrt.ui import orbit
-from glrt.ui.controls import replaced
-from glrt.ui.place import with_object
-from tests.builders import lamp, plane, scene_of
+from glrt.scene.scene import Scene, with_lights
+from glrt.scene.values import LARGEST, SMALLEST
+from glrt.view.state.controls import replaced
+from glrt.view.viewport import orbit
+from glrt.view.viewport.transform import with_object
+from tests.support.builders import lamp, plane, scene_of
 from tests.window.gestures import ball, drag, reopen
 from tests.window.hand import Hand, check
 

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
-from glrt.needs import explain
-from glrt.scene import Shape
+from glrt.methods.features import explain
+from glrt.scene.shapes import Shape
 from glrt.settings import Cost
-from glrt.ui import objects, plots
-from glrt.ui.gizmo import is_held
-from glrt.ui.orbit import axes
-from tests.builders import MATTE, scene_of, sphere
+from glrt.view.panels import objects, plots
+from glrt.view.panels.gizmo import is_held
+from glrt.view.viewport.orbit import axes
+from tests.support.builders import MATTE, scene_of, sphere
 from tests.window.gestures import ball, click, place_of
 from tests.window.hand import Hand, check
 

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from imgui_bundle import imgui
 
-from glrt.ui import orbit
-from glrt.ui.controls import replaced
-from glrt.ui.plots import figures
+from glrt.view.panels.plots import figures
+from glrt.view.state.controls import replaced
+from glrt.view.viewport import orbit
 from tests.window.gestures import drag, far_apart, move
 from tests.window.hand import Hand, check
 

@@ -5,7 +5,7 @@ from functools import partial
 from typing import Any
 
 from glrt.settings import Cost
-from glrt.ui.plots import figures
+from glrt.view.panels.plots import figures
 from tests.window.hand import Hand, check
 
 

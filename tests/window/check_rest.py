@@ -2,9 +2,9 @@
 
 import time
 
-from glrt.renderer import Renderer
-from glrt.ui.rest import Rest
-from tests.images import same_bits
+from glrt.rendering.renderer import Renderer
+from glrt.view.state.idle_kernel import Rest
+from tests.support.images import same_bits
 from tests.window.hand import Hand, check
 
 WAIT = 60.0  # seconds for the other process, on a machine that has more to do

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.false_colors import ERROR
+from glrt.rendering.false_colors import ERROR
 from tests.window.hand import Hand, check
 
 

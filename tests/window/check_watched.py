@@ -30,7 +30,7 @@ def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
 
 @check
 def a_shader_that_is_broken_on_disk_is_told_and_the_old_kernel_goes_on(hand: Hand) -> None:
-    """The files are a copy: see tests/test_window.py."""
+    """The files are a copy: see tests/view/test_window.py."""
     session = hand.session
     for name, word in (("path.glsl", "undeclared"), ("display.frag", "undeclared")):
         file = folder("shaders_glsl") / name

@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
-from glrt.scene import Camera, Scene
-from glrt.ui.controls import replaced
-from glrt.ui.orbit import axes
+from glrt.scene.camera import Camera
+from glrt.scene.scene import Scene
+from glrt.view.state.controls import replaced
+from glrt.view.viewport.orbit import axes
 from tests.window.hand import SMALL, Hand
 
 

@@ -12,10 +12,10 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
-from glrt.ui.picture import Picture
-from glrt.ui.preferences import Preferences
-from glrt.ui.session import Session
-from glrt.ui.window import Window
+from glrt.view.state.preferences import Preferences
+from glrt.view.state.session import Session
+from glrt.view.viewport.picture import Picture
+from glrt.view.window import Window
 
 Result = TypeVar("Result")
 Check = Callable[["Hand"], None]

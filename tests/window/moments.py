@@ -13,10 +13,11 @@ from typing import Any
 from imgui_bundle import imgui
 
 import glfw  # isort: skip
-from glrt import files, turns
-from glrt.cli import main
-from glrt.ui.controls import replaced
-from glrt.ui.window import Window
+from glrt import files
+from glrt.cli.main import main
+from glrt.rendering import kernel_switch
+from glrt.view.state.controls import replaced
+from glrt.view.window import Window
 
 FRAMES = 12  # after which the picture has samples, and what the moment needs begins
 Act = Callable[[Window, int], None]  # what is done in a frame, by its number
@@ -45,7 +46,7 @@ def before(owner: Any, name: str, act: Callable[[], None]) -> None:
 
 def compiling(_window: Window, frame: int) -> None:
     if frame == 0:
-        before(turns, "compiled", terminate)
+        before(kernel_switch, "compiled", terminate)
 
 
 def dragging(window: Window, frame: int) -> None:

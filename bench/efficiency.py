@@ -1,0 +1,177 @@
+"""What each switch of a render buys: variance a sample, time a sample, and 1 / (variance x time).
+
+Every round renders each variant once, with random numbers of its own; a variant differs from the
+defaults in one setting. The variance is that of pictures about the mean of all of them, so that
+no claim of a picture about its own noise is believed, relative to the radiance as in `stats`.
+"""
+
+import statistics
+import sys
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bench.program import add_rounds, exit_code_of, machine, parser_of
+from glrt.analysis.shader_edits import Edit, edited
+from glrt.error.estimate import DARK
+from glrt.gpu.context import Context, open_context
+from glrt.image.sources import load
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.settings import settings_for
+
+
+class Way(NamedTuple):
+    """How a variant differs from the defaults of its scene."""
+
+    settings: Mapping[str, Any]
+    edits: Sequence[Edit] = ()  # of the shaders
+
+
+SWITCHES = {
+    "defaults": Way({}),
+    "independent": Way({"sampler": "independent"}),
+    "no roulette": Way({"roulette": False}),
+    "nee": Way({"method": "nee"}),
+    "naive": Way({"method": "naive"}),
+}
+SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
+SAMPLES = 32  # of a run: two blocks of Sobol's points
+
+
+class Row(NamedTuple):
+    """The figures of one variant; ratios are to the first one of its scene."""
+
+    scene: str
+    variant: str
+    variance: float  # relative, of one sample
+    uncertainty: float  # of the variance, relative: one standard error
+    microseconds: float  # a pixel sample, median
+    fewer_samples: float  # for the same error
+    slower: float  # median over the rounds
+    efficiency: float
+
+
+class Runs:
+    """What one variant did."""
+
+    def __init__(self, renderer: Renderer) -> None:
+        """Nothing yet."""
+        self.renderer = renderer
+        self.seconds: list[float] = []
+        self.pictures: list[NDArray[np.float32]] = []
+
+    def add(self, seed: int) -> None:
+        """Render once more, from an empty film."""
+        self.renderer.update(seed=seed)
+        start = time.perf_counter()
+        self.renderer.render(SAMPLES)
+        self.seconds.append(time.perf_counter() - start)
+        self.pictures.append(self.renderer.image().radiance)
+
+    def variances(self, scale: NDArray[np.float64]) -> NDArray[np.float64]:
+        """An estimate of the relative variance of one sample from each picture."""
+        mean = np.mean(self.pictures, axis=0, dtype=np.float64)
+        count = len(self.pictures)
+        squares = [np.mean(np.square(picture - mean) / scale) for picture in self.pictures]
+        return np.array(squares) * SAMPLES * count / (count - 1)
+
+
+def measure(
+    context: Context,
+    name: str,
+    size: int,
+    rounds: int,
+    ways: Mapping[str, Way] = SWITCHES,
+) -> list[Row]:
+    """Interleave the variants of one scene, at `size` x `size` pixels."""
+    return measure_scene(context, name, scene_of(name), size, rounds, ways)
+
+
+def measure_scene(
+    context: Context, name: str, scene: Scene, size: int, rounds: int, ways: Mapping[str, Way]
+) -> list[Row]:
+    """The same of any scene, under this name."""
+    runs = {label: Runs(renderer_of(scene, way, size, context)) for label, way in ways.items()}
+    for number in range(rounds + 1):  # the first one warms up
+        for place, one in enumerate(runs.values()):
+            one.add(seed=1 + number * len(runs) + place)
+    for one in runs.values():
+        del one.seconds[0], one.pictures[0]
+        one.renderer.release()
+    return list(_rows(name, runs))
+
+
+def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer:
+    """Of constants where there are few shapes; `KeyError` if an edit has no place."""
+    settings = settings_for(scene.render, width=size, height=size, **way.settings)
+    return edited(*way.edits)(scene, settings, context, "baked")
+
+
+def scene_of(name: str) -> Scene:
+    """A scene by name; `room` is `cornell` with a white ball for the one of glass: no caustic."""
+    if name != "room":
+        return load(name)
+    cornell = load("cornell")
+    white = {**cornell.materials, "glass": cornell.materials["white"]}
+    return cornell.model_copy(update={"materials": white})
+
+
+def _rows(name: str, runs: Mapping[str, Runs]) -> Iterator[Row]:
+    everything = [picture for one in runs.values() for picture in one.pictures]
+    mean: NDArray[np.float64] = np.mean(everything, axis=0, dtype=np.float64)
+    scale = np.square(mean) + DARK * mean.mean() ** 2
+    first, *_ = runs.values()
+    base = first.variances(scale).mean()
+    for label, one in runs.items():
+        found = one.variances(scale)
+        ratios = [a / b for a, b in zip(one.seconds, first.seconds, strict=True)]
+        slower = statistics.median(ratios)
+        yield Row(
+            scene=name,
+            variant=label,
+            variance=float(found.mean()),
+            uncertainty=float(found.std(ddof=1) / np.sqrt(len(found)) / found.mean()),
+            microseconds=statistics.median(one.seconds) / (SAMPLES * mean[..., 0].size) * 1e6,
+            fewer_samples=float(base / found.mean()),
+            slower=slower,
+            efficiency=float(base / found.mean()) / slower,
+        )
+
+
+def table(rows: Sequence[Row]) -> Iterator[str]:
+    """The rows as Markdown."""
+    yield "| scene | variant | variance a sample | us a sample | 1 / variance | time | efficiency |"
+    yield "|---|---|---|---|---|---|---|"
+    for row in rows:
+        variance = f"{row.variance:.3g} +- {100 * row.uncertainty:.0f} %"
+        yield (
+            f"| {row.scene} | {row.variant} | {variance} | {row.microseconds:.3f} "
+            f"| {row.fewer_samples:.2f} | {row.slower:.2f} | {row.efficiency:.2f} |"
+        )
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m bench.efficiency`; returns the exit code."""
+    parser = parser_of("efficiency", __doc__)
+    parser.add_argument("--scenes", nargs="+", metavar="NAME", default=SCENES)
+    add_rounds(parser, size=64, rounds=20)
+    parsed = parser.parse_args(arguments)
+    return exit_code_of(lambda: _print(parsed.scenes, parsed.size, parsed.rounds))
+
+
+def _print(scenes: Sequence[str], size: int, rounds: int) -> None:
+    context = open_context()
+    rows: list[Row] = []
+    for name in scenes:
+        print(f"{name} ...", file=sys.stderr)
+        rows += measure(context, name, size, rounds)
+    print(f"{machine(context.renderer)}, {size} x {size} pixels, {rounds} rounds\n")
+    print("\n".join(table(rows)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

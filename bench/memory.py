@@ -1,0 +1,84 @@
+"""How much memory a picture takes, and what accounts for it: whole processes, one after the other.
+
+`cornell` at 1 sample a pixel, saved as EXR. What a picture of 8 x 8 pixels takes is the interpreter
+and the driver; a film has all its textures twice; a picture is what a render can go on from.
+"""
+
+import sys
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, get_args
+
+from bench.cold_start import PROGRAMS, start_of
+from bench.program import exit_code_of, machine, parser_of
+from glrt.errors import RenderError
+from glrt.image.sources import load
+from glrt.settings import Sampler, settings_for
+
+SMALL = 8  # pixels a side
+TEXEL = 16  # bytes of RGBA32F
+PICTURE = 40  # bytes a pixel: radiance, standard error, variance, observations
+BEGUN = 16  # of an observation that has begun, as with one of Sobol's points: its mean and samples
+
+
+class Row(NamedTuple):
+    """One render; bytes, seconds."""
+
+    size: int  # pixels a side
+    sampler: Sampler
+    seconds: float  # of the process
+    peak: float
+    base: float  # the peak of a small picture
+    film: int
+    picture: int
+
+    @property
+    def rest(self) -> float:
+        """What neither film nor picture nor a small picture's peak account for."""
+        return self.peak - self.base - self.film - self.picture
+
+
+def measure(size: int, sampler: Sampler) -> Row:
+    """Render two pictures, each in its own process; RenderError if one fails."""
+    small, large = (_start(pixels, sampler) for pixels in (SMALL, size))
+    block = settings_for(load("cornell").render, sampler=sampler).block
+    textures = 2 * (2 if block == 1 else 3)  # twice: mean, variance, the block that has begun
+    film = textures * TEXEL * size**2
+    picture = (PICTURE + (BEGUN if block > 1 else 0)) * size**2
+    return Row(size, sampler, large[0], large[1], small[1], film, picture)
+
+
+def _start(size: int, sampler: Sampler) -> tuple[float, float]:
+    edges = ["--width", str(size), "--height", str(size)]
+    work = ["cornell", *edges, "--samples", "1", "--sampler", sampler]
+    start = start_of(PROGRAMS["glrt"], work)
+    if start is None:
+        raise RenderError(f"a render of {size} x {size} pixels failed; is there memory for it?")
+    return start
+
+
+def table(rows: Sequence[Row]) -> Iterator[str]:
+    """The rows as Markdown, memory in MiB."""
+    yield "| picture | sampler | process | peak memory | small picture | film | picture | rest |"
+    yield "|---|---|---|---|---|---|---|---|"
+    for row in rows:
+        sizes = (row.peak, row.base, row.film, row.picture, row.rest)
+        told = " | ".join(f"{size / 2**20:.0f}" for size in sizes)
+        yield f"| {row.size} x {row.size} | {row.sampler} | {row.seconds:.1f} s | {told} |"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m bench.memory`; returns the exit code."""
+    parser = parser_of("memory", __doc__)
+    parser.add_argument("--size", type=int, default=4096, metavar="N", help="default: 4096")
+    parsed = parser.parse_args(arguments)
+    return exit_code_of(lambda: _print(parsed.size))
+
+
+def _print(size: int) -> None:
+    rows = [measure(size, sampler) for sampler in get_args(Sampler)]
+    print(f"{machine()}, MiB\n")
+    print("\n".join(table(rows)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

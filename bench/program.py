@@ -1,0 +1,59 @@
+"""What the programs of `python -m glrt.lab` have in common."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Iterable
+
+from glrt.errors import GlrtError
+from glrt.version import VERSION
+
+
+def exit_code_of(work: Callable[[], None]) -> int:
+    """Do it; what is wrong is told in one paragraph on stderr, with the exit code of its kind."""
+    try:
+        work()
+    except GlrtError as error:
+        print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
+        return error.exit_code
+    return 0
+
+
+def machine(*renderers: str) -> str:
+    """What figures were measured with."""
+    return ", ".join([f"glrt {VERSION}", *renderers, f"{os.cpu_count()} processors"])
+
+
+def parser_of(name: str, about: str | None) -> argparse.ArgumentParser:
+    """Of `python -m bench.NAME`."""
+    return argparse.ArgumentParser(prog=f"python -m glrt.lab.{name}", description=about)
+
+
+def add_rounds(parser: argparse.ArgumentParser, size: int, rounds: int) -> None:
+    """`--size` and `--rounds`, with these defaults."""
+    told = f"pixels a side (default: {size})"
+    parser.add_argument("--size", type=_at_least(1), default=size, metavar="N", help=told)
+    told = f"runs of each, 2 or more (default: {rounds})"
+    parser.add_argument("--rounds", type=_at_least(2), default=rounds, metavar="N", help=told)
+
+
+def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:
+    """The names of some tables, as `tables`; all of them if none is named."""
+    names = list(tables)
+
+    def known(text: str) -> str:
+        if text not in names:
+            raise argparse.ArgumentTypeError(f"there is no table {text!r}")
+        return text
+
+    told = f"of {', '.join(names)} (default: all)"
+    parser.add_argument("tables", nargs="*", type=known, default=names, metavar="TABLE", help=told)
+
+
+def _at_least(least: int) -> Callable[[str], int]:
+    def number(text: str) -> int:
+        if (value := int(text)) < least:
+            raise argparse.ArgumentTypeError(f"{value} is less than {least}")
+        return value
+
+    return number

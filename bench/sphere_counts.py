@@ -1,0 +1,179 @@
+"""What a tree over the spheres gives: balls on a floor, more and more of them.
+
+The balls cover the same share of the floor whatever their number, so that paths are as long. Every
+round runs each variant once; a ratio is that of two runs of one round.
+"""
+
+import argparse
+import math
+import statistics
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+from unittest.mock import patch
+
+import numpy as np
+
+from bench.program import add_rounds, exit_code_of, machine, parser_of
+from glrt.cli.process import peak_bytes
+from glrt.errors import SceneError
+from glrt.gpu import struct_arrays
+from glrt.gpu.context import Context, open_context
+from glrt.gpu.struct_arrays import MOST_BAKED
+from glrt.methods import features
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.scene.toml import parse_scene
+
+COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
+FIRST = 485  # the crowd that others are compared with
+CONSTANTS = 128  # balls: 3 s of compiling, which grows with their square
+
+
+def crowd(count: int, seed: int = 1) -> Scene:
+    """So many balls on a floor of 2 x 2, side by side, matte and of metal, under a bright sky."""
+    rng = np.random.default_rng(seed)
+    columns = math.ceil(math.sqrt(count))
+    cell = 2 / columns
+    place = np.array([divmod(index, columns) for index in range(count)])
+    radius = cell * rng.uniform(0.2, 0.35, count)
+    center = np.column_stack([cell * (place + 0.5) - 1, radius])[:, [0, 2, 1]]
+    center[:, [0, 2]] += cell * rng.uniform(-0.15, 0.15, (count, 2))
+    balls = [
+        {"shape": "sphere", "center": c, "radius": r, "material": ("clay", "brass")[i % 2]}
+        for i, (c, r) in enumerate(zip(center.tolist(), radius.tolist(), strict=True))
+    ]
+    floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "clay"}
+    return parse_scene(
+        {
+            "title": f"{count} balls on a floor",
+            "camera": {"position": [0, 1.5, 2.5], "look_at": [0, 0, 0]},
+            "background": {"bottom": [0.9, 0.9, 0.9], "top": [0.5, 0.7, 1.0]},
+            "materials": {
+                "clay": {"type": "lambertian", "color": [0.7, 0.6, 0.5]},
+                "brass": {"type": "metal", "color": [0.9, 0.8, 0.5], "roughness": 0.3},
+            },
+            "objects": [*balls, floor],
+        },
+        "crowd",
+    )
+
+
+class Row(NamedTuple):
+    """The figures of one crowd; seconds are for one sample of every pixel."""
+
+    spheres: int
+    setup_seconds: float  # pack the scene, build the tree, compile
+    tree_seconds: float
+    loop_seconds: float | None  # without a tree; None where the loop limit forbids it
+    gain: tuple[float, float, float] | None  # of the tree: median and quartiles
+    growth: tuple[float, float, float] | None  # of the tree's time over that of FIRST spheres
+
+
+def measure(
+    context: Context, counts: Sequence[int], size: int, rounds: int, constants: int = CONSTANTS
+) -> list[Row]:
+    """Interleave all crowds, with a tree and without: there in constants up to so many balls."""
+    tree, loop, setup = {}, {}, {}
+    for count in counts:
+        scene = crowd(count)
+        start = time.perf_counter()
+        tree[count] = _renderer(context, scene, size, tree_from=1)
+        setup[count] = time.perf_counter() - start
+        try:
+            baked = constants + 1  # and the floor
+            loop[count] = _renderer(context, scene, size, tree_from=count + 1, most_baked=baked)
+        except SceneError:
+            continue
+    runs: dict[tuple[str, int], list[float]] = {}
+    for _ in range(rounds):
+        for name, renderers in (("tree", tree), ("loop", loop)):
+            for count, renderer in renderers.items():
+                runs.setdefault((name, count), []).append(_seconds(renderer))
+    for renderer in (*tree.values(), *loop.values()):
+        renderer.release()
+    return [_row(count, setup[count], runs) for count in counts]
+
+
+def _renderer(
+    context: Context, scene: Scene, size: int, tree_from: int, most_baked: int = MOST_BAKED
+) -> Renderer:
+    """A renderer that uses a tree from so many spheres on, and constants up to so many shapes."""
+    with (
+        patch.object(features, "TREE_FROM", tree_from),
+        patch.object(struct_arrays, "MOST_BAKED", most_baked),
+    ):
+        return Renderer(scene, context=context, tier="baked", width=size, height=size)
+
+
+def _seconds(renderer: Renderer) -> float:
+    samples = min(4, renderer.most_samples)
+    renderer.restart()
+    start = time.perf_counter()
+    renderer.step(samples)
+    return (time.perf_counter() - start) / samples
+
+
+def _row(count: int, setup: float, runs: dict[tuple[str, int], list[float]]) -> Row:
+    tree, loop, first = runs["tree", count], runs.get(("loop", count)), runs.get(("tree", FIRST))
+    return Row(
+        count,
+        setup,
+        statistics.median(tree),
+        statistics.median(loop) if loop else None,
+        _ratio(loop, tree) if loop else None,
+        _ratio(tree, first) if first else None,
+    )
+
+
+def _ratio(a: Sequence[float], b: Sequence[float]) -> tuple[float, float, float]:
+    low, middle, high = statistics.quantiles([x / y for x, y in zip(a, b, strict=True)], n=4)
+    return middle, low, high
+
+
+def table(rows: Sequence[Row], pixels: int) -> Iterator[str]:
+    """The rows as Markdown."""
+    yield (
+        "| spheres | set-up | one by one, million samples/s | tree | tree over one by one "
+        f"| time over that of {FIRST} |"
+    )
+    yield "|---|---|---|---|---|---|"
+    for row in rows:
+        loop = f"{pixels / row.loop_seconds / 1e6:.3f}" if row.loop_seconds else "refused"
+        rate = f"{pixels / row.tree_seconds / 1e6:.2f}"
+        ratios = f"{_told(row.gain)} | {_told(row.growth)}"
+        yield f"| {row.spheres:,} | {row.setup_seconds:.2f} s | {loop} | {rate} | {ratios} |"
+
+
+def _told(ratio: tuple[float, float, float] | None) -> str:
+    return "{:.2f} ({:.2f}-{:.2f})".format(*ratio) if ratio else "-"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m bench.sphere_counts`; returns the exit code."""
+    parsed = _parser().parse_args(arguments)
+    return exit_code_of(lambda: _print(parsed))
+
+
+def _print(parsed: argparse.Namespace) -> None:
+    context = open_context()
+    rows = measure(context, parsed.spheres, parsed.size, parsed.rounds, parsed.constants)
+    work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
+    print(f"{machine(context.renderer)}, {work}\n")
+    print("\n".join(table(rows, parsed.size**2)))
+    print(f"\npeak memory {(peak_bytes() or 0) / 2**20:.0f} MiB")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = parser_of("crowds", __doc__)
+    add = parser.add_argument
+    add("--spheres", type=int, nargs="+", metavar="N", default=list(COUNTS))
+    add_rounds(parser, size=96, rounds=9)
+    told = f"most balls to bake for the loop over all (default: {CONSTANTS})"
+    add("--constants", type=int, default=CONSTANTS, metavar="N", help=told)
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,207 @@
+"""The window, driven by a script: `python -m bench.window_tour drag`, `rest`, or `film FILE.webp`.
+
+`drag` measures frames while the camera turns, `rest` while nothing is edited; `film` makes the
+README's moving picture. Without a display they use an X server without a screen, Xvfb.
+"""
+
+import argparse
+import os
+import shutil
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.screens import screen
+from glrt.image.sources import load
+from glrt.scene.scene import Scene, with_lights
+from glrt.settings import settings_for
+from glrt.view.state.preferences import Preferences
+
+DRAG = 60  # frames
+WAITED = 256  # samples of a picture at rest
+WARM = 30  # frames before them, in which kernels are compiled and times learnt
+STEP = 0.004  # of the window's width that a frame of the drag turns by
+SHARES = (50, 95, 99)  # percentiles that are told
+FILM_SIZE = (620, 400)
+MOST_BYTES = 300_000
+
+Script = Iterator[None]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Measure a drag or a rest, or make the film."""
+    parser = argparse.ArgumentParser(prog="python -m bench.window_tour", description=__doc__)
+    parser.add_argument("task", choices=["drag", "rest", "film"])
+    parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
+    parser.add_argument("--scene", default="cornell", help="what is shown (default: cornell)")
+    parsed = parser.parse_args(arguments)
+    has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
+    if not has_display and not shutil.which("Xvfb"):
+        print("glrt: without a display the window's figures need Xvfb", file=sys.stderr)
+        return 3
+    with nullcontext() if has_display else screen("1280x840") as name:
+        os.environ.update({"DISPLAY": name} if name else {})
+        if parsed.task == "drag":
+            print("\n".join(told(*measure_drag(parsed.scene))))
+        elif parsed.task == "rest":
+            print(
+                "\n".join(
+                    told_rest(
+                        parsed.scene, [measure_rest(parsed.scene, rests) for rests in (False, True)]
+                    )
+                )
+            )
+        else:
+            make_film(parsed.file)
+    return 0
+
+
+class Frame(NamedTuple):
+    """A frame of a camera drag."""
+
+    seconds: float
+    size: tuple[int, int]  # pixels of the picture meanwhile
+    samples: float  # of each of them
+
+
+def measure_drag(scene: str, width: int = 640, height: int = 480) -> tuple[str, list[Frame]]:
+    """The frames of a camera drag, and what drew them."""
+    frames: list[Frame] = []
+    drawn_by: list[str] = []
+
+    def script(window: Any) -> Script:
+        for _ in range(WARM):
+            yield
+        renderer = window.app.session.renderer
+        for _ in range(DRAG):
+            start = time.perf_counter()
+            window.app.turn(STEP, 0.0, about_camera=False)
+            yield
+            frames.append(Frame(time.perf_counter() - start, renderer.size, renderer.work))
+        drawn_by.append(renderer.context.renderer)
+
+    play(load(scene), script, width=width, height=height)
+    return f"{scene}, {width} x {height}, {drawn_by[0]}", frames
+
+
+def told(place: str, frames: list[Frame]) -> Iterator[str]:
+    """A table in Markdown."""
+    seconds = [frame.seconds for frame in frames]
+    shares = [f"{1e3 * np.percentile(seconds, share):.0f} ms" for share in SHARES]
+    width, height = sorted(frame.size for frame in frames)[len(frames) // 2]
+    samples = sum(frame.samples for frame in frames) / len(frames)
+    yield f"| camera drag of {len(frames)} frames | p50 | p95 | p99 | meanwhile |"
+    yield "|---|---|---|---|---|"
+    cells = [place, *shares, f"{width} x {height} pixels, {samples:.1f} samples a frame"]
+    yield f"| {' | '.join(cells)} |"
+
+
+class Wait(NamedTuple):
+    """A picture that was looked at until it had its samples."""
+
+    rests: bool  # whether the window may take a faster kernel
+    seconds: float  # to all samples
+    rate: float  # million samples of a pixel in a second, over the last quarter of them
+    frames: list[float]  # seconds each
+
+
+def measure_rest(scene: str, rests: bool, width: int = 640, height: int = 480) -> Wait:
+    """Open a scene and edit nothing."""
+    times: list[tuple[float, float]] = []  # and samples of each pixel
+
+    def script(window: Any) -> Script:
+        if not rests:
+            window.app.session.rest = None
+        while not window.app.session.samples:
+            yield
+        while not window.app.session.is_done:
+            times.append((time.perf_counter(), window.app.session.renderer.work))
+            yield
+
+    play(load(scene), script, width=width, height=height, samples=WAITED)
+    seconds, samples = np.array(times).T
+    last = np.searchsorted(samples, 0.75 * samples[-1])
+    rate = (samples[-1] - samples[last]) / (seconds[-1] - seconds[last]) * width * height / 1e6
+    return Wait(rests, seconds[-1] - seconds[0], rate, list(np.diff(seconds)))
+
+
+def told_rest(scene: str, waits: list[Wait]) -> Iterator[str]:
+    """A table in Markdown."""
+    rates = "million samples/s in the end"
+    yield f"| {scene} at rest | to {WAITED} samples | {rates} | frames p50 | p99 | longest |"
+    yield "|---|---|---|---|---|---|"
+    for wait in waits:
+        shares = [f"{1e3 * np.percentile(wait.frames, share):.0f} ms" for share in (50, 99, 100)]
+        name = "with the faster kernel" if wait.rests else "without"
+        cells = [name, f"{wait.seconds:.1f} s", f"{wait.rate:.2f}", *shares]
+        yield f"| {' | '.join(cells)} |"
+
+
+def make_film(file: Path) -> None:
+    """Lamps are tuned and the camera is turned; RuntimeError if the file gets too large."""
+    from PIL import Image
+
+    scene, pictures = load("lamps"), []
+
+    def script(window: Any) -> Script:
+        edits: list[Callable[[], object]] = [lambda: None]
+        for blue, amber in ((0.4, 1.0), (0.0, 1.5), (1.0, 2.5), (3.0, 0.5), (1.5, 1.0), (1.0, 1.0)):
+            lit = with_lights(scene, {"blue": blue, "amber": amber})
+            edits.append(partial(window.app.session.edit, lit))
+        edits += 4 * [partial(window.app.turn, 0.03, 0.0, about_camera=False)]
+        for edit in edits:
+            edit()
+            yield from frames_until_done(window)
+            screen = window.app.session.renderer.context.gl.screen
+            size = screen.size
+            pixels = np.frombuffer(screen.read(components=3, alignment=1), np.uint8)
+            shot = Image.fromarray(pixels.reshape(size[1], size[0], 3)[::-1])
+            pictures.append(shot.resize(FILM_SIZE))
+
+    play(scene, script, width=200, height=200, samples=64)
+    first, *rest = pictures
+    options: dict[str, Any] = {"duration": 700, "loop": 0, "quality": 60, "method": 6}
+    first.save(file, save_all=True, append_images=rest, **options)
+    if file.stat().st_size > MOST_BYTES:
+        raise RuntimeError(f"{file} has {file.stat().st_size} bytes, more than {MOST_BYTES}")
+
+
+def frames_until_done(window: Any) -> Script:
+    """Frames that pass until the picture has all its samples, and is on the screen."""
+    for _ in range(5):
+        yield
+    while not window.app.session.is_done:
+        yield
+    for _ in range(3):
+        yield
+
+
+def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None:
+    """Open a window, go on with the script after each frame, close the window at its end."""
+    from glrt.view.window import Window
+
+    window = Window(scene.title or "", scene, settings_for(scene.render, **settings))
+    window.params.ini_disable = True
+
+    def acted() -> Script:
+        window.app.preferences = Preferences()  # whatever the user prefers
+        yield from script(window)
+
+    running = acted()
+
+    def go_on() -> None:
+        if next(running, "end") == "end":
+            window.params.app_shall_exit = True
+
+    window.params.callbacks.after_swap = go_on
+    window.run()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

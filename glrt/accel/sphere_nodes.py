@@ -1,0 +1,57 @@
+"""The tree over the spheres as the kernel reads it: `Node` of scene.glsl, 32 bytes a sphere.
+
+Boxes lie on a grid around all of them: their corners are whole numbers of cells, of 16 bits,
+rounded outwards. The largest sphere stands at the root, beside the grid: a ground does not
+make cells large.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from glrt.accel import bvh
+
+Array = np.ndarray[Any, Any]
+
+SLACK = 2.0**-18  # of boxes, as of rays in bvh.glsl: the float32 rounding of a box is far below
+MOST_CELLS = 2**16 - 1  # along the grid
+
+
+def pack_nodes(spheres: Array, dtype: np.dtype[Any], known: Array | None = None) -> Array:
+    """Rows of Node for rows of Sphere: one for the grid, then the tree, its boxes wide enough for
+    float32. None without spheres.
+
+    `known` are nodes of the same spheres, seen from elsewhere: their order serves again.
+    """
+    if not len(spheres):
+        return np.zeros(0, dtype)
+    center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
+    slack = SLACK * (np.abs(center).max(axis=1, keepdims=True) + radius)
+    boxes = center - radius - slack, center + radius + slack
+    tree = bvh.build(*boxes) if known is None else bvh.refit(*_order(known), *boxes)
+    corner, cell = _grid(tree.lower[0], tree.upper[0])
+    rows = np.zeros(1 + len(spheres), dtype)
+    rows["sphere"][0] = np.array([*corner, cell], np.float32).view(np.uint32)
+    rows["sphere"][1:, :3] = spheres["center"][tree.item].view(np.uint32)
+    rows["sphere"][1:, 3] = spheres["radius"][tree.item].view(np.uint32)
+    lower = np.floor((tree.lower - corner) / cell).clip(0, MOST_CELLS).astype(np.uint32)
+    upper = np.ceil((tree.upper - corner) / cell).clip(0, MOST_CELLS).astype(np.uint32)
+    below = tree.skip - np.arange(len(spheres)) - 1
+    rows["box"][1:, :3] = lower | upper << 16
+    rows["box"][1:, 3] = (tree.item | below << 16).astype(np.uint32)
+    return rows
+
+
+def _order(nodes: Array) -> tuple[Array, Array]:
+    """The items of a tree, and where each node goes on."""
+    links = nodes["box"][1:, 3].astype(int)
+    return links & 0xFFFF, (links >> 16) + np.arange(len(links)) + 1
+
+
+def _grid(lower: Array, upper: Array) -> tuple[Array, float]:
+    """Corner, in float32, and cell, a power of two, of a grid that holds a box."""
+    nearest = lower.astype(np.float32)
+    corner = np.where(nearest > lower, np.nextafter(nearest, np.float32(-np.inf)), nearest)
+    extent = float((upper - corner).max())
+    return corner.astype(float), 2.0 ** max(math.frexp(extent / MOST_CELLS)[1], -126)

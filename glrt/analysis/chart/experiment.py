@@ -1,0 +1,121 @@
+"""One scene measured: reference, rays, rounds, and the curves that they make."""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from glrt.analysis.chart.curves import Curve, curves_of
+from glrt.analysis.chart.measure import Bench, Round
+from glrt.analysis.chart.rays import rays_per_sample
+from glrt.analysis.chart.rounds import key_of, load_rounds, save_rounds
+from glrt.analysis.reference import Reference, reference_for
+from glrt.analysis.variants import Variant, variants_of
+from glrt.gpu.context import Context
+from glrt.gpu.driver_checks import usable_rounds
+from glrt.rendering.schedule import iterations_per_sample
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+from glrt.version import VERSION
+
+SAMPLER = "independent"  # of all variants but those that are named after another
+REFERENCE_ERROR = 0.005
+REFERENCE_SHARE = 0.5  # of the time of the rounds, at most, that the reference may take beside it
+
+Tell = Callable[[str, float], None]  # what is done now, and the share of everything that is done
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How a scene is measured: height of its frame, rounds, and seconds for all of them."""
+
+    height: int = 64
+    rounds: int = 5
+    seconds: float = 60.0
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What was measured on one scene."""
+
+    name: str
+    title: str
+    rounds: int
+    reference: Reference
+    variants: tuple[Variant, ...]
+    curves: tuple[Curve, ...]  # of the variants, in their order
+    rays: tuple[float, ...]  # a sample, of each variant
+    place: str  # version, driver, processors
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the frame in pixels."""
+        height, width, _ = self.reference.radiance.shape
+        return width, height
+
+
+def measure_scene(
+    name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path, tell: Tell
+) -> Experiment:
+    """Measure a scene, going on from the rounds that the file holds already."""
+    settings = settings_for(frame_of(scene, plan.height), sampler=SAMPLER)
+    variants = [
+        variant
+        for variant in variants_of(scene, settings)
+        if _is_possible(scene, variant.settings, context)
+    ]
+    place = f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors"
+    allowed = REFERENCE_SHARE * plan.seconds
+    whole = allowed + plan.seconds
+
+    def tell_reference(share: float) -> None:
+        tell(f"{name}: reference", share * allowed / whole)
+
+    reference = reference_for(scene, settings, context, REFERENCE_ERROR, allowed, tell_reference)
+    rays = tuple(rays_per_sample(scene, variant.settings, context) for variant in variants)
+    key = key_of(scene, variants, reference, place)
+    rounds = load_rounds(rounds_file, key)
+
+    def tell_round(share: float) -> None:
+        text = f"{name}: round {len(rounds) + 1} of {plan.rounds}"
+        tell(text, (allowed + share * plan.seconds) / whole)
+
+    bench = Bench(scene, variants, reference, context)
+    for done in _rounds_to_come(bench, plan, rounds, len(variants), tell_round):
+        save_rounds(rounds_file, key, done)
+    bench.release()
+    curves = tuple(curves_of(_in_order(rounds, variants), reference.error))
+    title = scene.title or name
+    return Experiment(name, title, len(rounds), reference, tuple(variants), curves, rays, place)
+
+
+def frame_of(scene: Scene, height: int) -> Settings:
+    """The scene's settings in a frame of that height and the scene's aspect."""
+    wish = scene.render
+    width = max(1, round(height * wish.width / wish.height))
+    return settings_for(wish, width=width, height=height)
+
+
+def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
+    """Whether one sample fits into the driver's loop limit."""
+    rounds = iterations_per_sample(scene, settings)
+    usable = usable_rounds(context, rounds)
+    return usable is None or rounds <= usable
+
+
+def _rounds_to_come(
+    bench: Bench, plan: Plan, rounds: list[Round], variants: int, tell: Callable[[float], None]
+) -> Iterator[list[Round]]:
+    """Adds what the plan wants to `rounds`, and yields them after each."""
+    missing = plan.rounds - len(rounds)
+    for number in range(missing):
+        runs: Round = []
+        for runs in bench.round(len(rounds), plan.seconds / plan.rounds):
+            tell((number + len(runs) / variants) / missing)
+        rounds.append(runs)
+        yield rounds
+
+
+def _in_order(rounds: Sequence[Round], variants: Sequence[Variant]) -> list[Round]:
+    names = [variant.name for variant in variants]
+    return [sorted(runs, key=lambda run: names.index(run.variant)) for runs in rounds]

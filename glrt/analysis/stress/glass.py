@@ -1,0 +1,212 @@
+"""Glass: hardly refracting, around a lamp, over a small lamp's light."""
+
+import math
+from dataclasses import replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from glrt.analysis.stress.noisy_scenes import CASES, room
+from glrt.analysis.stress.noisy_scenes import Case as NoisyCase
+from glrt.analysis.stress.scenes import glass, lamp, matte, scene_of, sphere
+from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
+from glrt.error.estimate import relative_error
+from glrt.image.image import Image
+from glrt.scene.scene import Scene
+
+TEXTBOOK = """
+float textbook(float cos_i, float eta) {
+    float sin2_t = eta * eta * (1.0 - cos_i * cos_i);
+    if (sin2_t >= 1.0) return 1.0;
+    float cos_t = sqrt(1.0 - sin2_t);
+    float rs = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    float rp = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    return 0.5 * (rs * rs + rp * rp);
+}"""
+
+
+def ior(lab: Lab) -> Sweep:
+    """Reflectance of glass that is hardly there, at angles down to 0.006 degrees."""
+    x = np.logspace(-6, 0, 25)
+    rows = lab.count(1 << 14)
+    random = np.random.default_rng(8)
+    cosine = (10 ** random.uniform(-4, 0, (len(x), rows))).astype(np.float32).ravel()
+    eta = np.repeat(1 / (1 + x), rows).astype(np.float32)
+    truth = fresnel(cosine.astype(np.float64), eta.astype(np.float64))
+    given = {"cosine": cosine, "eta": eta}
+    found = [
+        lab.path(f"{formula}(cosine, eta)", given, functions=TEXTBOOK)
+        for formula in ("fresnel", "textbook")
+    ]
+    ours, naive = (np.abs(f - truth).reshape(len(x), -1).max(axis=1).tolist() for f in found)
+    return Sweep(
+        parameter="index of refraction, less 1",
+        measure="error of the reflectance (largest)",
+        x=x.tolist(),
+        chosen=("glrt: (1 - η)(1 + η) + η² cos²", ours),
+        others={"textbook: 1 - η² (1 - cos²)": naive},
+        promise="at most 1e-5",
+        bound=[1e-5] * len(x),
+    )
+
+
+def fresnel(cos_i: Array, eta: Array) -> Array:
+    """Unpolarised reflectance in float64; `eta` is the index here over that there."""
+    cos2 = (1 - eta) * (1 + eta) + eta * eta * cos_i * cos_i
+    cos_t = np.sqrt(np.maximum(cos2, 0))
+    rs = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
+    rp = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
+    reflectance: Array = np.where(cos2 > 0, 0.5 * (rs * rs + rp * rp), 1.0)
+    return reflectance
+
+
+INDEX, BALL = 1.5, 0.5  # of the glass around the lamp: index, and radius in that of the room
+WALL = 0.5  # albedo of the room
+SIDE = 32  # pixels of a picture
+
+
+def bulb(lab: Lab) -> Sweep:
+    """A lamp in a ball of glass in the middle of a room: no method can aim through the glass."""
+    x = [0.01, 0.02, 0.04, 0.08, 0.16, 0.32]
+    samples = lab.count(1024, 128)
+    kinds = [("mis", True), ("naive", True), ("mis", False)]
+    noise: dict[str, list[float]] = {}
+    wrong = []
+    for (method, in_glass), radius in product(kinds, x):
+        size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 2, "method": method}
+        mean, stderr = mean_of(lab.render(_bulb(radius, in_glass), samples, **size))
+        truth, paths = bulb_light(radius, in_glass), samples * SIDE**2
+        top = WALL / INDEX**2 if in_glass else WALL
+        by_chance = math.sqrt(truth * (top - truth) / paths) if in_glass else stderr
+        if not abs(mean - truth) <= SIGMAS * by_chance:
+            wrong.append(radius)
+        found = noise.setdefault(f"{method}, {'lamp in glass' if in_glass else 'bare lamp'}", [])
+        found.append(stderr * math.sqrt(paths) / truth)
+    first, *others = noise.items()
+    return Sweep(
+        parameter="radius of the lamp, in that of the room",
+        measure="relative noise of one sample",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="the mean within 5.3 standard errors of its closed form; no bound for the noise",
+        wrong=sorted(set(wrong)),
+    )
+
+
+def _bulb(radius: float, in_glass: bool) -> Scene:
+    """The camera looks at the wall, away from the lamp."""
+    shapes = [sphere([0, 0, 0], 1, "wall"), sphere([0, 0, 0], radius, "lamp")]
+    if in_glass:
+        shapes.append(sphere([0, 0, 0], BALL, "glass"))
+    materials = {"wall": matte(WALL), "lamp": lamp(1), "glass": glass(INDEX)}
+    if not in_glass:
+        del materials["glass"]
+    return scene_of(shapes, materials, {"position": [0, 0, 0.8], "look_at": [0, 0, 1], "fov": 60})
+
+
+def bulb_light(radius: float, in_glass: bool) -> float:
+    """Radiance of the wall after one scattering there.
+
+    In glass, the ray that would pass the centre at b meets the lamp if b < n radius, and sees it
+    1 / n^2 as bright, less what the glass reflects: 2 a / n^2 times the integral of b T(b).
+    Without glass, and with a second bounce: a r^2 (1 + a (1 - r^2)).
+    """
+    if not in_glass:
+        return WALL * radius**2 * (1 + WALL * (1 - radius**2))
+    nodes, weights = np.polynomial.legendre.leggauss(64)
+    beside = INDEX * radius * (nodes + 1) / 2
+    cosine = np.sqrt(1 - (beside / BALL) ** 2)
+    passed = 1 - fresnel(cosine, np.full_like(cosine, 1 / INDEX))
+    integral = INDEX * radius / 2 * float(weights @ (beside * passed))
+    return 2 * WALL / INDEX**2 * integral
+
+
+def caustic(lab: Lab) -> Sweep:
+    """A glass ball and a small lamp over a floor: error against a long render, by samples."""
+    x = [4**power for power in range(1, 7) if 4**power <= lab.count(4096, 256)]
+    scene = CASES["caustic"].scene
+    size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": CASES["caustic"].bounces}
+    reference = lab.render(scene, 4 * x[-1], method="mis", seed=1, **size)
+    errors: dict[str, list[float]] = {"mis": [], "nee": [], "naive": []}
+    estimates, wrong = [], []
+    for method, found in errors.items():
+        with lab.rendering(scene, method=method, **size) as renderer:
+            for samples in x:
+                image = renderer.render(samples).image()
+                difference = image.radiance - reference.radiance
+                found.append(relative_error(reference.radiance, difference) or 0.0)
+                if method == "mis":
+                    estimates.append(image.error or 0.0)
+        if not _agree(image, reference):
+            wrong.append(x[-1])
+    return Sweep(
+        parameter="samples a pixel",
+        measure="relative rms error",
+        x=x,
+        chosen=("mis", errors.pop("mis")),
+        others={**errors, "mis, by its own estimate": estimates},
+        promise="the means agree within 5.3 standard errors; no bound for the noise",
+        wrong=wrong,
+    )
+
+
+def _agree(a: Image, b: Image) -> bool:
+    (mean_a, error_a), (mean_b, error_b) = mean_of(a), mean_of(b)
+    return abs(mean_a - mean_b) <= SIGMAS * math.hypot(error_a, error_b)
+
+
+def fireflies(lab: Lab) -> Sweep:
+    """How much of the light of a caustic its brightest samples carry."""
+    x = np.logspace(-5, 0, 16)
+    kinds = {
+        "mis, glass ball": CASES["caustic"],
+        "naive, glass ball": replace(CASES["caustic"], method="naive"),
+        "mis, matte ball": replace(CASES["caustic"], scene=_without_glass()),
+    }
+    shares: dict[str, list[float]] = {}
+    means = []
+    for name, case in kinds.items():
+        light = _samples(lab, case)
+        means.append((light.mean(), light.std() / math.sqrt(len(light))))
+        energy = np.cumsum(np.sort(light)[::-1]) / light.sum()
+        places = np.maximum(np.rint(x * len(light)).astype(int), 1) - 1
+        shares[name] = energy[places].tolist()
+    (mis, mis_error), (naive, naive_error), _ = means
+    is_wrong = not abs(mis - naive) <= SIGMAS * math.hypot(mis_error, naive_error)  # NaN is
+    first, *others = shares.items()
+    return Sweep(
+        parameter="brightest samples, as a share of all",
+        measure="share of the light that they carry",
+        x=x.tolist(),
+        chosen=first,
+        others=dict(others),
+        promise="none is clamped: mis and naive agree within 5.3 standard errors",
+        wrong=[1.0] if is_wrong else [],
+    )
+
+
+def _samples(lab: Lab, case: NoisyCase) -> Array:
+    """The mean radiance of each of many samples of the picture, one a pixel and seed.
+
+    NaN where one was dropped.
+    """
+    frames = []
+    size: dict[str, Any] = {
+        "width": 48,
+        "height": 48,
+        "bounces": case.bounces,
+        "method": case.method,
+    }
+    with lab.rendering(case.scene, **size) as renderer:
+        for seed in range(lab.count(256)):
+            renderer.update(seed=seed)
+            light = renderer.render(1).image().radiance.mean(axis=-1, dtype=np.float64)
+            frames.append(np.full_like(light, np.nan) if renderer.nonfinite() else light)
+    return np.concatenate(frames).ravel()
+
+
+def _without_glass() -> Scene:
+    """The scene of the caustic with a matte ball in place of that of glass."""
+    return room("red", {"center": [0.9, 2.4, 0.6], "radius": 0.1}, 130.0)

@@ -1,0 +1,79 @@
+"""Findings as a table, as figures, as charts."""
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from glrt import files
+from glrt.analysis.plot import save_chart, save_sheet
+from glrt.analysis.stress.sweep import Finding
+from glrt.version import VERSION
+
+TABLE, FIGURES, OVERVIEW = "stress.md", "stress.csv", "overview.png"
+
+
+def table(findings: Sequence[Finding], renderer: str) -> str:
+    """Markdown: a row for each case."""
+    rows = [
+        ["case", "what", "guarantee", "verdict", "worst of glrt", "worst of the naive", "seconds"],
+        ["---"] * 7,
+        *(_row(finding) for finding in findings),
+    ]
+    lines = [f"| {' | '.join(row)} |" for row in rows]
+    return "\n".join([f"glrt {VERSION} on {renderer}.", "", *lines]) + "\n"
+
+
+def _row(finding: Finding) -> list[str]:
+    sweep, case = finding.sweep, finding.case
+    name, values = next(iter(sweep.others.items()))
+    naive = f"{max(values):.2g} ({name})"
+    inside = [y for y, is_in in zip(sweep.chosen[1], sweep.covered(), strict=True) if is_in]
+    ours = f"{max(inside or sweep.chosen[1]):.2g}"
+    seconds = f"{finding.seconds:.1f}"
+    return [case.name, case.title, sweep.promise, finding.verdict, ours, naive, seconds]
+
+
+def figures(findings: Sequence[Finding]) -> str:
+    """CSV: a row for each value of each curve."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["case", "parameter", "x", "curve", "y", "bound", "guaranteed"])
+    for finding in findings:
+        sweep = finding.sweep
+        bounds: Sequence[Any] = sweep.bound or [""] * len(sweep.x)
+        for name, values in (sweep.chosen, *sweep.others.items()):
+            for x, y, bound, inside in zip(sweep.x, values, bounds, sweep.covered(), strict=True):
+                judged: list[Any] = [bound, int(inside)] if name == sweep.chosen[0] else ["", ""]
+                writer.writerow([finding.case.name, sweep.parameter, x, name, y, *judged])
+    return text.getvalue()
+
+
+def save(findings: Sequence[Finding], folder: Path, renderer: str) -> None:
+    """Write table, figures, a chart of each case and the overview into a folder."""
+    files.write_text(folder / TABLE, table(findings, renderer))
+    files.write_text(folder / FIGURES, figures(findings))
+    for finding in findings:
+        save_chart(finding.chart(), folder / f"{finding.case.name}.svg")
+    save_sheet([finding.small_chart() for finding in findings], folder / OVERVIEW, _title(findings))
+
+
+def _title(findings: Sequence[Finding]) -> str:
+    broken = [finding.case.name for finding in findings if not finding.holds]
+    found = f"broken: {', '.join(broken)}" if broken else "no guarantee is broken"
+    return f"glrt stress: {found}"
+
+
+def summary(findings: Sequence[Finding]) -> dict[str, Any]:
+    """For scripts: the verdict of each case and what it rests on."""
+    return {
+        finding.case.name: {
+            "holds": finding.holds,
+            "verdict": finding.verdict,
+            "guarantee": finding.sweep.promise,
+            "broken": finding.sweep.broken(),
+            "seconds": round(finding.seconds, 3),
+        }
+        for finding in findings
+    }

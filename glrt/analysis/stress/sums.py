@@ -1,0 +1,183 @@
+"""Sums: what a running mean loses, what pixels share, what a limit of bounces leaves out."""
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from glrt.analysis.stress.scenes import lamp, plane, scene_of
+from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep
+
+PORTION = 1 << 15  # samples a dispatch, below the loop limit of software drivers
+DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and how many are bright
+SAMPLE = "pcg_hash(seed ^ uint(k) * 0x9E3779B9u) < bright"
+GATHER = f"""
+    precise float ours = state.x, plain = state.y, sum = state.z, coarse = state.w;
+    for (int k = first; k < first + count; ++k) {{
+        precise float x = {SAMPLE} ? {BRIGHT} : {DARK};
+        precise float w = 1.0 / float(k + 1);
+        ours = next_mean(vec3(ours), vec3(x), float(k + 1)).x;
+        plain = plain + (x - plain) * w;
+        sum = sum + x;
+        coarse = unpackHalf2x16(packHalf2x16(vec2(coarse + (x - coarse) * w, 0.0))).x;
+    }}"""
+MIX = f"""
+    precise float mixed = state;
+    uint hits = total;
+    for (int k = first; k < first + count; ++k) {{
+        bool hit = {SAMPLE};
+        precise float x = hit ? {BRIGHT} : {DARK};
+        precise float w = 1.0 / float(k + 1);
+        mixed = mixed * (1.0 - w) + x * w;
+        hits += uint(hit);
+    }}"""
+
+
+def frames(lab: Lab) -> Sweep:
+    """The mean of an edge pixel's samples, over as many frames as a film may take.
+
+    They have two values, so their sum is known.
+    """
+    seeds = np.arange(lab.count(64), dtype=np.uint32) * np.uint32(0x85EBCA6B)
+    marks = [1 << power for power in range(6, 21, 2)]
+    means, mixed = np.zeros((len(seeds), 4)), np.zeros((len(seeds), 2), np.uint32)
+    rows = []
+    for first, last in pairwise([0, *marks]):
+        for start in range(first, last, PORTION):
+            portion = {"seed": seeds, "first": [start], "count": [min(PORTION, last - start)]}
+            means, mixed = _gather(lab, portion, means, mixed)
+        rows.append(_errors(means, mixed, last))
+    ours, step, total, coarse, mix = np.array(rows).T.tolist()
+    sd = (BRIGHT - DARK) * math.sqrt(SHARE * (1 - SHARE)) / (DARK + SHARE * (BRIGHT - DARK))
+    noise = [sd / math.sqrt(count) for count in marks]
+    return Sweep(
+        parameter="frames accumulated, one sample each",
+        measure="relative rms error of the mean",
+        x=marks,
+        chosen=("glrt: m + (x - m) / n, dithered", ours),
+        others={
+            "m (1 - 1/n) + x / n": mix,
+            "m + (x - m) / n": step,
+            "plain sum": total,
+            "16-bit film": coarse,
+            "noise of the samples": noise,
+        },
+        promise="at most a tenth of the noise, up to 2^20 frames",
+        bound=[0.1 * error for error in noise],
+    )
+
+
+def _gather(lab: Lab, portion: dict[str, Any], means: Array, mixed: Array) -> tuple[Array, Array]:
+    """Means with a portion of samples more; `mixed`: the bits of a float, and how many hit."""
+    given = {**portion, "bright": np.array([SHARE * 2**32], np.uint32)}
+    result = "vec4(ours, plain, sum, coarse)"
+    means = lab.path(result, {**given, "state": means}, "vec4", setup=GATHER)
+    given |= {"state": mixed[:, 0].copy().view(np.float32), "total": mixed[:, 1].copy()}
+    return means, lab.path("uvec2(floatBitsToUint(mixed), hits)", given, "uvec2", setup=MIX)
+
+
+def _errors(means: Array, mixed: Array, count: int) -> Array:
+    """Relative rms errors of the means in GATHER and MIX; those of the exact number of hits."""
+    bright, dark = np.float64(np.float32(BRIGHT)), np.float64(np.float32(DARK))
+    truth = dark + mixed[:, 1] / count * (bright - dark)
+    mix = mixed[:, 0].copy().view(np.float32)
+    found = np.column_stack([means * [1, 1, 1 / count, 1], mix])
+    rms: Array = np.sqrt(np.mean((found / truth[:, None] - 1) ** 2, axis=0))
+    return rms
+
+
+SIDE, BLOCK = 128, 8  # pixels of the frame in `seeds`, and of the blocks that it is judged by
+SUM = """
+    ivec2 pixel = ivec2(i %% SIDE, i / SIDE);
+    float sum = 0.0;
+    for (int k = 0; k < frames; ++k) {
+        uint index = first + uint(k);
+        sum += unit_float(%s) - 0.5;
+    }""".replace("SIDE", str(SIDE))
+SHIFTED = f"pcg_hash(pcg_hash(uint(pixel.y * {SIDE} + pixel.x) + index))"
+OURS = "pcg_hash(pixel_seed(pixel, int(index), 7u) ^ STEP)"
+
+
+def seeds(lab: Lab) -> Sweep:
+    """Means of blocks of pixels scatter as chance wants if pixels share no random numbers."""
+    x = [1 << power for power in (0, 8, 16, 20, 24, 28, 31)]
+    frames = lab.count(256)
+    ours: list[float] = []
+    shifted: list[float] = []
+    for first in x:
+        given = {
+            "frames": [frames],
+            "first": np.array([first - 1], np.uint32),
+            "place": np.zeros(SIDE * SIDE, np.int32),
+        }
+        for found, number in ((ours, OURS), (shifted, SHIFTED)):
+            sums = lab.path("sum + 0.0 * float(place)", given, setup=SUM % number)
+            found.append(_excess(sums.astype(np.float64) / math.sqrt(frames / 12)))
+    blocks = (SIDE // BLOCK) ** 2
+    return Sweep(
+        parameter="number of the first frame",
+        measure=f"excess of the noise of {BLOCK} x {BLOCK} pixel means,\nof what chance gives",
+        x=x,
+        chosen=("glrt: place, frame and seed hashed together", ours),
+        others={"hash of place + frame": shifted},
+        promise="within 5.3 standard deviations of chance",
+        bound=[SIGMAS / math.sqrt(2 * blocks)] * len(x),
+    )
+
+
+def _excess(scores: Array) -> float:
+    """How far from 1 the standard deviation of the blocks of independent scores is."""
+    side = SIDE // BLOCK
+    blocks = scores.reshape(side, BLOCK, side, BLOCK).sum(axis=(1, 3)) / BLOCK
+    return float(abs(blocks.std() - 1))
+
+
+def albedo(lab: Lab) -> Sweep:
+    """A closed room whose walls shine and reflect: every bounce adds its power of the albedo."""
+    absorbed = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001]
+    limits = (1000, 10, 100)
+    light = {limit: [_room_light(lab, 1 - x, limit) for x in absorbed] for limit in limits}
+    whole = [1 / float(np.float32(x)) for x in absorbed]
+    sums = [_series(1 - x, 1000) for x in absorbed]
+    lost = {
+        f"light lost by {limit} bounces": _relative(light[limit], whole)
+        for limit in (10, 100, 1000)
+    }
+    return Sweep(
+        parameter="share of light that a wall absorbs, 1 - albedo",
+        measure="relative error of the radiance",
+        x=absorbed,
+        chosen=("glrt, 1000 bounces, against the sum of 1000", _relative(light[1000], sums)),
+        others=lost,
+        promise="at most 2e-5 from the sum up to the limit",
+        bound=[2e-5] * len(absorbed),
+    )
+
+
+def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
+    """Radiance in a room of planes that emit 1, without roulette: every path says the same."""
+    normals = [
+        [side if k == axis else 0 for k in range(3)] for axis in range(3) for side in (1, -1)
+    ]
+    walls = [plane([-x for x in normal], normal, "wall") for normal in normals]
+    size: dict[str, Any] = {
+        "width": 8,
+        "height": 8,
+        "bounces": bounces,
+        "roulette": False,
+        "method": "naive",
+    }
+    image = lab.render(scene_of(walls, {"wall": lamp(1, albedo)}), 1, **size)
+    return float(image.radiance.mean(dtype=np.float64))
+
+
+def _series(albedo: float, bounces: int) -> float:
+    """1 + a + a^2 + ... of the albedo that the kernel is given."""
+    a = float(np.float32(albedo))
+    return (1 - a ** (bounces + 1)) / (1 - a)
+
+
+def _relative(found: Sequence[float], truth: Sequence[float]) -> list[float]:
+    return [abs(a / b - 1) for a, b in zip(found, truth, strict=True)]

@@ -1,0 +1,54 @@
+"""The ways to render a scene that a chart sets beside each other."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, get_args
+
+from glrt.methods.features import needs_of
+from glrt.scene.scene import Scene
+from glrt.settings import Method, Settings, settings_for
+
+METHODS: tuple[str, ...] = get_args(Method)
+LEAD = "mis"  # the method whose variants are charted
+FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A name for people, and the settings it stands for."""
+
+    name: str
+    settings: Settings
+
+
+def variants_of(
+    scene: Scene, settings: Settings, methods: Sequence[str] = METHODS, leads: bool = True
+) -> list[Variant]:
+    """Every method; with `leads`, LEAD with few and many bounces, without roulette, by samplers.
+
+    Those that one kernel renders, such as all methods where there is no lamp, are one variant.
+    """
+    named = [(method, {"method": method}) for method in methods]
+    if leads:
+        named += _variants_of_lead(settings)
+    found: dict[Any, Variant] = {}
+    for name, changes in named:
+        wanted = settings_for(settings, **changes)
+        key = (needs_of(scene, wanted), wanted.bounces, wanted.sampler)
+        known = found.get(key)
+        found[key] = (
+            Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
+        )
+    return list(found.values())
+
+
+def _variants_of_lead(settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
+    few = [bounces for bounces in FEW_BOUNCES if bounces < settings.bounces]
+    for bounces in [*few, min(MANY_TIMES * settings.bounces, MOST_BOUNCES)]:
+        plural = "" if bounces == 1 else "s"
+        yield f"{LEAD}, {bounces} bounce{plural}", {"method": LEAD, "bounces": bounces}
+    if settings.roulette:
+        yield f"{LEAD}, no roulette", {"method": LEAD, "roulette": False}
+    for sampler in get_args(Settings.model_fields["sampler"].annotation):
+        if sampler != settings.sampler:
+            yield f"{LEAD}, {sampler}", {"method": LEAD, "sampler": sampler}

@@ -1,0 +1,27 @@
+"""`glrt.render`: a scene to a picture in one call."""
+
+from typing import Unpack
+
+from glrt.gpu.context import Choice, Context
+from glrt.image.image import Image
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.settings import FrameOptions
+
+
+def render(
+    scene: Scene,
+    samples: int = 64,
+    context: Context | Choice = "auto",
+    **settings: Unpack[FrameOptions],
+) -> Image:
+    """Render a scene; `settings` are fields of Settings, the rest comes from the scene.
+
+    Raises UsageError for a setting out of range, ContextError without OpenGL, RenderError, and
+    SceneError for a scene beyond the driver.
+    """
+    renderer = Renderer(scene, context=context, tier="baked", samples=samples, **settings)
+    try:
+        return renderer.render().image()
+    finally:
+        renderer.release()

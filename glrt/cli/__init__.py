@@ -1,0 +1,20 @@
+"""The commands, a module each.
+
+Modules, each importing only what stands above it:
+
+- process: streams, age and memory of the process
+- options: what command lines share
+- request: scene, settings and limits of a command line
+- autosave: files saved now and then
+- progress: the progress bar
+- render: `glrt render`
+- view: `glrt view`
+- compare: `glrt compare`
+- inspect: `glrt inspect`
+- chart: `glrt chart`
+- stress: `glrt stress`
+- doctor: `glrt doctor`
+- schema: `glrt schema`
+- commands: the table of commands
+- main: how the command starts and ends
+"""

@@ -1,0 +1,90 @@
+"""The files of a render: saved now and then, and in the end wherever there is room."""
+
+import secrets
+import shlex
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from glrt.cli.process import tell
+from glrt.errors import RenderError
+from glrt.files import reason
+from glrt.image.image import Image
+from glrt.rendering.renderer import Renderer
+
+INTERVAL = 60.0  # seconds between two saves: what a power cut may cost
+SHARE = 0.05  # of the time, at most, that saving takes
+
+
+class Keeper:
+    """Saves a picture under all its names, each file whole or not at all."""
+
+    def __init__(self, outputs: Sequence[str], clock: Callable[[], float] = time.monotonic) -> None:
+        """Start the clock; the first save comes after one interval."""
+        self._outputs = outputs
+        self._clock = clock
+        self._due = clock() + INTERVAL
+        self.kept = 0  # samples of the picture as it was saved last
+
+    def after(self, renderer: Renderer) -> None:
+        """Save if it is time. A failure is told, and the render goes on: room may come."""
+        start = self._clock()
+        if start < self._due or renderer.samples <= self.kept:
+            return
+        try:
+            failures = self._save(renderer.image())
+        except MemoryError as error:
+            failures = [f"No memory to save the picture: {reason(error)}."]
+        if failures:
+            tell(f"glrt: {failures[0]} The render goes on, and is saved again in the end.")
+        else:
+            self.kept = renderer.samples
+        now = self._clock()
+        self._due = now + max(INTERVAL, (now - start) / SHARE)
+
+    def keep(self, image: Image) -> None:
+        """Save for good. RenderError tells what could not be, and where the picture is then."""
+        if failures := self._save(image):
+            raise RenderError(f"{failures[0]} {self._elsewhere(image)}".strip())
+
+    @property
+    def advice(self) -> str:
+        """How to go on from the last save when the driver fails; empty if there was none."""
+        if not self.kept:
+            return ""
+        state = next((name for name in self._outputs if _is_state(name)), None)
+        if state is None:
+            return f"{self._outputs[0]} shows the first {self.kept} samples."
+        name = shlex.quote(state)
+        return (
+            f"The first {self.kept} samples are saved: `glrt render --resume {name} -o {name}` "
+            "goes on from them."
+        )
+
+    def _save(self, image: Image) -> list[str]:
+        """What could not be written, and why."""
+        failures = {}
+        for output in self._outputs:
+            try:
+                image.save(output)
+            except RenderError as error:
+                failures[output] = str(error)
+        self._is_safe = any(_is_state(name) and name not in failures for name in self._outputs)
+        return list(failures.values())
+
+    def _elsewhere(self, image: Image) -> str:
+        """Save in the folder for temporary files, unless an EXR file holds everything already."""
+        if self._is_safe:
+            return "The .exr file is saved, and `glrt render` makes the others from it."
+        place = Path(tempfile.gettempdir()) / f"glrt-{secrets.token_hex(4)}.exr"
+        try:
+            image.save(place)
+        except RenderError:
+            return ""
+        return f"The picture is in {place}."
+
+
+def _is_state(name: str) -> bool:
+    """Whether a render can go on from such a file."""
+    return name.lower().endswith(".exr")

@@ -1,0 +1,133 @@
+"""`glrt chart`: measure scenes, then draw and tell what each method reaches in which time.
+
+Rounds are kept in DIR/NAME.rounds.json as they are made: the same command takes up there after
+an interruption, and one with more rounds adds to them.
+"""
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from glrt import files
+from glrt.analysis.chart.experiment import Plan, Tell, measure_scene
+from glrt.analysis.chart.files import save_chart, save_page
+from glrt.analysis.plot import check_matplotlib
+from glrt.cli.options import SCENE, add_context
+from glrt.errors import UsageError
+from glrt.gpu.context import Choice, open_context
+from glrt.image.sources import load
+from glrt.rendering.stopping import Interruption
+from glrt.scene.scene import Scene
+from glrt.signals import INTERRUPTED
+
+DESCRIPTION = (
+    "Measure the error of every method against its time on some scenes; draw it (SVG, PNG), "
+    "list it (CSV, JSON) and tell what it shows (chart.md)."
+)
+EPILOG = (
+    "The same command goes on after an interruption. References are kept in the user's cache "
+    "folder. Exit codes: 0 done, 2 bad usage or scene, or no matplotlib, 3 no usable OpenGL, "
+    "4 a render failed, 130 interrupted."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("scenes", metavar="SCENE", nargs="+", help=SCENE)
+    parser.add_argument("-o", dest="output", metavar="DIR", required=True, help="folder to fill")
+    for name, default, kind, text in (
+        ("height", 64, int, "height of the frame in pixels"),
+        ("rounds", 5, int, "runs of each variant"),
+        ("seconds", 60.0, float, "time for the rounds of a scene; its reference takes up to half"),
+    ):
+        metavar = "N" if kind is int else "S"
+        note = f"{text} (default: {default:g})"
+        parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
+    add_context(parser)
+    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+_LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """A chart of each scene and a page of all of them in a folder; returns the exit code."""
+    check_matplotlib()
+    plan = _plan(arguments)
+    scenes = _scenes(arguments.scenes)
+    folder = Path(arguments.output)
+    files.make_folder(folder, "chart.md")
+    with Interruption().watched() as interruption:
+        try:
+            with _progress(arguments.quiet) as tell:
+                tell_or_stop = _stopping(tell, interruption)
+                page = _chart(scenes, plan, folder, arguments.context, tell_or_stop)
+        except KeyboardInterrupt:
+            print(
+                f"glrt: interrupted; the rounds that are done are kept in {folder}, and the same "
+                "command goes on from there.",
+                file=sys.stderr,
+            )
+            return INTERRUPTED + (interruption.signal or 0)
+    if not arguments.quiet:
+        print(f"Wrote {page} and the charts of {', '.join(scenes)}.", file=sys.stderr)
+    return 0
+
+
+def _stopping(tell: Tell, interruption: Interruption) -> Tell:
+    """Between two runs, an interruption ends the work."""
+
+    def tell_or_stop(text: str, share: float) -> None:
+        if interruption.signal is not None:
+            raise KeyboardInterrupt
+        tell(text, share)
+
+    return tell_or_stop
+
+
+def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell) -> Path:
+    context = open_context(route)
+    experiments = []
+    for number, (name, scene) in enumerate(scenes.items()):
+
+        def tell_of_all(text: str, share: float, before: int = number) -> None:
+            tell(text, (before + share) / len(scenes))
+
+        rounds = folder / f"{name}.rounds.json"
+        experiments.append(measure_scene(name, scene, plan, context, rounds, tell_of_all))
+        save_chart(experiments[-1], folder)
+    return save_page(experiments, folder)
+
+
+def _plan(arguments: argparse.Namespace) -> Plan:
+    for name, (low, high) in _LIMITS.items():
+        if not low <= getattr(arguments, name) <= high:
+            raise UsageError(f"--{name} must be from {low:g} to {high:g}.")
+    return Plan(arguments.height, arguments.rounds, arguments.seconds)
+
+
+def _scenes(sources: Sequence[str]) -> dict[str, Scene]:
+    scenes: dict[str, Scene] = {}
+    for source in sources:
+        name = Path(source).stem
+        if name in scenes:
+            raise UsageError(f"Two scenes are called {name}: their charts would share a file.")
+        scenes[name] = load(source)
+    return scenes
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Tell]:
+    """A bar on stderr with a forecast, on a terminal; else nothing."""
+    if quiet or not sys.stderr.isatty():
+        yield lambda _text, _share: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("chart", total=1.0)
+        yield lambda text, share: bar.update(task, description=text, completed=share)

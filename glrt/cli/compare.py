@@ -1,0 +1,169 @@
+"""`glrt compare`: files in, a report and an exit code out."""
+
+import argparse
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glrt import files
+from glrt.comparison.noise import BLOCK
+from glrt.comparison.result import CHANNELS, Comparison, Interval, percent
+from glrt.comparison.verdict import compare
+from glrt.errors import UsageError
+from glrt.image.image import Image
+
+DESCRIPTION = (
+    "Say whether two renders show the same picture up to their noise: same, different, or "
+    "undecided for lack of samples."
+)
+EPILOG = (
+    "At most a share ALPHA of equal pictures is called different. Exit codes: 0 same or "
+    "undecided, 1 different (with --strict, undecided too), 2 bad usage or files."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    for name in ("image", "reference"):
+        parser.add_argument(name, metavar=name.upper(), help="an .exr or .npy file")
+    for name in ("samples", "reference-samples"):
+        whose = "REFERENCE" if name.startswith("reference") else "IMAGE"
+        text = f"samples a pixel of {whose}, if its file does not say it"
+        parser.add_argument(f"--{name}", type=int, metavar="N", help=text)
+    parser.add_argument(
+        "--alpha", type=float, default=0.01, help="share of false alarms (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--bias",
+        type=float,
+        default=0.01,
+        help='the relative difference that "same" must exclude (default: %(default)s)',
+    )
+    parser.add_argument("--strict", action="store_true", help="exit 1 if undecided, too")
+    parser.add_argument("--picture", metavar="FILE", help="a .png that shows where they differ")
+    parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
+
+
+DIFFERENT = 1
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """The exit code: 1 for pictures that differ, and with --strict for undecided ones."""
+    image = read(arguments.image, arguments.samples, "--samples")
+    reference = read(arguments.reference, arguments.reference_samples, "--reference-samples")
+    if arguments.picture:
+        _check_picture(arguments.picture)
+    comparison = compare(image, reference, arguments.alpha, arguments.bias)
+    if arguments.picture:
+        from glrt.comparison.heatmap import save_picture
+
+        save_picture(comparison, arguments.picture)
+    print(json.dumps(figures(comparison)) if arguments.json else report(comparison), flush=True)
+    wanted = ("same",) if arguments.strict else ("same", "undecided")
+    return 0 if comparison.verdict in wanted else DIFFERENT
+
+
+def read(path: str, samples: int | None, option: str) -> Image:
+    """An EXR or NPY file with its number of samples; UsageError if that is in neither place."""
+    image = _read_npy(path) if path.lower().endswith(".npy") else Image.load(path)
+    if image.samples and samples not in (None, image.samples):
+        raise UsageError(f"{path} has {image.samples} samples a pixel: leave out {option}.")
+    if not image.samples and (samples is None or samples < 1):
+        raise UsageError(
+            f"{path}: this file does not say how many samples a pixel it has. Give {option} N."
+        )
+    return replace(image, samples=image.samples or samples or 0)
+
+
+def report(comparison: Comparison) -> str:
+    """Verdict and figures, for people."""
+    row = "{:<7}{:>11}{:>11}  {:>11}   {}".format
+    sure = f"{100 * (1 - comparison.alpha):g} %"
+    lines = [
+        str(comparison),
+        "",
+        row("mean", "image", "reference", "difference", f"{sure} interval"),
+    ]
+    rows = zip(CHANNELS, comparison.means, comparison.differences, strict=True)
+    lines += [row(c, *(f"{m:.5g}" for m in means), *_percent(d)) for c, means, d in rows]
+    if comparison.factors:
+        lines += ["", "weighed by their noise, which shows best a factor between the pictures:"]
+        rest = zip(CHANNELS, comparison.factors, strict=True)
+        lines += [row(c, "", "", *_percent(factor)) for c, factor in rest]
+    else:
+        lines += ["", "The methods may differ: each picture is held to its own noise."]
+    c = comparison
+    return "\n".join(
+        [
+            *lines,
+            "",
+            f"{BLOCK} x {BLOCK} blocks: spread {c.spread:.2f} of 1 expected; largest "
+            f"{c.largest:+.2f} of {c.limit:.2f} allowed, {c.worst}",
+            f"its worst pixel: {c.pixel}",
+            f"smallest difference that would have shown: {percent(c.shown)} of the picture",
+        ]
+    )
+
+
+def _percent(interval: Interval) -> tuple[str, str]:
+    difference, low, high = (percent(value, digits=3, sign="+") for value in interval)
+    return difference, f"{low} to {high}"
+
+
+def figures(comparison: Comparison) -> dict[str, Any]:
+    """For scripts: plain values, null for what is infinite or unknown."""
+    c = comparison
+    rows = zip(CHANNELS, c.means, c.differences, strict=True)
+    channels = {
+        name: {"image": means[0], "reference": means[1], **difference._asdict()}
+        for name, means, difference in rows
+    }
+    factors = {name: i._asdict() for name, i in zip(CHANNELS, c.factors, strict=False)}
+    table = {
+        "verdict": c.verdict,
+        "reasons": c.reasons,
+        "alpha": c.alpha,
+        "bias": c.bias,
+        "means": channels,
+        "factors": factors or None,
+        "spread": c.spread,
+        "largest": c.largest,
+        "limit": c.limit,
+        "block": c.worst._asdict(),
+        "pixel": c.pixel._asdict(),
+        "shown": c.shown,
+        "needs": c.needs,
+        "alike": c.alike,
+    }
+    return {key: _plain(value) for key, value in table.items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _check_picture(path: str) -> None:
+    if not path.lower().endswith(".png"):
+        raise UsageError(f"Cannot write {path}: the name given to --picture ends in .png.")
+    files.check_writable(Path(path))
+
+
+def _read_npy(path: str) -> Image:
+    try:
+        files.check_regular(Path(path))
+        pixels = np.load(path, allow_pickle=False)
+    except (OSError, ValueError, EOFError) as error:
+        raise UsageError(
+            f"{path}: cannot read this image: {files.reason(error)}. Check name and file."
+        ) from None
+    if not isinstance(pixels, np.ndarray) or pixels.dtype.kind != "f" or pixels.shape[2:] != (3,):
+        raise UsageError(f"{path}: not an image: it must be an array (height, width, 3) of floats.")
+    with np.errstate(over="ignore"):  # beyond float32 is infinite, and told as such
+        radiance = pixels.astype(np.float32)
+    return Image(radiance, np.full_like(radiance, np.nan), samples=0)

@@ -1,0 +1,23 @@
+"""`glrt doctor`: which OpenGL routes work here."""
+
+import argparse
+
+DESCRIPTION = (
+    "Try every OpenGL route, each in a process of its own, and say which one is used. Exit "
+    "codes: 0, 3 if none works."
+)
+EPILOG = ""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("--json", action="store_true", help="one line of findings on stdout")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """`glrt doctor`: exit code 3 when no route works."""
+    from glrt.doctor.report import report
+
+    text, works = report(arguments.json)
+    print(text)
+    return 0 if works else 3

@@ -1,0 +1,42 @@
+"""The command `glrt`: how it starts, and how it ends."""
+
+import sys
+
+from glrt.cli import process
+from glrt.cli.process import fail
+
+SMALLER = "A smaller picture, or a --crop, needs less."
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a command; returns its exit code. `arguments` are those of the process by default."""
+    process.open_missing()
+    with process.loading():
+        from glrt import signals
+        from glrt.cli import commands
+        from glrt.errors import GlrtError, RenderError
+        from glrt.files import reason
+
+        commands.load(arguments)
+    try:
+        with signals.handled(signals.interrupt):
+            code = commands.run(arguments)
+            sys.stdout.flush()  # a reader that has gone is found out here, not at exit
+            return code
+    except GlrtError as error:
+        return fail(str(error), error.exit_code)
+    except KeyboardInterrupt as error:
+        return fail(signals.PLAIN, signals.exit_code_of(error))
+    except BrokenPipeError:
+        process.silence(sys.stdout)
+        return 0
+    except MemoryError as error:
+        return fail(f"out of memory: {reason(error)}. {SMALLER}", RenderError.exit_code)
+    except OSError as error:
+        process.settle(sys.stdout)
+        return fail(f"{_what_failed(error)}: {reason(error)}", RenderError.exit_code)
+
+
+def _what_failed(error: OSError) -> str:
+    name = getattr(error, "filename", None)
+    return f"the command failed at {name}" if name else "the command failed"

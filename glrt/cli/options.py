@@ -1,0 +1,120 @@
+"""What command lines share: the parser, and options generated from the models of settings."""
+
+import argparse
+import re
+from difflib import get_close_matches
+from typing import Any, NoReturn, get_args
+
+from glrt.errors import UsageError
+from glrt.gpu.context import ROUTES, Pipeline
+from glrt.settings import RenderSettings, Settings, editable_of
+
+AUTO = "auto"  # as --method: chosen by a measurement
+SCENE = "a scene file, the name of a scene that comes with glrt, or a picture rendered by glrt"
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse, but an error is a UsageError with a did-you-mean."""
+
+    def __init__(self, **options: Any) -> None:
+        """Abbreviations are off: a script must not change its meaning when options are added."""
+        super().__init__(allow_abbrev=False, **options)
+        self.commands: dict[str, Parser] = {}
+
+    def error(self, message: str) -> NoReturn:
+        """Raise what argparse would print."""
+        raise UsageError(f"{message}. See `{self.prog} --help`.")
+
+    def parse(self, arguments: list[str] | None) -> argparse.Namespace:
+        """Parse everything; an unknown option gets the nearest known one as advice."""
+        result, unknown = self.parse_known_args(arguments)
+        if unknown:
+            raise UsageError(self._advice(unknown[0], str(result.command)))
+        return result
+
+    def _advice(self, word: str, command: str) -> str:
+        options = re.findall(r"--?[a-z][\w-]*", self.commands[command].format_usage())
+        near = get_close_matches(word.partition("=")[0], options, n=1)
+        question = f" Did you mean {near[0]}?" if near else ""
+        kind = "option" if word.startswith("-") else "argument"
+        return f"unknown {kind} {word!r}.{question} See `{self.prog} {command} --help`."
+
+
+def add_pipeline(parser: argparse.ArgumentParser) -> None:
+    """`--pipeline`."""
+    parser.add_argument(
+        "--pipeline",
+        choices=get_args(Pipeline),
+        default="auto",
+        help="kind of shader; fragment needs OpenGL 4.1 alone; default: compute where it works",
+    )
+
+
+def add_context(parser: argparse.ArgumentParser) -> None:
+    """`--context`."""
+    parser.add_argument(
+        "--context", choices=["auto", *sorted(ROUTES)], default="auto", help="OpenGL route"
+    )
+
+
+def add_settings(parser: argparse.ArgumentParser, *more_methods: str) -> None:
+    """An option for each field of Settings; absent ones leave no trace in the result.
+
+    `more_methods` are values of `--method` beyond those of the model.
+    """
+    group = parser.add_argument_group("settings")
+    for name, field in Settings.model_fields.items():
+        unit = editable_of(field).unit
+        options = _options(name, field.annotation, unit)
+        wish = "the scene's" if name in RenderSettings.model_fields else field.default
+        notes = "; ".join(filter(None, [unit, f"default: {wish}"]))
+        text = f"{field.description} ({notes})".replace("%", "%%")
+        if name == "method" and AUTO in more_methods:
+            options["choices"] = [*options["choices"], AUTO]
+            text += (
+                f"; {AUTO}: the cheapest that reaches --error, by a measurement of some seconds, "
+                "or of half of --time"
+            )
+        group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
+    group.add_argument(
+        "--light",
+        dest="lights",
+        metavar="GROUP=X",
+        action="append",
+        type=_light,
+        default=[],
+        help="intensity of a light group, from 0; may be repeated",
+    )
+
+
+def _options(name: str, annotation: Any, unit: str) -> dict[str, Any]:
+    if name == "crop":
+        return {"nargs": 4, "type": int, "metavar": ("X", "Y", "W", "H")}
+    if annotation is bool:
+        return {"action": argparse.BooleanOptionalAction}
+    if choices := get_args(annotation):
+        return {"choices": choices}
+    return {"type": annotation, "metavar": "N" if annotation is int else unit.upper() or "X"}
+
+
+def _light(text: str) -> tuple[str, float]:
+    group, equals, value = text.rpartition("=")
+    try:
+        return (group, float(value)) if equals and group else _refuse_light(text)
+    except ValueError:
+        return _refuse_light(text)
+
+
+def _refuse_light(text: str) -> NoReturn:
+    raise argparse.ArgumentTypeError(f"{text!r} is not GROUP=X, such as ceiling=0.5")
+
+
+def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The settings that stand on the command line."""
+    given = {name: v for name, v in vars(arguments).items() if name in Settings.model_fields}
+    return {name: value for name, value in given.items() if value != AUTO}
+
+
+def is_automatic(arguments: argparse.Namespace) -> bool:
+    """Whether the method is to be chosen by what the error asks for."""
+    return getattr(arguments, "method", None) == AUTO

@@ -1,0 +1,122 @@
+"""The process of a command: its start, its standard streams, its age and its memory."""
+
+import gc
+import os
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import FrameType
+from typing import IO
+
+from glrt.signals import INTERRUPTED, PLAIN, handled
+
+
+def open_missing() -> None:
+    """Give nothing to write to where a stream is closed.
+
+    Else the next file that is opened takes its number, and gets what the driver tells stderr.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free: this one
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+
+
+def tell(text: str) -> None:
+    """A line on stderr, if that takes one."""
+    try:
+        print(text, file=sys.stderr, flush=True)
+    except (OSError, ValueError):
+        silence(sys.stderr)
+
+
+def fail(message: str, code: int) -> int:
+    """Tell why the command fails, in one paragraph; returns the exit code."""
+    tell(f"glrt: {' '.join(message.split())}")
+    return code
+
+
+def settle(stream: IO[str]) -> None:
+    """Write out what is pending; silence a stream that does not take it."""
+    try:
+        stream.flush()
+    except (OSError, ValueError):
+        silence(stream)
+
+
+def silence(stream: IO[str]) -> None:
+    """What is still to be written to a broken stream goes nowhere, so that exit is quiet."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+_has_loaded: list[bool] = []
+
+
+@contextmanager
+def loading() -> Iterator[None]:
+    """While the modules of a command are imported: Ctrl-C leaves at once, nothing is collected.
+
+    Imports take most of the first half second, and leave nothing that is garbage; so it is not
+    looked for in them later either. Once a process: when main() is called again, nothing changes.
+    """
+    if _has_loaded:
+        yield
+        return
+    _has_loaded.append(True)
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        with handled(leave_at_once):
+            yield
+    finally:
+        if was_enabled:
+            gc.freeze()
+            gc.enable()
+
+
+def leave_at_once(number: int, _frame: FrameType | None) -> None:
+    """A handler: ends the process without an exception.
+
+    One that is raised while a compiled package is loaded can end in C++'s terminate: SIGABRT.
+    """
+    os.write(2, f"glrt: {PLAIN}\n".encode())
+    os._exit(INTERRUPTED + number)
+
+
+_IMPORTED = time.perf_counter()
+
+
+def since_start() -> float:
+    """Seconds since this process started; where the system does not tell, since the import."""
+    return time.perf_counter() - _IMPORTED + _AGE_AT_IMPORT
+
+
+def _process_age() -> float:
+    """Linux: uptime minus start time, the 22nd word of /proc/self/stat, in clock ticks."""
+    try:
+        from os import sysconf
+
+        started = float(Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19])
+        uptime = float(Path("/proc/uptime").read_text().split()[0])
+        return max(0.0, uptime - started / sysconf("SC_CLK_TCK"))
+    except (ImportError, OSError, ValueError, IndexError):
+        return 0.0
+
+
+_AGE_AT_IMPORT = _process_age()
+
+
+def peak_bytes() -> int | None:
+    """The most memory this process has held, in bytes; None where the system does not tell."""
+    try:
+        from resource import RUSAGE_SELF, getrusage
+    except ImportError:
+        return None
+    unit = 1 if sys.platform == "darwin" else 1024
+    return getrusage(RUSAGE_SELF).ru_maxrss * unit

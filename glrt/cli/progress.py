@@ -1,0 +1,79 @@
+"""Progress of a render on a terminal: samples, seconds, estimated error, forecast."""
+
+import math
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Protocol
+
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.stopping import Limits
+from glrt.settings import MAX_SAMPLES
+
+LOOK = 2.0  # seconds before an estimate of the error, which reads the film back
+SHARE = 0.05  # of the time, at most, that estimates take
+
+
+class Watch(Protocol):
+    """What is called after each dispatch."""
+
+    def __call__(self, renderer: Renderer) -> None: ...
+
+
+@contextmanager
+def progress_bar(limits: Limits, begun: int = 0) -> Iterator[Watch]:
+    """A bar on stderr, for a render that has so many samples; it vanishes when the render ends."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.fields[rest]}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("render", total=1.0, done="compiling", rest="")
+        forecast = Forecast(limits, begun)
+
+        def watch(renderer: Renderer) -> None:
+            state: dict[str, Any] = forecast.after(renderer)
+            bar.update(task, **state)
+
+        yield watch
+
+
+class Forecast:
+    """How far a render is, and how long it will take, by samples, time and error."""
+
+    def __init__(self, limits: Limits, begun: int = 0) -> None:
+        """Start the clock."""
+        self._limits = limits
+        self._begun = begun
+        self._start = time.perf_counter()
+        self._due = self._start + LOOK
+        self._error: float | None = None
+
+    def after(self, renderer: Renderer) -> dict[str, Any]:
+        """The fields of the bar after a dispatch."""
+        start = time.perf_counter()
+        if renderer.samples and start >= self._due:
+            self._error = renderer.image().error
+            spent = time.perf_counter() - start
+            self._due = start + spent + max(LOOK, spent / SHARE)
+        seconds = start - self._start
+        total = self._total_seconds(renderer.work, seconds)
+        left = max(0.0, total - seconds)
+        error = f"error {100 * self._error:.2g} %  " if self._error else ""
+        most = self._limits.samples  # of which nobody speaks where time or error ends the render
+        of_all = f" of {most}" if most < MAX_SAMPLES else ""
+        done = f"{renderer.samples}{of_all} samples"
+        share = min(1.0, seconds / total) if total else 1.0
+        rest = f"{error}{seconds:.0f} s, {left:.0f} s to go"
+        return {"completed": share, "done": done, "rest": rest}
+
+    def _total_seconds(self, samples: float, seconds: float) -> float:
+        """Seconds to the first limit: the error falls with the square root of the samples."""
+        rate = max(samples - self._begun, 1e-9) / seconds
+        candidates = [(self._limits.samples - self._begun) / rate]
+        if self._limits.deadline is not None:
+            candidates.append(self._limits.deadline - self._start)
+        if self._limits.error and self._error:
+            needed = samples * math.pow(self._error / self._limits.error, 2)
+            candidates.append((needed - self._begun) / rate)
+        return min(candidates)

@@ -1,0 +1,215 @@
+"""`glrt render`: a scene to files, with figures and an exit code for scripts."""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from glrt import signals
+from glrt.cli.autosave import Keeper
+from glrt.cli.options import AUTO, SCENE, add_context, add_pipeline, add_settings, is_automatic
+from glrt.cli.process import fail, peak_bytes, since_start
+from glrt.cli.request import Order, opened, order
+from glrt.error.reliability import doubt
+from glrt.errors import RenderError
+from glrt.image.image import check_writable
+from glrt.methods.omissions import left_out, omissions
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+from glrt.scene.limits import cautions
+from glrt.text import counted
+
+DESCRIPTION = "Render a scene without a window."
+EPILOG = (
+    "The first limit reached of --samples, --time and --error ends the render; --time or "
+    "--error without --samples lifts the sample limit to 1048576. Ctrl-C saves what was "
+    "rendered; a long render saves every minute, and --resume goes on from its .exr. Exit "
+    "codes: 0 done, 1 --error not reached, 2 bad usage or scene, 3 no usable OpenGL, 4 the "
+    "render failed, 130 and 143 interrupted."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "scene", metavar="SCENE", nargs="?", help=f"{SCENE}; with --resume optional"
+    )
+    parser.add_argument(
+        "-o",
+        dest="outputs",
+        metavar="FILE",
+        action="append",
+        required=True,
+        help="the picture: .exr (radiance and its error), .png or .npy; may be repeated",
+    )
+    add_settings(parser, AUTO)
+    parser.add_argument(
+        "--time", type=float, metavar="SECONDS", help="stop after this process time"
+    )
+    parser.add_argument(
+        "--error", type=float, metavar="E", help="stop at this relative RMS error: 0.02 is 2 %%"
+    )
+    add_context(parser)
+    add_pipeline(parser)
+    parser.add_argument(
+        "--resume",
+        metavar="FILE.exr",
+        help="go on from this picture, by its scene and settings, up to --samples in all",
+    )
+    parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
+    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+Watch = Callable[[Renderer], None]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """The exit code says whether the picture is what was asked for."""
+    try:
+        return _run(arguments)
+    except KeyboardInterrupt as error:
+        return fail(signals.NOTHING, signals.exit_code_of(error))
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    wanted = order(arguments)
+    for output in arguments.outputs:
+        check_writable(output)
+    for text in [] if arguments.quiet else cautions(wanted.scene, wanted.settings):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    if is_automatic(arguments):
+        from glrt.analysis.method_choice.advice import choose
+
+        chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
+        wanted = Order(wanted.scene, *chosen)
+    with Interruption().watched() as interruption:
+        return _render(arguments, wanted, interruption)
+
+
+def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interruption) -> int:
+    limits = wanted.limits
+    renderer, keeper = opened(wanted, arguments), Keeper(arguments.outputs)
+    begun = renderer.samples
+    setup = since_start() - renderer.compile_seconds
+    start = time.perf_counter()
+    with _watch(arguments, limits, keeper, begun) as watch:
+        try:
+            image, understatement = render_to_limit(renderer, limits, interruption, watch)
+        except RenderError as error:
+            raise RenderError(f"{error} {keeper.advice}".strip()) from error
+    seconds = {
+        "setup": setup,
+        "compile": renderer.compile_seconds,
+        "render": time.perf_counter() - start,
+    }
+    if image is None:
+        return fail(signals.NOTHING, _signal_code(interruption))
+    estimate = image.error
+    keeper.keep(image)
+    _tell(arguments, renderer, begun, seconds, estimate)
+    if interruption.signal is not None:
+        text = f"interrupted after {renderer.samples} samples, which are saved"
+        return fail(text, _signal_code(interruption))
+    if limits.error is not None and (estimate is None or estimate > limits.error):
+        return fail(unreached(arguments.error, limits.error, estimate, renderer.samples), 1)
+    if not arguments.quiet and (caution := doubt(understatement, limits.error)):
+        print(f"glrt: caution: {caution}", file=sys.stderr)
+    return 0
+
+
+def unreached(wanted: float, noise: float, estimate: float | None, samples: int) -> str:
+    """What to say of an `--error`; of one for which `noise` is what a method's bias leaves room."""
+    found = "unknown" if estimate is None else f"{estimate:.3g}"
+    if noise < wanted:
+        found = f"its noise must be {noise:.3g}, beside what the method leaves out, and is {found}"
+    else:
+        found = f"it is {found}"
+    return (
+        f"--error {wanted:g} was not reached: {found} after {counted(samples, 'sample')}. "
+        "The picture is saved; give more --samples or --time."
+    )
+
+
+def _signal_code(interruption: Interruption) -> int:
+    return signals.INTERRUPTED + (interruption.signal or 0)
+
+
+@contextmanager
+def _watch(
+    arguments: argparse.Namespace, limits: Limits, keeper: Keeper, begun: int
+) -> Iterator[Watch]:
+    """What is called after each dispatch: saves now and then, and shows progress on a terminal."""
+    if arguments.quiet or not sys.stderr.isatty():
+        yield keeper.after
+        return
+    from glrt.cli.progress import progress_bar
+
+    with progress_bar(limits, begun) as show:
+
+        def watch(renderer: Renderer) -> None:
+            show(renderer)
+            keeper.after(renderer)
+
+        yield watch
+
+
+def _tell(
+    arguments: argparse.Namespace,
+    renderer: Renderer,
+    begun: int,
+    seconds: dict[str, float],
+    error: float | None,
+) -> None:
+    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    width, height = renderer.size
+    new = renderer.samples - begun
+    rate = new * width * height / max(seconds["render"], 1e-9)
+    if arguments.json:
+        print(json.dumps(_figures(arguments, renderer, seconds, rate, error)), flush=True)
+    elif not arguments.quiet:
+        known = "" if error is None else f", estimated error {100 * error:.2g} %"
+        names = ", ".join(arguments.outputs)
+        more = f" ({new} of them new)" if begun else ""
+        print(
+            f"Wrote {names}: {width} x {height}, {counted(renderer.samples, 'sample')}{more} in "
+            f"{seconds['render']:.1f} s ({rate / 1e6:.2f} million samples/s){known}.",
+            file=sys.stderr,
+        )
+        if dropped := renderer.nonfinite():
+            print(
+                f"{dropped:,} samples were dropped: they were not finite, or longer than the "
+                "driver runs loops. Where they are many the picture is biased: use fewer bounces.",
+                file=sys.stderr,
+            )
+    if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
+        print(left_out(renderer.settings, missing), file=sys.stderr)
+
+
+def _figures(
+    arguments: argparse.Namespace,
+    renderer: Renderer,
+    seconds: dict[str, float],
+    rate: float,
+    error: float | None,
+) -> dict[str, Any]:
+    settings = renderer.settings
+    return {
+        "scene": arguments.scene or arguments.resume,
+        "width": settings.width,
+        "height": settings.height,
+        "samples": renderer.samples,
+        "bounces": settings.bounces,
+        "method": settings.method,
+        "seed": settings.seed,
+        "pipeline": renderer.pipeline,
+        "context": renderer.context.route,
+        "renderer": renderer.context.renderer,
+        "seconds": {name: round(value, 6) for name, value in seconds.items()},
+        "samples_per_second": round(rate, 1),
+        "error": error,
+        "nonfinite": renderer.nonfinite(),
+        "peak_bytes": peak_bytes(),
+    }

@@ -1,0 +1,151 @@
+"""What a command line orders: a scene, settings and limits, or to go on from a picture."""
+
+import argparse
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import get_args
+
+from glrt.cli.options import is_automatic, settings_given
+from glrt.cli.process import since_start
+from glrt.errors import UsageError
+from glrt.gpu.context import Choice, Context, Pipeline
+from glrt.gpu.struct_arrays import Tier
+from glrt.image.image import Image
+from glrt.image.recipe import Recipe
+from glrt.image.resume import fitting, recipe_to_resume
+from glrt.image.sources import load_recipe, recipe_of
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.stopping import Limits, samples_limit
+from glrt.scene.scene import Scene, with_lights
+from glrt.settings import MAX_SAMPLES, Cost, Settings, settings_for
+
+TIERS: tuple[Tier, ...] = get_args(Tier)
+
+
+@dataclass(frozen=True)
+class Order:
+    """A render, as it is wanted."""
+
+    scene: Scene
+    settings: Settings
+    limits: Limits
+    begun: Image | None = None  # the picture to go on from
+
+
+def order(arguments: argparse.Namespace) -> Order:
+    """What `glrt render` is to do; UsageError and SceneError as ever."""
+    for name in ("time", "error"):
+        check_limit(name, getattr(arguments, name))
+    if arguments.resume is not None:
+        return _order_to_go_on(arguments)
+    if arguments.scene is None:
+        raise UsageError("SCENE is missing. See `glrt render --help`.")
+    scene, settings = scene_and_settings(arguments)
+    return _limited(arguments, Order(scene, settings, Limits(0)))
+
+
+def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
+    """The scene with its lights, and the settings: those given, the rest by file or recipe."""
+    scene, recipe = load_recipe(arguments.scene)
+    settings = settings_for(recipe or scene.render, **settings_given(arguments))
+    return with_lights(scene, dict(arguments.lights)), settings
+
+
+def check_limit(name: str, value: float | None) -> None:
+    """UsageError for a limit that is no number above 0."""
+    if value is not None and not 0 < value < float("inf"):
+        raise UsageError(f"--{name} must be a number above 0, got {value:g}.")
+
+
+def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
+    """The renderer of an order, which has the samples that it goes on from."""
+    route, pipeline = arguments.context, arguments.pipeline
+    if order.begun is None:
+        recipe = recipe_of(arguments.scene)
+        return open_renderer(order.scene, order.settings, recipe, route, "baked", pipeline)
+    recipe = recipe_to_resume(order.begun)
+    if pipeline == "auto" and recipe.pipeline == "fragment":
+        pipeline = "fragment"
+    tier: Tier = next((tier for tier in TIERS if tier == recipe.tier), "baked")
+    with _going_on(arguments.resume):
+        return Renderer(order.scene, order.settings, route, tier, pipeline).resume(order.begun)
+
+
+def open_renderer(
+    scene: Scene,
+    settings: Settings,
+    recipe: Recipe | None,
+    context: Context | Choice = "auto",
+    tier: Tier = "generic",
+    pipeline: Pipeline = "auto",
+) -> Renderer:
+    """A renderer of a scene, which came from a picture if there is a recipe.
+
+    A picture that was relit is a weighted sum over what was traced. The same is traced again, so
+    that the same bits come out, unless light or bounces have been changed since.
+    """
+    light = recipe.traced if recipe else None
+    if not (recipe and light and _is_shown(recipe, scene, settings)):
+        return Renderer(scene, settings, context, tier, pipeline)
+    before = settings_for(settings, bounces=light.bounces)
+    renderer = Renderer(light.scene, before, context, tier, pipeline, light.layering)
+    cost = renderer.update(scene, **dict(settings))
+    if cost in (None, Cost.FREE, Cost.RELIGHT):
+        renderer.plan = replace(renderer.plan, weights=light.weights)
+    return renderer
+
+
+def _is_shown(recipe: Recipe, scene: Scene, settings: Settings) -> bool:
+    return (scene, settings.bounces) == (recipe.scene, recipe.settings.bounces)
+
+
+def _limited(arguments: argparse.Namespace, order: Order) -> Order:
+    """The order up to the first limit of samples, time and error."""
+    is_open = arguments.time is not None or arguments.error is not None
+    given = getattr(arguments, "samples", None)
+    samples = samples_limit(given, order.settings.samples, is_open)
+    seconds = arguments.time
+    deadline = None if seconds is None else time.perf_counter() - since_start() + seconds
+    limits = Limits(samples, deadline, arguments.error)
+    return Order(order.scene, settings_for(order.settings, samples=samples), limits, order.begun)
+
+
+def _order_to_go_on(arguments: argparse.Namespace) -> Order:
+    """By the settings of the picture. What would give other samples is refused."""
+    image = Image.load(arguments.resume)
+    with _going_on(arguments.resume):
+        recipe = recipe_to_resume(image)
+        if is_automatic(arguments):
+            raise UsageError(f"its method is {recipe.settings.method}; leave out --method auto")
+        source = arguments.scene
+        scene, wished = load_recipe(source) if source is not None else (recipe.scene, None)
+        scene = with_lights(scene, dict(arguments.lights))
+        base = settings_for(wished or recipe.settings, samples=recipe.settings.samples)
+        settings = settings_for(base, **settings_given(arguments))
+        order = _limited(arguments, Order(scene, settings, Limits(0), image))
+        update = {"scene": scene, "settings": order.settings}
+        fitting(image, recipe.model_copy(update=update))
+        _check_samples(arguments, image.samples, order.limits)
+    return order
+
+
+def _check_samples(arguments: argparse.Namespace, taken: int, limits: Limits) -> None:
+    if limits.samples < taken:
+        raise UsageError(
+            f"it has {taken} samples, and --samples {limits.samples} is the number in all"
+        )
+    is_given = any(getattr(arguments, name, None) for name in ("samples", "time", "error"))
+    if limits.samples == MAX_SAMPLES > taken and not is_given:
+        raise UsageError("it was rendered without a limit of samples; give one, or --time, --error")
+
+
+@contextmanager
+def _going_on(path: str) -> Iterator[None]:
+    """Say from which picture it is that the render cannot go on."""
+    try:
+        yield
+    except UsageError as error:
+        text = str(error).rstrip(".")
+        raise UsageError(f"Cannot go on from {path}: {text}. Or render it anew.") from None

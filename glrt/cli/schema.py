@@ -1,0 +1,20 @@
+"""`glrt schema`: the scene format for editors."""
+
+import argparse
+import json
+
+from glrt.scene.scene import Scene
+
+DESCRIPTION = "Print the JSON Schema of scene files, for editors."
+EPILOG = ""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    del parser  # it has none
+
+
+def run(_arguments: argparse.Namespace) -> int:
+    """`glrt schema`: the scene format as JSON Schema."""
+    print(json.dumps(Scene.model_json_schema(), indent=2))
+    return 0

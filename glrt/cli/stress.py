@@ -1,0 +1,87 @@
+"""`glrt stress`: cases in; table, charts and an exit code out."""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from glrt import files
+from glrt.analysis.plot import check_matplotlib
+from glrt.analysis.stress import report
+from glrt.analysis.stress.cases import CASES
+from glrt.analysis.stress.sweep import Case, Finding, Lab
+from glrt.cli.options import add_context
+from glrt.errors import UsageError
+from glrt.gpu.context import open_context
+from glrt.text import nearest, quoted
+
+DESCRIPTION = (
+    "Sweep into the places where methods fail: what glrt does beside the naive way, in charts "
+    "and a table, with a verdict for each case."
+)
+EPILOG = (
+    "Exit codes: 0 all guarantees hold, 1 one is broken, 2 bad usage, 3 no usable OpenGL, 4 "
+    "the render failed."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    add = parser.add_argument
+    add("cases", metavar="CASE", nargs="*", help="what to try (default: everything)")
+    add("-o", dest="folder", metavar="DIR", type=Path, help="folder for table and charts")
+    add("--quick", action="store_true", help="fewer samples: below two minutes on two cores")
+    add("--list", action="store_true", help="name the cases, and run none")
+    add("--json", action="store_true", help="one line of figures on stdout")
+    add_context(parser)
+
+
+BROKEN = 1
+QUICK = 0.125  # of the rows and samples of a full run
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """The exit code: 1 when a guarantee is broken."""
+    cases = known_cases(arguments.cases)
+    if arguments.list:
+        print("\n".join(f"{case.name:<10} {case.title}" for case in cases))
+        return 0
+    folder = _prepared(arguments.folder, cases)
+    context = open_context(arguments.context, "compute")
+    lab = Lab(context, QUICK if arguments.quick else 1.0)
+    findings = [_run(case, lab) for case in cases]
+    report.save(findings, folder, context.renderer)
+    summary = json.dumps(report.summary(findings))
+    print(summary if arguments.json else report.table(findings, context.renderer), flush=True)
+    context.gl.release()
+    return 0 if all(finding.holds for finding in findings) else BROKEN
+
+
+def known_cases(names: Sequence[str]) -> list[Case]:
+    """The cases of these names, each once, or all; `UsageError` lists them for an unknown one."""
+    for name in names:
+        if name not in CASES:
+            near = nearest(name, tuple(CASES))
+            question = f"; did you mean {quoted(near)}?" if near else "."
+            raise UsageError(f"unknown case {quoted(name)}{question} Cases: {', '.join(CASES)}.")
+    return [CASES[name] for name in dict.fromkeys(names)] or list(CASES.values())
+
+
+def _prepared(folder: Path | None, cases: Sequence[Case]) -> Path:
+    """The folder, made and tried before anything is measured."""
+    if folder is None:
+        raise UsageError("say where to put table and charts: glrt stress -o DIR.")
+    check_matplotlib()
+    charts = [f"{case.name}.svg" for case in cases]
+    files.make_folder(folder, report.TABLE, report.FIGURES, report.OVERVIEW, *charts)
+    return folder
+
+
+def _run(case: Case, lab: Lab) -> Finding:
+    start = time.perf_counter()
+    finding = Finding(case, case.run(lab), time.perf_counter() - start)
+    if sys.stderr.isatty():
+        print(f"{case.name}: {finding.verdict}, {finding.seconds:.1f} s", file=sys.stderr)
+    return finding

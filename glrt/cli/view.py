@@ -1,0 +1,55 @@
+"""`glrt view`: the window, or what to do where there can be none."""
+
+import argparse
+
+from glrt.cli.options import SCENE, add_pipeline, add_settings, settings_given
+from glrt.cli.process import leave_at_once
+from glrt.errors import ContextError, UsageError
+from glrt.image.sources import load_recipe
+from glrt.scene.scene import with_lights
+from glrt.settings import settings_for
+from glrt.signals import handled
+
+DESCRIPTION = (
+    "Show a scene in a window, and tune everything live. Closing the window saves nothing but "
+    "the window's own preferences; a picture is saved by its button."
+)
+EPILOG = (
+    "Exit codes: 0 closed, 2 bad usage or scene, 3 no window or no usable OpenGL, 130 and 143 "
+    "interrupted."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "scene", metavar="SCENE", nargs="?", default="cornell", help=f"{SCENE}; default: cornell"
+    )
+    add_settings(parser)
+    add_pipeline(parser)
+
+
+EXTRA = ("imgui_bundle", "glfw")  # what `pip install 'glrt[view]'` brings
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Show the window until it is closed; exit code 3 where none can be opened."""
+    scene, recipe = load_recipe(arguments.scene)
+    settings = settings_for(recipe or scene.render, **settings_given(arguments))
+    scene = with_lights(scene, dict(arguments.lights))
+    try:
+        with handled(leave_at_once):
+            from glrt.view.window import Window
+    except ModuleNotFoundError as error:
+        if error.name not in EXTRA:
+            raise
+        raise UsageError(
+            f"the window needs the Python package {error.name}: type `pip install 'glrt[view]'`, "
+            "or in a checkout `make view`. `glrt render` needs no window."
+        ) from None
+    except ImportError as error:  # a compiled package does not find a library of the system
+        raise ContextError(
+            f"no window can be opened: {error}. On Debian or Ubuntu install libgl1 and libx11-6. "
+            "`glrt render` renders without a window."
+        ) from None
+    return Window(arguments.scene, scene, settings, arguments.pipeline).run()

@@ -1,0 +1,231 @@
+"""Whether two renders show the same picture up to their noise."""
+
+import math
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.comparison.noise import ROUNDING, Array, Pair, Sums, blocks, edges, even_weights, whole
+from glrt.comparison.result import CHANNELS, Comparison, Interval, Place, Verdict, percent
+from glrt.error.estimate import sidak_threshold
+from glrt.errors import UsageError
+from glrt.image.image import Image
+
+Flags = NDArray[np.bool_]
+
+POWER = 0.95  # a bias "would have shown" if it is found so often
+LEAST = 1e-9  # of alpha and bias
+SLACK = 1.1  # the standard errors of another renderer may be a tenth off: the spread allows it
+
+
+def compare(
+    image: Image,
+    reference: Image,
+    alpha: float = 0.01,
+    bias: float = 0.01,
+    alike: bool | None = None,
+) -> Comparison:
+    """Whether two renders of one size are the same picture up to their noise.
+
+    Equal pictures are called different with probability `alpha` at most. "same" says that a
+    relative difference of `bias` in the whole picture would have shown; else the verdict is
+    "undecided". Each needs its number of samples, and one of them its standard errors. `alike`:
+    both draw their samples in the same way; by default, the recipes tell. Raises `UsageError` for
+    pictures that cannot be compared.
+    """
+    for name, value in (("alpha", alpha), ("bias", bias)):
+        if not LEAST <= value < 1:
+            raise UsageError(f"{name} must lie between {LEAST:g} and 1, got {value:g}.")
+    _check(image, reference)
+    broken = _is_broken(image) | _is_broken(reference)
+    return _compared(_pair(image, reference, broken, alike), broken, alpha, bias)
+
+
+def _is_broken(image: Image) -> Flags:
+    """NaN is no fault in an error: it says that the error is unknown."""
+    return ~np.isfinite(image.radiance) | np.isinf(image.stderr)
+
+
+def _check(image: Image, reference: Image) -> None:
+    sizes = [f"{i.radiance.shape[1]} x {i.radiance.shape[0]}" for i in (image, reference)]
+    if sizes[0] != sizes[1]:
+        raise UsageError(f"the pictures differ in size: {sizes[0]} and {sizes[1]} pixels.")
+    if not image.radiance.size:
+        raise UsageError("the pictures have no pixels.")
+    for name, picture in (("image", image), ("reference", reference)):
+        if picture.samples < 1:
+            raise UsageError(
+                f"the {name} does not say how many samples a pixel it has: tell it, by --samples "
+                "for the image and --reference-samples for the reference."
+            )
+
+
+def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> Pair:
+    a, b = (np.where(broken, 0, i.radiance.astype(np.float64)) for i in (image, reference))
+    va, vb = (np.where(broken, 0, np.square(i.stderr, dtype=float)) for i in (image, reference))
+    if (np.isnan(va) & np.isnan(vb)).any():
+        raise UsageError(
+            "neither picture knows its noise: one of them must be an .exr of glrt, of 32 samples "
+            "or more, or of 2 by --sampler independent."
+        )
+    if alike is None:
+        known = not (np.isnan(va) | np.isnan(vb)).any()
+        alike = known and _same_method(image, reference)
+    # Of a picture that does not know its noise: the other's for its number of samples, or what the
+    # difference has beyond the other's, whichever is more.
+    ratio, square = image.samples / reference.samples, np.square(a - b)
+    filled = (
+        np.where(np.isnan(va), np.maximum(vb / ratio, square - vb), va),
+        np.where(np.isnan(vb), np.maximum(va * ratio, square - va), vb),
+    )
+    block = _block(image) if _block(image) == _block(reference) else 1
+    return Pair(a, b, *filled, image.samples, reference.samples, alike, block)
+
+
+def _block(image: Image) -> int:
+    return image.recipe.settings.block if image.recipe else 1
+
+
+def _same_method(image: Image, reference: Image) -> bool:
+    if not (image.recipe and reference.recipe):
+        return False
+    a, b = image.recipe.settings, reference.recipe.settings
+    return (a.method, a.roulette, a.sampler) == (b.method, b.roulette, b.sampler)
+
+
+def _compared(pair: Pair, broken: Flags, alpha: float, bias: float) -> Comparison:
+    """A third of alpha each is for the whole picture, for blocks, for pixels without noise."""
+    means, local = Sums(pair, whole), Sums(pair, blocks)
+    factors = Sums(pair, whole, even_weights(pair)) if pair.alike else None
+    limit = _limit(alpha / 3, local.score.size)
+    wide = _limit(alpha / 3, 9 if factors else 6)  # means, spread and factors of three channels
+    reasons = [
+        _broken(broken),
+        _quiet(pair, alpha / 3),
+        _whole("the means differ", means, wide),
+        _whole("the means of quiet blocks differ", factors, wide),
+        _scatter(local.score, wide),
+        _blocks(local.score, limit),
+    ]
+    found = tuple(reason for reason in reasons if reason)
+    shown = min(local.shown(limit, POWER), *(t.shown(wide, POWER) for t in (means, factors) if t))
+    agree: Verdict = "same" if shown <= bias else "undecided"
+    pixel_scores = _pixel_scores(pair)
+    worst = _worst_block(local.score, pair.image.shape)
+    return Comparison(
+        verdict="different" if found else agree,
+        reasons=found,
+        alpha=alpha,
+        bias=bias,
+        means=_means(pair),
+        differences=_intervals(means, wide),
+        factors=_intervals(factors, wide) if factors else (),
+        spread=float(np.sqrt(np.square(local.score).mean())),
+        limit=limit,
+        largest=float(local.score.flat[np.abs(local.score).argmax()]),
+        worst=worst,
+        pixel=_worst_pixel(pixel_scores, worst),
+        shown=shown,
+        needs=_needs(pair, shown / bias),
+        alike=pair.alike,
+        block_scores=local.score,
+        pixel_scores=pixel_scores,
+    )
+
+
+def _limit(alpha: float, tests: int) -> float:
+    """The score that one of so many tests exceeds by chance, on either side, so often."""
+    return -NormalDist().inv_cdf(sidak_threshold(alpha, tests) / 2)
+
+
+def _broken(broken: Flags) -> str | None:
+    return f"NaN or infinite: {_some(broken)}" if broken.any() else None
+
+
+def _quiet(pair: Pair, alpha: float) -> str | None:
+    """Pixels without noise must agree to rounding."""
+    variance = pair.image_variance + pair.reference_variance
+    quiet = variance <= np.square(np.finfo(np.float32).eps * pair.size)
+    wrong = quiet & (np.abs(pair.difference) > ROUNDING * pair.size)
+    if not wrong.any() or not _enough_samples(pair, int(quiet.sum()), alpha):
+        return None
+    return f"pixels without noise differ: {_some(wrong)}"
+
+
+def _enough_samples(pair: Pair, pixels: int, alpha: float) -> bool:
+    """Of all ways to deal out what a pixel saw, two give each picture one value alone."""
+    a, b = pair.image_samples / pair.block, pair.reference_samples / pair.block
+    log_ways = math.lgamma(a + b + 1) - math.lgamma(a + 1) - math.lgamma(b + 1)
+    return math.log(2 * pixels / alpha) < log_ways
+
+
+def _whole(what: str, sums: Sums | None, limit: float) -> str | None:
+    if sums is None or np.abs(sums.score).max() <= limit:
+        return None
+    channel = int(np.abs(sums.score).argmax())
+    difference = percent(_intervals(sums, limit)[channel].difference, sign="+")
+    return f"{what}, {CHANNELS[channel]} by {difference}"
+
+
+def _scatter(score: Array, limit: float) -> str | None:
+    """The sum of squares against chi-squared, by the cube root of Wilson and Hilferty."""
+    ratio = np.square(score / SLACK).mean(axis=(0, 1)).max()
+    narrow = 2 / (9 * score[..., 0].size)
+    if (np.cbrt(ratio) - 1 + narrow) / math.sqrt(narrow) <= limit:
+        return None
+    return f"blocks scatter {math.sqrt(ratio) * SLACK:.2f} times as much as their noise"
+
+
+def _blocks(score: Array, limit: float) -> str | None:
+    wrong = int((np.abs(score) > limit).any(axis=-1).sum())
+    return f"{wrong} of {score[..., 0].size} blocks differ" if wrong else None
+
+
+def _intervals(sums: Sums, limit: float) -> tuple[Interval, ...]:
+    reach = sums.reach(limit)
+    rows = np.stack([sums.difference, sums.difference - reach, sums.difference + reach])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return tuple(Interval(*column) for column in (rows / np.abs(sums.reference)).T.tolist())
+
+
+def _means(pair: Pair) -> tuple[tuple[float, float], ...]:
+    means = [picture.mean(axis=(0, 1)).tolist() for picture in (pair.image, pair.reference)]
+    return tuple(zip(*means, strict=True))
+
+
+def _needs(pair: Pair, ratio: float) -> int | None:
+    """Noise falls as the root of the samples; rounded up to two digits."""
+    if not math.isfinite(ratio):
+        return None
+    per_sample = 1 / pair.image_samples + 1 / pair.reference_samples
+    samples = max(2 / per_sample * ratio * ratio, 1.0)
+    step = int(10 ** max(math.floor(math.log10(samples)) - 1, 0))
+    return math.ceil(samples / step) * step
+
+
+def _pixel_scores(pair: Pair) -> Array:
+    variance = pair.shuffled_variance
+    scores = np.zeros_like(variance)
+    return np.divide(pair.difference, np.sqrt(variance), where=variance > 0, out=scores)
+
+
+def _worst_block(score: Array, shape: tuple[int, ...]) -> Place:
+    row, column, channel = map(int, np.unravel_index(np.abs(score).argmax(), score.shape))
+    top, bottom = map(int, edges(shape[0])[row : row + 2])
+    left, right = map(int, edges(shape[1])[column : column + 2])
+    return Place(CHANNELS[channel], left, top, right - left, bottom - top)
+
+
+def _worst_pixel(scores: Array, block: Place) -> Place:
+    part = scores[block.y : block.y + block.height, block.x : block.x + block.width]
+    part = np.abs(part[..., CHANNELS.index(block.channel)])
+    row, column = map(int, np.unravel_index(part.argmax(), part.shape))
+    return Place(block.channel, block.x + column, block.y + row)
+
+
+def _some(flags: Flags) -> str:
+    """How many, and where the first is."""
+    row, column, channel = map(int, np.argwhere(flags)[0])
+    count = int(flags.any(axis=-1).sum())
+    return f"{count} pixels, the first {Place(CHANNELS[channel], column, row)}"

@@ -1,0 +1,204 @@
+"""Which OpenGL routes work on this machine, what the drivers do, and what to do if none works.
+
+Each route is tried in a process of its own: a driver that crashes or hangs is a finding, not the
+end of the doctor.
+"""
+
+import json
+import platform
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any, NamedTuple
+
+from glrt.doctor.install_hints import remedies
+from glrt.gpu.context import MOST_DEVICES, ROUTES
+from glrt.gpu.driver_checks import MOST_ROUNDS
+from glrt.version import VERSION
+
+PATIENCE = 120  # seconds for one route: a cold software driver compiles for some of them
+PIPELINES = ("compute", "fragment")
+EXACT = 1e-5  # the relative error of a furnace that is right on any driver
+
+Finding = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Examination:
+    """What was found of one device of a route."""
+
+    route: str
+    device: int
+    found: dict[str, Finding]  # by step, in order: open, fragment, self_test, compute, end
+    end: str  # how the process ended, if not of itself
+
+    @property
+    def opens(self) -> bool:
+        """Whether there is a context."""
+        return "renderer" in self.found.get("open", {})
+
+    @property
+    def works(self) -> bool:
+        """Whether a pipeline renders the furnace right."""
+        return any(self.found.get(step, {}).get("furnace", 1.0) < EXACT for step in PIPELINES)
+
+
+class Used(NamedTuple):
+    """What a render would take."""
+
+    route: str
+    device: int
+
+
+def examine(route: str, device: int = 0, command: Sequence[str] = ()) -> Examination:
+    """Try a device of a route in a process; `command` stands in for that process in tests."""
+    arguments = command or (sys.executable, "-m", "glrt.doctor.route_process", route, str(device))
+    try:
+        done = subprocess.run(arguments, capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired as error:
+        return Examination(route, device, _read(_text(error.stdout)), "no answer; it was stopped")
+    found = _read(done.stdout)
+    return Examination(route, device, found, "" if "end" in found else _death(done))
+
+
+def examine_all() -> list[Examination]:
+    """Every route, and every device of EGL."""
+    examinations = []
+    for route in ROUTES:
+        for device in range(MOST_DEVICES if route == "egl" else 1):
+            examination = examine(route, device)
+            if device and not examination.opens and not examination.end:
+                break  # EGL has no more
+            examinations.append(examination)
+    return examinations
+
+
+def report(as_json: bool = False) -> tuple[str, bool]:
+    """What works here, as text or as one line of JSON, and whether anything does."""
+    examinations = examine_all()
+    used = _used(examine("auto"))
+    works = any(examination.works for examination in examinations)
+    if as_json:
+        return json.dumps(_table(examinations, used)), works
+    lines = [_versions(), ""]
+    for examination in examinations:
+        lines += [*_lines(examination, used), ""]
+    return "\n".join([*lines, _verdict(used, examinations)]), works
+
+
+def _used(auto: Examination) -> Used | None:
+    """What `auto` chose, if anything."""
+    opening = auto.found.get("open", {})
+    return Used(opening["route"], opening["device"]) if "route" in opening else None
+
+
+def _table(examinations: list[Examination], used: Used | None) -> Finding:
+    routes = [
+        {"route": e.route, "device": e.device, "works": e.works, **e.found, "end": e.end or None}
+        for e in examinations
+    ]
+    route, device = used or (None, None)
+    return {"version": VERSION, "used": route, "used_device": device, "routes": routes}
+
+
+def _read(text: str) -> dict[str, Finding]:
+    found = {}
+    for line in text.splitlines():
+        if line.startswith("{"):
+            finding = json.loads(line)
+            found[finding.pop("step")] = finding
+    return found
+
+
+def _text(output: bytes | str | None) -> str:
+    return output.decode(errors="replace") if isinstance(output, bytes) else output or ""
+
+
+def _death(done: "subprocess.CompletedProcess[str]") -> str:
+    last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+    if done.returncode < 0:
+        return f"the driver crashed ({signal.Signals(-done.returncode).name}): {last}"
+    return f"the process ended with code {done.returncode}: {last}"
+
+
+def _versions() -> str:
+    packages = ", ".join(f"{name} {version(name)}" for name in ("moderngl", "numpy", "pydantic"))
+    system = f"{platform.system()} {platform.machine()}"
+    return f"glrt {VERSION}, Python {platform.python_version()}, {packages}, {system}"
+
+
+def _lines(examination: Examination, used: Used | None) -> list[str]:
+    name = examination.route + (f" {examination.device}" if examination.device else "")
+    if not examination.opens:
+        opening = examination.found.get("open", {})
+        reason = opening.get("error", "").removeprefix(f"{examination.route}: ") or examination.end
+        return [f"{name:<8}does not work: {reason} ({_hint(examination.route)})"]
+    opening = examination.found["open"]
+    kind = "software" if opening["is_software"] else "hardware"
+    is_used = " <- used" if _is_of(examination, used) else ""
+    lines = [
+        f"{name:<8}{'works' if examination.works else 'does not work'}: {opening['renderer']}, "
+        f"{kind}, OpenGL {opening['version']}, opened in {opening['seconds']:.2f} s{is_used}"
+    ]
+    absence = "no answer" if examination.end else "not there"
+    for step in PIPELINES:
+        lines.append(f"  {step:<14}{_furnace(examination.found.get(step)) or absence}")
+    lines += findings(examination.found.get("self_test"))
+    return lines + ([f"  {examination.end}"] if examination.end else [])
+
+
+def _is_of(examination: Examination, used: Used | None) -> bool:
+    return (examination.route, examination.device) == used
+
+
+def _hint(route: str) -> str:
+    return "needs a display, or `xvfb-run`" if route == "window" else "; ".join(remedies())
+
+
+def _furnace(finding: Finding | None) -> str:
+    if finding is None:
+        return ""
+    if "error" in finding:
+        return f"fails: {finding['error']}"
+    error = finding["furnace"]
+    exactness = "exact to the last bit" if error == 0 else f"off by {error:.1e}"
+    return f"a furnace is {exactness} (with compiling {finding['seconds']:.2f} s)"
+
+
+def _verdict(used: Used | None, examinations: list[Examination]) -> str:
+    if not any(examination.works for examination in examinations):
+        wanted = "No route renders: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:"
+        return "\n".join([wanted, *remedies()])
+    chosen = next((e for e in examinations if _is_of(e, used)), examinations[0])
+    route = used.route if used else chosen.route
+    if "compute" in chosen.found or not chosen.end:
+        return f"`glrt render` uses {route}; --context chooses another, --pipeline the pipeline."
+    return f"`glrt render` uses {route}, whose compute shaders fail: take --pipeline fragment."
+
+
+def findings(found: Finding | None) -> list[str]:
+    """One line for each thing that the driver was tried for."""
+    if found is None:
+        return ["  the self-test needs compute shaders, which OpenGL 4.3 brings"]
+    if "error" in found:
+        return [f"  the self-test failed: {found['error']}"]
+    endless = found["loop_limit"] >= MOST_ROUNDS
+    loops = (
+        f"run for {MOST_ROUNDS:,} rounds and more"
+        if endless
+        else f"end silently after {found['loop_limit']:,} rounds; dispatches stay below"
+    )
+    ulps = ", ".join(f"{name} {error:.2g}" for name, error in found["ulps"].items())
+    kept = "kept" if found["precise_kept"] else "NOT KEPT: the bits of pictures may vary"
+    free = "fused or reordered" if found["fuses_without"] else "computed as written, too"
+    equal = "those of Python's integers" if found["hashes_equal"] else "WRONG: pictures are too"
+    return [
+        f"  loops         {loops}",
+        f"  random        {equal}",
+        f"  precise       {kept}; without it, sums and products are {free}",
+        f"  largest error {ulps} units in the last place",
+        f"                sin and cos {found['trig_error']:.2g} x 2^-24",
+    ]

@@ -1,0 +1,119 @@
+"""Shader expressions over arrays: how tests, self-test and experiments look at single functions."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.glsl import Source, read
+from glrt.gpu.program import Kernel, Resource
+
+Array = np.ndarray[Any, Any]
+
+_SCALARS = {"f": "float", "i": "int", "u": "uint"}
+_CODES = {"float": "f4", "int": "i4", "uint": "u4", "bool": "u4"}
+_GROUP = 64
+
+
+@dataclass(frozen=True)
+class Probe:
+    """An expression, computed once for each row of its inputs.
+
+    `returns` is the GLSL type of the result ("float", "vec3", "uint", "bool"). `setup` are
+    statements that stand before the expression, `functions` go in front of main. `includes` are
+    shader files; `constants` their prelude.
+    """
+
+    expression: str
+    returns: str = "float"
+    setup: str = ""
+    functions: str = ""
+    includes: Sequence[str] = ()
+    constants: Mapping[str, bool | int] | None = None
+
+    def run(
+        self,
+        gl: moderngl.Context,
+        inputs: Mapping[str, Any] | None = None,
+        blocks: Mapping[str, Resource] | None = None,
+    ) -> Array:
+        """The result for each row, (n,) or (n, 2..4); of n rows that the longest input has.
+
+        Inputs are arrays of floats, ints or uints, or (n, 2..4) vectors, named as in the
+        expression; one of length 1 holds for all rows. `blocks` are those, and the textures,
+        that included files or functions declare. The context must be current.
+        """
+        arrays = {name: _plain(values) for name, values in (inputs or {}).items()}
+        count = max((len(values) for values in arrays.values()), default=1)
+        base, width = _base(self.returns)
+        kernel = Kernel(gl, self._source(arrays))
+        own = {f"In_{name}": gl.buffer(values.tobytes()) for name, values in arrays.items()}
+        own["Out"] = gl.buffer(reserve=4 * width * count)
+        kernel.bind({**(blocks or {}), **own}, {})
+        kernel.run_tiles(-(-count // _GROUP))
+        result = np.frombuffer(own["Out"].read(), _CODES[base]).reshape(count, width)
+        kernel.release()
+        for buffer in own.values():
+            buffer.release()
+        out: Array = result[:, 0] if width == 1 else result
+        return out.astype(bool) if base == "bool" else out
+
+    def _source(self, arrays: Mapping[str, Array]) -> Source:
+        base, width = _base(self.returns)
+        stored = "uint" if base == "bool" else base
+        parts = ["result_"] if width == 1 else [f"result_[{k}]" for k in range(width)]
+        text = "\n".join(
+            [
+                f"layout(local_size_x = {_GROUP}) in;",
+                *(f'#include "{name}"' for name in self.includes),
+                f"layout(std430) writeonly buffer Out {{ {stored} out_[]; }};",
+                *(_block(name, values) for name, values in arrays.items()),
+                self.functions,
+                "void main() {",
+                "    int i = int(gl_GlobalInvocationID.x);",
+                f"    if (i >= out_.length() / {width}) return;",
+                *(_local(name, values) for name, values in arrays.items()),
+                self.setup,
+                f"    {self.returns} result_ = {self.expression};",
+                *(f"    out_[{width} * i + {k}] = {stored}({p});" for k, p in enumerate(parts)),
+                "}",
+            ]
+        )
+        return Source("probe", self.constants, parts={"probe": text})
+
+
+def path_files() -> list[str]:
+    """The shader files that trace a path, in the order in which they build on each other."""
+    return re.findall(r'#include "(\w+\.glsl)"', read("trace.comp"))
+
+
+def _plain(values: Any) -> Array:
+    array = np.atleast_1d(np.asarray(values))
+    if array.dtype.kind == "f":
+        return array.astype(np.float32)
+    return array.astype(np.uint32 if array.dtype.kind == "u" else np.int32)
+
+
+def _base(glsl_type: str) -> tuple[str, int]:
+    """The scalar type and the number of components: ("float", 3) of "vec3"."""
+    if match := re.fullmatch(r"([iu]?)vec([234])", glsl_type):
+        return {"": "float", "i": "int", "u": "uint"}[match[1]], int(match[2])
+    return glsl_type, 1
+
+
+def _block(name: str, values: Array) -> str:
+    scalar = _SCALARS[values.dtype.kind]
+    return f"layout(std430) readonly buffer In_{name} {{ {scalar} in_{name}[]; }};"
+
+
+def _local(name: str, values: Array) -> str:
+    scalar, row = _SCALARS[values.dtype.kind], "i" if len(values) > 1 else "0"
+    if values.ndim == 1:
+        return f"    {scalar} {name} = in_{name}[{row}];"
+    width = values.shape[1]
+    prefix = "" if scalar == "float" else scalar[0]
+    parts = ", ".join(f"in_{name}[{width} * {row} + {k}]" for k in range(width))
+    return f"    {prefix}vec{width} {name} = {prefix}vec{width}({parts});"

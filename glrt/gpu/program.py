@@ -1,0 +1,140 @@
+"""One compiled program, its blocks and images bound by name; the only dispatcher."""
+
+from collections.abc import Mapping
+from itertools import count
+
+import moderngl
+
+from glrt.errors import RenderError
+from glrt.gpu.glsl import Source, read
+from glrt.gpu.structs import read_constants
+from glrt.signals import postponed
+
+TILE = read_constants(read("tiles.glsl"))["TILE"]  # pixels along the edge of a tile
+
+Resource = moderngl.Buffer | moderngl.Texture
+Images = Mapping[str, moderngl.Texture]
+
+
+def tile_count(width: int, height: int) -> int:
+    """How many tiles cover a picture."""
+    return -(-width // TILE) * -(-height // TILE)
+
+
+class Kernel:
+    """A compute shader: a tile is a work group, and images are read and written in place."""
+
+    def __init__(self, gl: moderngl.Context, source: Source) -> None:
+        """Compile; RenderError tells the driver's message by shader file and line."""
+        self._gl = gl
+        try:
+            with postponed():  # it names a program's parts in Python: Ctrl-C there crashes it
+                self._program = gl.compute_shader(source.text)
+        except moderngl.Error as error:
+            raise _refusal(source, error) from error
+
+    @property
+    def names(self) -> set[str]:
+        """The blocks, images and uniforms that the compiled program uses."""
+        return set(self._program)
+
+    def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
+        """Give each block and image of the program the buffer or texture of its name.
+
+        Those that the compiler dropped need none; a missing one is a KeyError with its name.
+        """
+        _bind_blocks(self._program, scene)
+        _bind_textures(self._program, scene)
+        for unit, name in enumerate(images):
+            if name in self._program:
+                self._program[name] = unit
+                images[name].bind_to_image(unit)
+
+    def run(self, width: int, height: int) -> None:
+        """Dispatch over a grid of pixels."""
+        self.run_tiles(tile_count(width, height))
+
+    def run_tiles(self, tiles: int) -> None:
+        """Dispatch work groups, whatever they stand for; what follows sees what they wrote."""
+        self._program.run(tiles, 1, 1)
+        self._gl.memory_barrier()
+
+    def release(self) -> None:
+        """Free the program."""
+        self._program.release()
+
+
+class FragmentKernel:
+    """A vertex and a fragment shader: a tile is an instance of a quad, drawn over the targets."""
+
+    def __init__(self, gl: moderngl.Context, vertex: Source, fragment: Source) -> None:
+        """Compile; RenderError tells the driver's message by shader file and line."""
+        self._gl = gl
+        self._targets: moderngl.Framebuffer | None = None
+        self._program = drawing(gl, vertex, fragment)
+        self._quad = gl.vertex_array(self._program, [])
+
+    def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
+        """As Kernel.bind; images whose names begin with "target" are drawn to, in their order."""
+        _bind_blocks(self._program, scene)
+        _bind_textures(self._program, {**scene, **images})
+        self._release_targets()
+        targets = [texture for name, texture in images.items() if name.startswith("target")]
+        self._targets = self._gl.framebuffer(color_attachments=targets)
+
+    def run_tiles(self, tiles: int) -> None:
+        """Draw tiles; what a window has turned on, such as blending, does not touch them."""
+        with self._gl.scope(self._targets, moderngl.NOTHING):
+            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=tiles)
+
+    def release(self) -> None:
+        """Free the program."""
+        self._release_targets()
+        self._quad.release()
+        self._program.release()
+
+    def _release_targets(self) -> None:
+        if self._targets:
+            self._targets.release()
+            self._targets = None
+
+
+def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.Program:
+    """A program that draws; RenderError tells the driver's message by shader file and line."""
+    try:
+        with postponed():  # as in Kernel
+            return gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
+    except moderngl.Error as error:
+        raise _refusal(fragment, error) from error
+
+
+def _bind_blocks(
+    program: moderngl.ComputeShader | moderngl.Program, scene: Mapping[str, Resource]
+) -> None:
+    """Each kind counts from 0: OpenGL 4.3 grants no more than 8 places for storage blocks."""
+    slots = {moderngl.UniformBlock: count(), moderngl.StorageBlock: count()}
+    for name in program:
+        member = program[name]
+        if not isinstance(member, moderngl.UniformBlock | moderngl.StorageBlock):
+            continue
+        member.binding = slot = next(slots[type(member)])
+        buffer = scene[name]
+        assert isinstance(buffer, moderngl.Buffer)
+        if isinstance(member, moderngl.UniformBlock):
+            buffer.bind_to_uniform_block(slot)
+        else:
+            buffer.bind_to_storage_buffer(slot)
+
+
+def _bind_textures(
+    program: moderngl.ComputeShader | moderngl.Program, resources: Mapping[str, Resource]
+) -> None:
+    for unit, (name, texture) in enumerate(resources.items()):
+        if isinstance(texture, moderngl.Texture) and name in program:
+            program[name] = unit
+            texture.use(unit)
+
+
+def _refusal(source: Source, error: moderngl.Error) -> RenderError:
+    message = " ".join(source.explain(str(error)).split())
+    return RenderError(f"the driver refuses a shader: {message}")

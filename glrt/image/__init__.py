@@ -1,0 +1,11 @@
+"""Pictures in files, with their recipe and the state of their film.
+
+Modules, each importing only what stands above it:
+
+- tonemap: from radiance to the colours of a screen
+- film_state: what a film holds beside its mean, in channels of a file
+- recipe: what made a picture, as JSON
+- image: a picture and its files: EXR, PNG, NPY
+- resume: whether a picture can be rendered on
+- sources: what SCENE means: a file, a name, a picture
+"""

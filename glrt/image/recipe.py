@@ -1,0 +1,116 @@
+"""What made a picture, whole, as JSON that travels in the picture's metadata."""
+
+import json
+from typing import Annotated, Any, Self
+
+from pydantic import Field, ValidationError, model_validator
+
+from glrt.errors import SceneError
+from glrt.methods.light_layers import Layering, Plan, Weights, are_trivial
+from glrt.scene.scene import Scene
+from glrt.scene.toml import LARGEST, parse_scene, scene_to_dict
+from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for
+
+Factor = Annotated[float, Field(ge=0)]
+Factors = tuple[Factor, Factor, Factor]
+
+
+class Traced(Frozen):
+    """The light that was gathered, where the picture is a sum of its layers under weights."""
+
+    scene: Scene = Field(description="the scene as its lamps shone when its light was gathered")
+    bounces: int = Field(description="the bounce limit then", ge=0, le=1000)
+    layering: Layering = Field(description="what the layers hold: light groups, or path lengths")
+    weights: tuple[Factors, ...] = Field(description="a factor for each channel of each layer")
+
+    @property
+    def plan(self) -> Plan:
+        """What to trace; the settings are the scene's, but for the bounces."""
+        return Plan(
+            self.scene, settings_for(self.scene.render, bounces=self.bounces), self.layering
+        )
+
+    @model_validator(mode="after")
+    def _has_a_weight_for_each_layer(self) -> Self:
+        if len(self.weights) not in (1, self.plan.layers):
+            raise ValueError(f"{len(self.weights)} weights for {self.plan.layers} layers")
+        return self
+
+
+def traced(film: Plan, weights: Weights) -> Traced | None:
+    """What a recipe must tell of a film that is shown under weights; None if they are all 1."""
+    if are_trivial(weights):
+        return None
+    return Traced(
+        scene=film.scene, bounces=film.settings.bounces, layering=film.layering, weights=weights
+    )
+
+
+class Recipe(Frozen):
+    """Rendered again, it gives the same bits on the same driver."""
+
+    scene: Scene = Field(description="the whole scene, as it is shown")
+    settings: Settings = Field(description="every setting of the render, as it was asked for")
+    samples: int = Field(description="samples of each pixel taken", ge=0, le=MAX_SAMPLES)
+    version: str = Field(description="version of glrt")
+    renderer: str = Field(description="name of the OpenGL driver")
+    tier: str = Field("generic", description="where the kernel found its shapes, or two did")
+    pipeline: str = Field("compute", description="the kind of shader")
+    traced: Traced | None = Field(None, description="other light than the scene's, and weights")
+
+    @property
+    def taken(self) -> Settings:
+        """The settings with the samples that were really taken."""
+        return self.settings.model_copy(update={"samples": self.samples or self.settings.samples})
+
+    def to_json(self) -> str:
+        """One line of ASCII that `from_json` reads back without loss."""
+        table = self.model_dump(mode="json", exclude={"scene": True, "traced": True})
+        if self.traced:
+            light = self.traced.model_dump(mode="json", exclude={"scene"})
+            table["traced"] = {"scene": scene_to_dict(self.traced.scene), **light}
+        return json.dumps({"scene": scene_to_dict(self.scene), **table}, allow_nan=False)
+
+    @classmethod
+    def from_json(cls, text: str, source: str) -> "Recipe":
+        """Read `to_json`'s text; `source` is what messages call the picture.
+
+        Raises `SceneError` with one paragraph for anything else.
+        """
+        table = _table(text, source)
+        table["scene"] = parse_scene(table["scene"], f"{source} (scene of its recipe)")
+        light = table.get("traced")
+        if isinstance(light, dict) and isinstance(light.get("scene"), dict):
+            table["traced"] = {
+                **light,
+                "scene": parse_scene(light["scene"], f"{source} (scene traced, of its recipe)"),
+            }
+        try:
+            return cls.model_validate(table)
+        except ValidationError as error:
+            raise _damaged(source, _first_problem(error)) from None
+
+
+def _table(text: str, source: str) -> dict[str, Any]:
+    if len(text) > LARGEST:
+        raise _damaged(source, f"its metadata are longer than {LARGEST >> 20} MiB")
+    try:
+        table = json.loads(text)
+    except (ValueError, RecursionError):
+        raise _damaged(source, "its metadata is not valid JSON") from None
+    if not isinstance(table, dict) or not isinstance(table.get("scene"), dict):
+        raise _damaged(source, "its metadata holds no scene")
+    return table
+
+
+def _first_problem(error: ValidationError) -> str:
+    problem = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    key = ".".join(map(str, problem["loc"]))
+    return f"{key}: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
+
+
+def _damaged(source: str, problem: str) -> SceneError:
+    return SceneError(
+        f"{source}: the recipe in this picture is damaged or not of this version of glrt: "
+        f"{problem}. Render its scene file instead."
+    )

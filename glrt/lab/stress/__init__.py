@@ -1,1 +1,0 @@
-"""Sweeps into the places where methods fail: the method chosen beside the naive one."""

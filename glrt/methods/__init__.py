@@ -1,0 +1,8 @@
+"""What a method and a scene need of a kernel, and what a method leaves out.
+
+Modules, each importing only what stands above it:
+
+- features: the features compiled into a kernel, and why
+- light_layers: light as a weighted sum of layers
+- omissions: what a method leaves out of a scene
+"""

@@ -1,0 +1,175 @@
+"""Light as a weighted sum: which layers a film keeps, and what weights a change of light means.
+
+Radiance is linear in emission and is a sum over the lengths of paths. What was traced can so show
+other intensities and colours of its lamps, or fewer bounces, at the cost of a sum.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from glrt.gpu.glsl import read
+from glrt.gpu.structs import read_constants
+from glrt.methods.features import used_materials
+from glrt.scene.background import Background
+from glrt.scene.materials import Light
+from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.values import Radiance
+from glrt.settings import Cost, Settings, cost_of_change
+
+Layering = Literal["none", "groups", "lengths"]
+Weight = tuple[float, float, float]  # a factor for each channel
+Weights = tuple[Weight, ...]  # one for each layer; one alone weighs the whole picture
+
+MOST_LAYERS = read_constants(read("most_layers.glsl"))["MOST_LAYERS"]
+ONE: Weight = (1.0, 1.0, 1.0)
+NONE: Weight = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is traced onto a film by layers, and the weights that make it what is wanted."""
+
+    scene: Scene
+    settings: Settings
+    layering: Layering
+    weights: Weights = (ONE,)
+
+    @property
+    def layers(self) -> int:
+        """How many layers the film keeps beside its mean: none where the mean alone suffices."""
+        counts = {
+            "none": 0,
+            "groups": len(set(layer_of_group(self.scene).values())),
+            "lengths": min(self.settings.bounces + 1, MOST_LAYERS),
+        }
+        return counts[self.layering] if counts[self.layering] > 1 else 0
+
+    def constants(self) -> dict[str, bool | int]:
+        """The prelude of a kernel that fills the layers."""
+        return {
+            "LAYERS": self.layers,
+            "BY_LENGTH": self.layering == "lengths",
+            "BACKGROUND_LAYER": layer_of_group(self.scene).get(SKY_GROUP, 0),
+        }
+
+    def relit(self, scene: Scene, settings: Settings, layering: Layering) -> "Plan | None":
+        """The same film under other weights; None if what is wanted must be traced anew."""
+        weights = _weights(self, scene, settings) if layering == self.layering else None
+        return replace(self, weights=weights) if weights else None
+
+    def alone(self, length: int) -> Weights:
+        """The light of the paths of one length; the last layer holds all that are longer."""
+        shown = min(length, self.layers - 1)
+        return tuple(ONE if layer == shown else NONE for layer in range(self.layers))
+
+
+def plan_for(scene: Scene, settings: Settings, layering: Layering) -> Plan:
+    """What to trace: with light groups apart, lamps that are off are traced at 1.
+
+    So one that is turned on is there at once.
+    """
+    intensities = scene.light_groups
+    dark = [group for group in emitters(scene) if intensities[group] == 0]
+    if layering != "groups" or not dark:
+        return Plan(scene, settings, layering)
+    lights = {**scene.lights, **dict.fromkeys(dark, 1.0)}
+    plan = Plan(scene.model_copy(update={"lights": lights}), settings, layering)
+    return plan.relit(scene, settings, layering) or plan
+
+
+def emitters(scene: Scene) -> dict[str, list[Radiance]]:
+    """The light groups of the lamps and of a sky that shines, with their emissions at 1.
+
+    Lamps that are black count, so that the kernel is the same when they shine.
+    """
+    found: dict[str, list[Radiance]] = {}
+    for name, material in used_materials(scene).items():
+        if isinstance(material, Light):
+            found.setdefault(material.group or name, []).append(material.emission)
+    if any(map(any, scene.background.gradient)):
+        found[SKY_GROUP] = list(scene.background.gradient)
+    return found
+
+
+def layer_of_group(scene: Scene) -> dict[str, int]:
+    """The layer of each light group that shines; what is beyond the last layer shares it."""
+    return {group: min(n, MOST_LAYERS - 1) for n, group in enumerate(emitters(scene))}
+
+
+def are_trivial(weights: Weights) -> bool:
+    """Whether the film's mean is the sum."""
+    return all(weight == ONE for weight in weights)
+
+
+def _weights(film: Plan, scene: Scene, settings: Settings) -> Weights | None:
+    if film.layering == "lengths":
+        return _length_weights(film, settings) if film.scene == scene else None
+    if cost_of_change(film.settings, settings) is not Cost.FREE:
+        return None
+    if film.scene == scene:
+        return (ONE,)
+    if film.layering == "none" or _unlit(film.scene) != _unlit(scene):
+        return None
+    return _group_weights(film.scene, scene)
+
+
+def _length_weights(film: Plan, settings: Settings) -> Weights | None:
+    limit, count = settings.bounces, film.layers
+    at_limit = film.settings.model_copy(update={"bounces": limit})
+    if cost_of_change(at_limit, settings) is not Cost.FREE:
+        return None
+    if limit == film.settings.bounces:
+        return (ONE,)
+    if limit > film.settings.bounces or limit >= MOST_LAYERS - 1:
+        return None  # never traced, or mixed with longer paths in the last layer
+    return tuple(ONE if length <= limit else NONE for length in range(count))
+
+
+def _group_weights(film: Scene, wanted: Scene) -> Weights | None:
+    """A weight for each layer; None where a layer would need two, or light that it lacks."""
+    traced, layers = layer_of_group(film), dict[int, Weight]()
+    if emitters(wanted).keys() != traced.keys():
+        return None
+    for group, layer in traced.items():
+        weight = _group_weight(film, wanted, group)
+        if weight is None or layers.setdefault(layer, weight) != weight:
+            return None
+    return tuple(layers[layer] for layer in sorted(layers)) or (ONE,)
+
+
+def _group_weight(film: Scene, wanted: Scene, group: str) -> Weight | None:
+    """Intensity and colour wanted over those traced; None if its lamps do not change alike."""
+    tints = set(_tints(emitters(film)[group], emitters(wanted)[group]))
+    if len(tints) != 1 or None in tints:
+        return None
+    tint = tints.pop()
+    assert tint
+    ratio = wanted.light_groups[group] / film.light_groups[group]
+    return (ratio * tint[0], ratio * tint[1], ratio * tint[2])
+
+
+def _tints(traced: list[Radiance], wanted: list[Radiance]) -> Iterator[Weight | None]:
+    for before, after in zip(traced, wanted, strict=True):
+        if any(new and not old for old, new in zip(before, after, strict=True)):
+            yield None  # no light of this channel was traced
+        else:
+            red, green, blue = (
+                new / old if old else 1.0 for old, new in zip(before, after, strict=True)
+            )
+            yield (red, green, blue)
+
+
+def _unlit(scene: Scene) -> Scene:
+    """The scene less all that a change of light may change; which lamps there are stays."""
+    materials = {
+        name: m.model_copy(update={"emission": NONE}) if isinstance(m, Light) else m
+        for name, m in scene.materials.items()
+    }
+    shape = (
+        Background(color=None)
+        if scene.background.top is None
+        else Background(bottom=NONE, top=NONE)
+    )
+    update = {"materials": materials, "lights": {}, "background": shape}
+    return scene.model_copy(update=update)

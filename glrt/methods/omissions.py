@@ -1,0 +1,55 @@
+"""What a method leaves out of a scene, in plain words: its failures against what is in there."""
+
+from collections.abc import Iterator
+
+from glrt.methods.features import LADDER, is_light, used_materials
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+
+def omissions(scene: Scene, settings: Settings) -> list[str]:
+    """The light that this method does not show in this scene; nothing for those that trace paths.
+
+    What a limit of bounces cuts off is not among it.
+    """
+    return list(_omissions(scene, settings.method)) if settings.method in LADDER else []
+
+
+def _omissions(scene: Scene, method: str) -> Iterator[str]:
+    """From what usually weighs most to what weighs least."""
+    materials = used_materials(scene).values()
+    kinds = {material.type for material in materials}
+    metals = [material for material in materials if material.type == "metal"]
+    is_local = method in ("phong", "blinn")
+    lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
+    reflects = bool(kinds & {"lambertian", "metal"}) or any(
+        material.type == "light" and any(material.color) for material in materials
+    )
+    if is_local and any(metal.alpha == 0 for metal in metals):
+        yield "mirrors reflect nothing"
+    if is_local and "dielectric" in kinds:
+        yield "glass is black"
+    if reflects:
+        yield "no indirect light"
+    if is_local and lamps and len(scene.objects) > 1:
+        yield "no shadows"
+    if method == "whitted" and lamps:
+        yield "hard shadows: lamps are points"
+    if method == "whitted" and any(metal.alpha > 0 for metal in metals):
+        yield "rough metal is a mirror"
+    if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
+        yield "no light over mirrors or through glass onto matte surfaces"
+    if "plane" in lamps:
+        yield "plane lamps light nothing"
+    if any(map(any, scene.background_colors)) and len(scene.objects) > 1:
+        yield "nothing hides the sky"
+    if method != "cook" and scene.camera.defocus_angle > 0:
+        yield "everything is in focus"
+
+
+def left_out(settings: Settings, missing: list[str]) -> str:
+    """A sentence that names what `omissions` found."""
+    return (
+        f"Method {settings.method} leaves light out, which no estimated error contains: "
+        f"{'; '.join(missing)}."
+    )

@@ -1,0 +1,18 @@
+"""A scene and settings in, samples on a film out.
+
+Modules, each importing only what stands above it:
+
+- pack_lights: lamps as rows of the kernel's blocks
+- pack: a scene as arrays for the kernel
+- pipelines: compute or fragment shader
+- schedule: how much work a dispatch takes
+- upload: a scene in the driver's memory
+- kernel_switch: a generic kernel and a faster one by turns
+- film: running mean and variance in textures
+- tracer: adds samples to a film, a dispatch at a time
+- weighting: a film's layers under weights
+- display: the display pass
+- false_colors: numbers of pixels as colours
+- renderer: scene and settings to samples, step by step
+- stopping: render to a limit of samples, time or error
+"""

@@ -1,0 +1,203 @@
+"""What has been gathered: running mean and variance of each pixel, in ping-pong textures."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import moderngl
+import numpy as np
+
+from glrt.errors import RenderError, UsageError
+from glrt.image.film_state import Gathered
+
+Array = np.ndarray[Any, np.dtype[np.float32]]
+BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
+
+
+class Extent(NamedTuple):
+    """How much a film holds."""
+
+    width: int
+    height: int
+    block: int = 1  # samples of an observation
+    layers: int = 0
+
+
+class Exposure(NamedTuple):
+    """A film read back: arrays (H, W, 3) float32, row 0 on top."""
+
+    mean: Array
+    variance: Array  # of one observation
+    dropped: Array  # (H, W): samples that were not finite
+    observations: Array  # (H, W): whole ones
+    part: Array  # mean of the samples after the last whole observation
+    share: Array  # (H, W): of all finite samples, those in `part`
+    layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
+
+    def gathered(self, samples: int) -> Gathered:
+        """All but mean and layers, with so many samples a pixel."""
+        begun = np.rint(self.share * (samples - self.dropped))
+        return Gathered(self.variance, self.dropped, self.observations, self.part, begun)
+
+
+class Film:
+    """RGBA32F textures for mean and variance, each twice: one is read, one written.
+
+    A third pair holds the observation that has begun, if one takes more than a sample; a fourth
+    the layers, if there are any, each over two halves of the observations.
+    """
+
+    def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
+        """RenderError if the driver has no room for that."""
+        self._gl, self.extent, self.samples = gl, extent, 0
+        self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
+        try:
+            self._allocate()
+        except RenderError:
+            self.release()
+            raise
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self.extent.width, self.extent.height
+
+    def restart(self) -> None:
+        """Forget everything. The textures keep what they hold: the first dispatch ignores it."""
+        self.samples = 0
+
+    def images(self) -> dict[str, moderngl.Texture]:
+        """The textures under the names of the kernel's images."""
+        return {
+            f"{side}_{name}": texture
+            for side, textures in zip(("source", "target"), self._pairs, strict=True)
+            for name, texture in textures.items()
+        }
+
+    def advance(self, samples: int) -> None:
+        """The dispatch has written: what was target becomes source, once a frame."""
+        self._pairs.reverse()
+        self.samples += samples
+
+    @property
+    def mean(self) -> moderngl.Texture:
+        """The texture that holds the picture so far."""
+        return self._pairs[0]["mean"]
+
+    @property
+    def variance(self) -> moderngl.Texture:
+        """The texture that holds the variance of an observation so far."""
+        return self._pairs[0]["variance"]
+
+    @property
+    def layers(self) -> moderngl.Texture | None:
+        """The layers so far, side by side: over one half of the observations, below the other."""
+        return self._pairs[0].get("layers")
+
+    def read(self, rows: slice = slice(None)) -> Exposure:
+        """Copy the film, or some of its rows, into memory."""
+        self._check_exposed()
+        first, end, _ = rows.indices(self.size[1])
+        textures = self._pairs[0]
+        mean, variance = (self._read(textures[n], first, end) for n in ("mean", "variance"))
+        begun = self._read_begun(self.samples - mean[..., 3], first, end)
+        parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3], *begun
+        copies = (part.copy() for part in (*parts, self._read_layers(first, end)))
+        return Exposure(*copies)
+
+    def dropped(self) -> int:
+        """How many samples were not finite, of all pixels."""
+        self._check_exposed()
+        ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
+        counts = (self._read(self.mean, *rows)[..., 3] for rows in ends)
+        return sum(int(count.sum(dtype=np.float64)) for count in counts)
+
+    def bands(self) -> Iterator[slice]:
+        """The rows of the film, some at a time: to work on them takes little memory."""
+        rows = max(1, BAND_PIXELS // self.size[0])
+        return (slice(first, first + rows) for first in range(0, self.size[1], rows))
+
+    def write(self, samples: int, mean: Array, gathered: Gathered) -> None:
+        """Take up what another film has read: so many samples of each pixel.
+
+        UsageError for a film with layers, which no picture holds.
+        """
+        if self.extent.layers:
+            raise UsageError("layers of light are kept here, which a picture does not hold")
+        rows = {
+            "mean": np.dstack([mean, gathered.dropped]),
+            "variance": np.dstack([gathered.variance, gathered.observations]),
+            "block": np.dstack([gathered.part, gathered.begun]),
+        }
+        for name, texture in self._pairs[0].items():
+            texture.write(np.ascontiguousarray(rows[name], np.float32))
+        self.samples = samples
+
+    def release(self) -> None:
+        """Free the textures."""
+        for pair in self._pairs:
+            for texture in pair.values():
+                texture.release()
+
+    def _allocate(self) -> None:
+        width, height, block, layers = self.extent
+        sizes = dict.fromkeys(("mean", "variance"), self.size)
+        sizes |= {"block": self.size} if block > 1 else {}
+        sizes |= {"layers": (layers * width, 2 * height)} if layers else {}
+        for pair in self._pairs:
+            for name, size in sizes.items():
+                pair[name] = self._texture(*size)
+
+    def _texture(self, across: int, down: int) -> moderngl.Texture:
+        width, height = self.size
+        problem = f"no room on the driver for a film of {width} x {height} pixels; render a --crop"
+        _ = self._gl.error  # what others left in this context is no fault of the film
+        try:
+            texture = self._gl.texture((across, down), 4, dtype="f4")
+        except moderngl.Error as error:
+            raise RenderError(f"{problem} ({error})") from error
+        if (state := self._gl.error) != "GL_NO_ERROR":
+            texture.release()
+            raise RenderError(f"{problem} ({state})")
+        return texture
+
+    def _check_exposed(self) -> None:
+        if not self.samples:
+            raise RenderError("the film is empty: render a sample first")
+
+    def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
+        """The observation that has begun: its mean, and its share of so many finite samples."""
+        if self.samples % self.extent.block == 0:
+            return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
+        begun = self._read(self._pairs[0]["block"], first, end)
+        return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
+
+    def _read_layers(self, first: int, end: int) -> Array:
+        width, height, _, count = self.extent
+        if not self.layers:
+            return np.zeros((2, 0, end - first, width, 4), np.float32)
+        halves = [self._read(self.layers, up + first, up + end) for up in (0, height)]
+        return np.stack(halves).reshape(2, end - first, count, width, 4).swapaxes(1, 2)
+
+    def _read(self, texture: moderngl.Texture, first: int, end: int) -> Array:
+        """Rows of a texture, (rows, width, 4): by a framebuffer, of which a part can be read."""
+        rows = self._gl.framebuffer([texture])
+        part = (0, first, texture.width, end - first)
+        data = rows.read(part, components=4, alignment=1, dtype="f4")
+        rows.release()
+        return np.frombuffer(data, np.float32).reshape(end - first, texture.width, 4)
+
+
+def standard_error(film: Exposure) -> Array:
+    """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations.
+
+    The mean M of k whole observations has the variance V = v / (k - 1), v being that of theirs
+    about M. A part P of one, a share a of the samples, has a variance of its own, for Sobol's
+    points are worth more together: (P - M)^2 - V is an estimate without bias. So that of the mean
+    (1 - a) M + a P is (1 - a)^2 V + a^2 ((P - M)^2 - V).
+    """
+    count, share = film.observations[..., None], film.share[..., None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        whole = film.variance / (count - 1)
+        apart = (film.part - film.mean) / (1 - share)
+        error = np.sqrt(np.maximum(1 - 2 * share, 0) * whole + np.square(share * apart))
+    return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)

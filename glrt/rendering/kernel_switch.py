@@ -1,0 +1,64 @@
+"""Kernels that take turns: one that stays through edits, and a faster one while there are none."""
+
+import time
+from collections.abc import Callable
+from copy import copy
+
+from glrt.errors import RenderError
+from glrt.gpu.context import Context
+from glrt.gpu.glsl import Source
+from glrt.gpu.program import FragmentKernel, Kernel
+from glrt.rendering.pipelines import compiled
+from glrt.rendering.schedule import Portion, Schedule
+
+AnyKernel = Kernel | FragmentKernel
+Dispatch = Callable[[AnyKernel, Portion], None]
+
+
+class Turns:
+    """The kernel whose turn it is, and what is known of its dispatches."""
+
+    def __init__(
+        self, context: Context, shaders: list[Source], schedule: Schedule, dispatch: Dispatch
+    ) -> None:
+        """Compile the kernel that stays; RenderError if the driver refuses it."""
+        self._context = context
+        start = time.perf_counter()
+        self.kernel, self.schedule = self._ready(shaders, dispatch), schedule
+        self.compile_seconds = time.perf_counter() - start
+        self._waiting: tuple[AnyKernel, Schedule] | None = None
+
+    @property
+    def is_passed(self) -> bool:
+        """Whether it is the turn of the faster kernel."""
+        return self._waiting is not None
+
+    def pass_to(self, shaders: list[Source], dispatch: Dispatch) -> None:
+        """Let a faster kernel go on with the next frame; refused, all stays as it was."""
+        self.schedule.drop()  # the first dispatch writes to the frame that has begun
+        faster = self._ready(shaders, dispatch)
+        self._waiting = self.kernel, self.schedule
+        self.kernel, self.schedule = faster, copy(self.schedule)
+
+    def take_back(self) -> None:
+        """Go on by the kernel that stays; the faster one is freed."""
+        if self._waiting:
+            self.kernel.release()
+            self.kernel, self.schedule = self._waiting
+        self._waiting = None
+
+    def release(self) -> None:
+        """Free the programs."""
+        self.take_back()
+        self.kernel.release()
+
+    def _ready(self, shaders: list[Source], dispatch: Dispatch) -> AnyKernel:
+        kernel = compiled(self._context.gl, shaders)
+        try:
+            with self._context.checked("a shader"):
+                dispatch(kernel, Portion(0, 0, 1))  # drivers compile here; it adds nothing
+                self._context.finish()
+        except RenderError:
+            kernel.release()
+            raise
+        return kernel

@@ -1,0 +1,120 @@
+"""Lamps as the kernel chooses among them: the rows of its blocks `Lights` and `Clusters`.
+
+Few lamps are weighed one by one at each point, so each is a cluster of its own. Many are grouped by
+place into clusters, and these into parts, which are weighed; within a part a table chooses by flux.
+"""
+
+import math
+from collections.abc import Sequence
+from itertools import accumulate, chain
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
+from glrt.gpu.glsl import read
+from glrt.gpu.structs import read_constants
+from glrt.methods.features import MOST_NEAR, is_light
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Shape, Sphere
+
+Array = np.ndarray[Any, Any]
+
+_CONSTANTS = read_constants(read("scene.glsl"))
+PARTS, SEVERAL = _CONSTANTS["PARTS"], _CONSTANTS["SEVERAL"]
+
+
+class Lamps(NamedTuple):
+    """The lamps that can be sampled, those of a part of a cluster side by side; float64."""
+
+    shapes: list[int]  # their numbers
+    probability: Array  # (n,): share of the flux, above 0
+    center: Array  # (n, 3), in the scene's coordinates
+    reach2: Array  # (n,): mean squared distance of their points from the center
+    parts: list[list[slice]]  # of each cluster
+
+
+def lamps_of(scene: Scene, shapes: Sequence[Shape]) -> Lamps:
+    """The lamps among the shapes, all but planes, whose number is their place in the list."""
+    found = [
+        number
+        for number, shape in enumerate(shapes)
+        if not isinstance(shape, Plane) and is_light(scene.materials[shape.material])
+    ]
+    places = [_center(shapes[number]) for number in found]
+    center = np.array([place for place, _ in places], np.float64).reshape(-1, 3)
+    reach2 = np.array([reach for _, reach in places], np.float64)
+    probability = light_probabilities([power(scene, shapes[number]) for number in found])
+    clusters = [
+        [cluster[part] for part in grouped(center[cluster], probability[cluster], PARTS)]
+        for cluster in grouped(center, probability, MOST_NEAR)
+    ]
+    order = np.concatenate([np.arange(0), *chain(*clusters)])
+    ends = accumulate(len(part) for part in chain(*clusters))
+    return Lamps(
+        [found[index] for index in order],
+        probability[order],
+        center[order],
+        reach2[order],
+        [[slice((end := next(ends)) - len(part), end) for part in parts] for parts in clusters],
+    )
+
+
+def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:
+    """Rows of `Lights`."""
+    rows = np.zeros(len(lamps.shapes), dtype)
+    rows["shape"] = lamps.shapes
+    for cluster, parts in enumerate(lamps.parts):
+        for number, members in enumerate(parts):
+            flux = lamps.probability[members]
+            rows["share"][members] = flux / flux.sum()
+            keep, alias = alias_table(flux / flux.sum())
+            part = len(lamps.parts) + PARTS * cluster + number
+            rows["keep"][members] = keep
+            rows["alias"][members] = part << 16 | members.start + alias  # of 65,536 at most
+    return rows
+
+
+def pack_clusters(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
+    """Rows of `Clusters`; of many lamps, those of their parts behind them."""
+    count = len(lamps.parts)
+    rows = np.zeros(count * (1 + PARTS if len(lamps.shapes) > count else 1), dtype)
+    rows["shape"], rows["reach2"] = SEVERAL, 1  # a part without lamps has the weight 0 / 1
+    for row, parts in zip(rows, lamps.parts, strict=False):
+        _fill(row, lamps, slice(parts[0].start, parts[-1].stop), eye)
+    for cluster, parts in enumerate(lamps.parts if len(rows) > count else []):
+        first = count + PARTS * cluster
+        for row, members in zip(rows[first:], parts, strict=False):
+            _fill(row, lamps, members, eye)
+    return rows
+
+
+def _fill(row: Any, lamps: Lamps, members: slice, eye: Array) -> None:
+    """The row of a cluster or a part with these lamps."""
+    share = lamps.probability[members] / lamps.probability[members].sum()
+    center = share @ (lamps.center[members] - eye)
+    apart2 = ((lamps.center[members] - eye - center) ** 2).sum(axis=1)
+    row["center"], row["reach2"] = center, share @ (apart2 + lamps.reach2[members])
+    row["probability"] = lamps.probability[members].sum()
+    row["first"], row["count"] = members.start, len(share)
+    row["shape"] = lamps.shapes[members.start] if len(share) == 1 else SEVERAL
+
+
+def power(scene: Scene, shape: Shape) -> float:
+    """Flux of a lamp, up to a factor common to all: area of its bright sides times radiance."""
+    if isinstance(shape, Sphere):
+        area = 4 * math.pi * shape.radius**2
+    else:
+        assert not isinstance(shape, Plane)
+        normal = np.cross(np.array(shape.edge_u), np.array(shape.edge_v))
+        area = 2 * float(np.linalg.norm(normal))
+    return area * sum(scene.emission(shape.material))
+
+
+def _center(lamp: Shape) -> tuple[Array, float]:
+    """The centre of a lamp, and the mean squared distance of its points from there."""
+    if isinstance(lamp, Sphere):
+        return np.array(lamp.center, np.float64), lamp.radius**2
+    assert not isinstance(lamp, Plane)
+    u, v = np.array(lamp.edge_u, np.float64), np.array(lamp.edge_v, np.float64)
+    return np.array(lamp.corner, np.float64) + (u + v) / 2, float(u @ u + v @ v) / 12

@@ -1,0 +1,242 @@
+"""Scene + Settings -> samples on a film, step by step."""
+
+import math
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from typing import Any, Unpack
+
+import moderngl
+import numpy as np
+
+from glrt.errors import UsageError
+from glrt.gpu.context import Choice, Context, Pipeline, open_context
+from glrt.gpu.struct_arrays import Tier
+from glrt.image.image import Image
+from glrt.image.recipe import Recipe, traced
+from glrt.image.resume import fitting
+from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_for
+from glrt.rendering.display import displayed
+from glrt.rendering.film import Film
+from glrt.rendering.pipelines import resolve
+from glrt.rendering.schedule import HEADLESS, INTERACTIVE, Rhythm
+from glrt.rendering.tracer import Tracer
+from glrt.rendering.upload import Way
+from glrt.rendering.weighting import Mixer, mixed
+from glrt.scene.scene import Scene
+from glrt.settings import Cost, SettingOptions, Settings, settings_for
+from glrt.version import VERSION
+
+ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
+
+
+class Renderer:
+    """Renders a scene a few samples at a time.
+
+    A different scene or setting given to `update` restarts, or does not, by its cost class.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        settings: Settings | None = None,
+        context: Context | Choice = "auto",
+        tier: Tier = "generic",
+        pipeline: Pipeline = "auto",
+        layering: Layering = "none",
+        **overrides: Unpack[SettingOptions],
+    ) -> None:
+        """Open OpenGL, compile the kernel, allocate the film.
+
+        `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
+        "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
+        The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
+        `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
+        Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
+        """
+        if not isinstance(scene, Scene):
+            raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
+        self.scene = scene
+        self.settings = settings_for(settings or scene.render, **overrides)
+        self._owns_context = not isinstance(context, Context)
+        self.context = context if isinstance(context, Context) else open_context(context, pipeline)
+        with ExitStack() as refused:
+            if self._owns_context:
+                refused.callback(self.context.gl.release)
+            self.pipeline = resolve("compute" if layering != "none" else pipeline, self.context)
+            self.plan = plan_for(scene, self.settings, layering)
+            with self.context.gl:
+                way = Way(self.pipeline, tier, self._parts())
+                self._tracer = Tracer(self.context, self.plan, way)
+            refused.pop_all()
+        self._mixer = Mixer(self.context.gl)
+
+    @property
+    def samples(self) -> int:
+        """How many samples each pixel has."""
+        return self.film.samples
+
+    @property
+    def work(self) -> float:
+        """Samples a pixel, and the share that is done of those in the frame that has begun."""
+        return self._tracer.work
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture in pixels: of the crop, if there is one."""
+        return self.settings.size
+
+    @property
+    def film(self) -> Film:
+        """What has been gathered."""
+        return self._tracer.film
+
+    @property
+    def tier(self) -> Tier:
+        """Where the kernel that stays through edits finds its shapes."""
+        return self._tracer.uploaded.tier
+
+    @property
+    def most_samples(self) -> int:
+        """How many samples a dispatch may take."""
+        return self._tracer.most_samples
+
+    @property
+    def compile_seconds(self) -> float:
+        """What that kernel took to compile."""
+        return self._tracer.turns.compile_seconds
+
+    def weighed(self, weights: Weights) -> moderngl.Texture:
+        """The film under weights, for the display pass: until the next call, in this context."""
+        return self.film.mean if are_trivial(weights) else self._mixer.draw(self.film, weights)
+
+    def restart(self) -> None:
+        """Begin to accumulate anew."""
+        self._tracer.restart()
+
+    def update(
+        self,
+        scene: Scene | None = None,
+        layering: Layering | None = None,
+        **changes: Unpack[SettingOptions],
+    ) -> Cost | None:
+        """Go on with another scene or other settings; returns what that cost, None for nothing.
+
+        The one place where accumulation starts again. What is refused changes nothing.
+        """
+        layering = layering or self.plan.layering
+        after = scene or self.scene, settings_for(self.settings, **changes)
+        if (*after, layering) == (self.scene, self.settings, self.plan.layering):
+            return None
+        if relit := self.plan.relit(*after, layering):
+            cost = Cost.FREE if relit == self.plan else Cost.RELIGHT
+            (self.scene, self.settings), self.plan = after, relit
+            return cost
+        plan = plan_for(*after, layering)
+        with self.context.gl:
+            self._tracer, cost = self._tracer.followed_by(plan)
+        (self.scene, self.settings), self.plan = after, plan
+        return cost
+
+    def bake(self) -> bool:
+        """Go on, to the same bits, by a faster kernel that has the shapes written into it.
+
+        When a shape changes, or the place of the camera, the kernel from before goes on at once.
+        False where there is none: this one has them, or they are too many.
+        """
+        with self.context.gl:
+            return self._tracer.bake()
+
+    @property
+    def is_baked(self) -> bool:
+        """Whether the kernel that runs has the shapes written into it."""
+        return self.tier == "baked" or self._tracer.turns.is_passed
+
+    def step(self, samples: int) -> None:
+        """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
+        if not 1 <= samples <= self.most_samples:
+            raise UsageError(
+                f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
+            )
+        with self.context.gl:
+            self._tracer.step(samples)
+
+    def advance(self, seconds: float, samples: int | None = None) -> bool:
+        """Work for about `seconds`, up to `samples` samples a pixel (default: the settings').
+
+        Returns whether the picture changed: a frame, one sample of each pixel or more, may take
+        several calls. Until it is complete the picture stays as it was.
+        """
+        target = self.settings.samples if samples is None else samples
+        before, start, spent = self.samples, time.perf_counter(), 0.0
+        while self.samples < target and spent <= ENOUGH * seconds:
+            self._work(target - self.samples, INTERACTIVE, seconds - spent)
+            spent = time.perf_counter() - start
+        return self.samples != before
+
+    def render(
+        self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
+    ) -> "Renderer":
+        """Step until each pixel has `samples` in all, or `goes_on` says no.
+
+        By default, those of the settings; where there are as many already, nothing is done.
+        `goes_on` is asked after each dispatch, of which a frame may need several.
+        """
+        target = self.settings.samples if samples is None else samples
+        while self.samples < target:
+            self._work(target - self.samples, HEADLESS)
+            if goes_on and not goes_on(self):
+                break
+        return self
+
+    def image(self, weights: Weights | None = None) -> Image:
+        """The picture so far, with its standard error and its recipe; `weights` show it so."""
+        weights = weights or self.plan.weights
+        with self.context.gl:
+            radiance, stderr, gathered = mixed(self.film, weights)
+        return Image(radiance, stderr, self.samples, self._recipe(weights), gathered)
+
+    def resume(self, image: Image) -> "Renderer":
+        """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
+        gathered = fitting(image, self._recipe((ONE,)))
+        with self.context.gl:
+            self._tracer.resume(image.samples, image.radiance, gathered)
+        return self
+
+    def display(self) -> np.ndarray[Any, Any]:
+        """The picture so far through the display pass: (H, W, 3) uint8 sRGB, row 0 on top."""
+        with self.context.gl:
+            return displayed(self.context.gl, self.weighed(self.plan.weights), self.settings)
+
+    def nonfinite(self) -> int:
+        """How many samples were dropped because they were not finite."""
+        with self.context.gl:
+            return self.film.dropped()
+
+    def release(self) -> None:
+        """Free what the driver holds, the context too unless it was given."""
+        with self.context.gl:
+            self._tracer.release()
+            self._mixer.release()
+        if self._owns_context:
+            self.context.gl.release()
+
+    def _recipe(self, weights: Weights) -> Recipe:
+        return Recipe(
+            scene=self.scene,
+            settings=self.settings,
+            samples=self.samples,
+            version=VERSION,
+            renderer=self.context.renderer,
+            tier=self._tracer.tier,
+            pipeline=self.pipeline,
+            traced=traced(self.plan, weights),
+        )
+
+    def _parts(self) -> dict[str, str]:
+        """Texts that stand in for shader files."""
+        return {}
+
+    def _work(self, remaining: int, rhythm: Rhythm, seconds: float = math.inf) -> None:
+        with self.context.gl:
+            self._tracer.work_on(remaining, rhythm, seconds)

@@ -1,0 +1,197 @@
+"""How much work one dispatch takes: within the driver's loop limit and a budget of time.
+
+A frame gives every pixel some samples. Where those of every pixel take too long, its
+dispatches take a part of the picture each: tiles of 8 x 8 pixels, one work group each. They are
+numbered so that those of one dispatch lie all over the picture: each part costs about the same.
+The more samples a picture has, the more a frame adds: taken together they cost less.
+"""
+
+import math
+from itertools import count
+from typing import NamedTuple
+
+from glrt.errors import SceneError
+from glrt.gpu.glsl import read
+from glrt.gpu.structs import read_constants
+from glrt.methods.features import clusters_of, has_many_lights, has_tree, is_light
+from glrt.rendering.pack_lights import PARTS
+from glrt.scene.scene import Scene
+from glrt.settings import RenderSettings
+
+MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
+FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
+TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
+GROWTH = 4  # of the work from one dispatch to the next, at most
+MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/speed.md)
+# Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
+HIGHLIGHT_ROUNDS = 2 * (read_constants(read("ladder.glsl"))["MOST_EXPONENT"].bit_length() + 1)
+_GOLDEN = 0.618
+
+
+class Rhythm(NamedTuple):
+    """How often a render stops: to be told to end, or to show what it has."""
+
+    limit: float  # seconds that no dispatch may exceed: drivers end those of some seconds
+    share: float  # of the picture's samples: so many a frame may add, and lose if it ends early
+    patience: float  # seconds that a frame may take, if one sample takes no longer
+
+
+# Dispatches are planned for half of their limit. In a window it is edits that end a frame, which
+# begin the picture anew: nothing is lost then.
+HEADLESS = Rhythm(0.5, 1 / 8, math.inf)
+INTERACTIVE = Rhythm(0.1, 1 / 4, 1.0)
+
+
+def iterations_per_sample(
+    scene: Scene, settings: RenderSettings, tree_rounds: float = TREE_ROUNDS
+) -> int:
+    """Rounds of all loops for one sample: each segment runs over the shapes, once or twice.
+
+    At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
+    A loop over the shapes of one kind takes a round more than there are shapes: the one in which
+    it finds that there are no more. Lamps are weighed twice: for their sum, and to choose one;
+    that loop takes a round less. Of many, the parts of a cluster are weighed so too, and their
+    sum for the density of the lamp that is sampled, and of the one that is met.
+    """
+    kinds = len({shape.shape for shape in scene.objects})
+    search = len(scene.objects) + kinds
+    if has_tree(scene):
+        spheres = sum(shape.shape == "sphere" for shape in scene.objects)
+        search += round(tree_rounds * math.log2(spheres)) - spheres
+    if settings.method in ("phong", "blinn", "whitted"):
+        return 1 + _rounds_of_shading(scene, settings, search)
+    rays, choice = (1, 0) if settings.method == "naive" else (2, _rounds_of_choice(scene))
+    return 1 + (settings.bounces + 1) * (1 + rays * search + choice)
+
+
+def _rounds_of_choice(scene: Scene) -> int:
+    parts = 4 * PARTS + 2 if has_many_lights(scene) else 0
+    return 2 * clusters_of(scene) + parts
+
+
+def _rounds_of_shading(scene: Scene, settings: RenderSettings, search: int) -> int:
+    """Segments over mirrors and glass, then all lamps, each with a shadow ray or a highlight."""
+    lamps = sum(1 for shape in scene.objects if is_light(scene.materials[shape.material]))
+    if settings.method == "whitted":
+        return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
+    return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
+
+
+def most_samples(iterations: int, rounds: int | None, least: int | None = None) -> int:
+    """How many samples fit into a dispatch of so many rounds; SceneError when not even one does.
+
+    `rounds`: None for a driver that does not limit loops. `least`: the iterations of a sample that
+    are certain, if `iterations` is a guess.
+    """
+    if rounds is None:
+        return 1 << 10
+    certain = iterations if least is None else least
+    if certain > rounds:
+        raise SceneError(
+            f"the scene is beyond this driver's loop limit: one sample takes up to "
+            f"{certain} rounds of its loops (shapes x bounces), and it stops silently after "
+            f"{rounds}, with a wrong image. Use fewer objects, fewer bounces or a GPU."
+        )
+    return max(1, rounds // iterations)
+
+
+def stride_of(tiles: int) -> int:
+    """How far apart in the picture tiles with neighbouring numbers lie, in rows of tiles.
+
+    Without a common factor with `tiles`, so that `number * stride % tiles` meets each tile
+    once; and small enough for that product in 32 bits.
+    """
+    start = max(1, min(int(_GOLDEN * tiles), 2**32 // tiles - 64))
+    return next(stride for stride in count(start) if math.gcd(stride, tiles) == 1)
+
+
+class Portion(NamedTuple):
+    """What one dispatch does: `samples` samples of each pixel in tiles `first` and following."""
+
+    samples: int
+    first: int
+    tiles: int
+
+
+def whole_frame(samples: int, tiles: int) -> list[Portion]:
+    """All tiles in as few dispatches as every driver takes."""
+    starts = range(0, tiles, MOST_TILES)
+    return [Portion(samples, first, min(MOST_TILES, tiles - first)) for first in starts]
+
+
+class Schedule:
+    """Plans frames dispatch by dispatch, from what the dispatches so far took."""
+
+    def __init__(self, tiles: int, most_samples: int) -> None:
+        """`tiles` of the picture; `most_samples` that a dispatch may take."""
+        self._tiles = tiles
+        self._most = most_samples
+        self._tried = FIRST_TILES / GROWTH  # the most work so far: samples x tiles
+        self._cost = 0.0  # seconds for one tile and sample
+        self._cost_alone = 0.0  # of frames of one sample, whose lanes wait for the longest path
+        self._bounces = 0  # of the longest paths that are known
+        self.drop()
+
+    @property
+    def begun(self) -> float:
+        """Samples a pixel in the frame that is not complete, on average over the picture."""
+        return self._samples * self._done / self._tiles
+
+    def drop(self) -> None:
+        """Forget the frame that has begun: the next portion starts another."""
+        self._samples = self._done = 0
+
+    def restart(self, tiles: int, most_samples: int, bounces: int) -> None:
+        """Another picture by the same kernel: what dispatches took is worth knowing still.
+
+        Unless paths get longer: then it begins carefully.
+        """
+        if bounces > self._bounces:
+            self._tried, self._cost, self._cost_alone = FIRST_TILES / GROWTH, 0.0, 0.0
+        self._tiles, self._bounces = tiles, bounces
+        self.limit(most_samples)
+
+    def limit(self, most_samples: int) -> None:
+        """Begin the frame again: no dispatch may take more samples than these."""
+        self._most = most_samples
+        self.drop()
+
+    def next_portion(
+        self, remaining: int, seconds: float, held: int = 0, rhythm: Rhythm = HEADLESS
+    ) -> Portion:
+        """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds.
+
+        The picture has `held` samples. Of a frame that has begun, `rhythm` changes nothing.
+        """
+        if self._samples > remaining:
+            self.drop()
+        if not self._done:
+            at_once = self._fitting(seconds, self._cost) / self._tiles
+            together = min(held * rhythm.share, MOST_TOGETHER)
+            if self._cost:
+                together = min(together, rhythm.patience / (self._cost * self._tiles))
+            self._samples = max(1, min(int(max(at_once, together)), self._most, remaining))
+        left = self._tiles - self._done
+        is_alone = self._samples == 1 and self._cost_alone
+        fitting = self._fitting(seconds, self._cost_alone if is_alone else self._cost)
+        most = min(MOST_TILES, max(1, int(fitting / self._samples)))
+        dispatches = math.ceil(left / most)
+        return Portion(self._samples, self._done, math.ceil(left / dispatches))
+
+    def record(self, portion: Portion, seconds: float) -> bool:
+        """Learn from a dispatch; whether it completed the frame."""
+        work = portion.samples * portion.tiles
+        self._tried = max(self._tried, work)
+        self._cost = max(seconds, 1e-9) / work
+        if portion.samples == 1:
+            self._cost_alone = self._cost
+        self._done += portion.tiles
+        is_complete = self._done == self._tiles
+        if is_complete:
+            self.drop()
+        return is_complete
+
+    def _fitting(self, seconds: float, cost: float) -> float:
+        """The work of a dispatch of so many seconds; not much more than has been tried."""
+        most = GROWTH * self._tried
+        return min(most, seconds / cost) if cost else most

@@ -1,0 +1,177 @@
+"""A plan on the driver: its scene, its film, and the kernel between them."""
+
+import time
+from contextlib import ExitStack
+
+from glrt.gpu.context import Context
+from glrt.gpu.driver_checks import usable_rounds
+from glrt.gpu.program import tile_count
+from glrt.gpu.struct_arrays import Tier
+from glrt.image.film_state import Gathered
+from glrt.methods.light_layers import Plan
+from glrt.rendering.film import Array, Extent, Film
+from glrt.rendering.kernel_switch import AnyKernel, Turns
+from glrt.rendering.schedule import (
+    Portion,
+    Rhythm,
+    Schedule,
+    iterations_per_sample,
+    most_samples,
+    whole_frame,
+)
+from glrt.rendering.upload import Uploaded, Way
+from glrt.settings import Cost
+
+
+class Tracer:
+    """Adds the samples of a plan to a film, a dispatch at a time."""
+
+    def __init__(
+        self, context: Context, plan: Plan, way: Way, before: "Tracer | None" = None
+    ) -> None:
+        """Make what the plan needs; film and kernel are those of `before` where they serve it.
+
+        Raises SceneError for a scene beyond the driver, and RenderError. Then nothing is held, and
+        `before` has lost no more than the frame that it had begun.
+        """
+        self._context, self._plan, self._way, gl = context, plan, way, context.gl
+        self._rounds, self.most_samples = _limits(context, plan)
+        self._tiers: set[Tier] = set()  # of the kernels that added samples
+        self._tiles = tile_count(*plan.settings.size)
+        extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
+        with ExitStack() as refused:
+            self.uploaded: Uploaded = Uploaded(
+                context, plan, way, before.uploaded if before else None
+            )
+            refused.callback(self.uploaded.release)
+            if before and before.film.extent == extent:
+                self.film: Film = before.film
+            else:
+                self.film = Film(gl, extent)
+                refused.callback(self.film.release)
+            if before and self.uploaded.is_read_alike(before.uploaded):
+                self.turns: Turns = before.turns
+            else:
+                if before:
+                    before.turns.schedule.drop()  # the first dispatch writes to its frame
+                self.turns = self._compiled()
+            refused.pop_all()
+
+    def followed_by(self, plan: Plan) -> tuple["Tracer", Cost]:
+        """What traces another plan, from no sample on; of this, what does not serve it is freed.
+
+        As the constructor raises, with this as it was.
+        """
+        after = Tracer(self._context, plan, self._way, self)
+        self.uploaded.release()
+        if after.film is not self.film:
+            self.film.release()
+        after.film.restart()
+        if after.turns is not self.turns:
+            self.turns.release()
+            return after, Cost.RECOMPILE
+        if not after.uploaded.has_shapes_of(self.uploaded):
+            self.turns.take_back()
+        self.turns.schedule.restart(after._tiles, after.most_samples, plan.settings.bounces)
+        return after, Cost.RESTART
+
+    @property
+    def work(self) -> float:
+        """Samples a pixel, and the share that is done of those in the frame that has begun."""
+        return self.film.samples + self.turns.schedule.begun
+
+    @property
+    def tier(self) -> str:
+        """Where the kernel found its shapes; two places, where a driver may tell kernels apart.
+
+        Drivers of software do not: then it is that of the kernel that stays through edits.
+        """
+        if self._context.is_software or not self._tiers:
+            return self.uploaded.tier
+        return " and ".join(sorted(self._tiers))
+
+    def restart(self) -> None:
+        """Begin to accumulate anew."""
+        self.turns.schedule.drop()
+        self.film.restart()
+        self._tiers.clear()
+
+    def resume(self, samples: int, mean: Array, gathered: Gathered) -> None:
+        """Take up what another film has read, by a kernel of the same tier."""
+        self.turns.schedule.drop()
+        self.film.write(samples, mean, gathered)
+        self._tiers = {self.uploaded.tier}
+
+    def bake(self) -> bool:
+        """Go on by a kernel that has the shapes written in; False where there is none."""
+        shaders = None if self.turns.is_passed else self.uploaded.baked()
+        if shaders:
+            self.turns.pass_to(shaders, self._dispatch)
+        return shaders is not None
+
+    def step(self, samples: int) -> None:
+        """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
+        self.turns.schedule.drop()
+        target = self.film.samples + samples
+        while self.film.samples < target:
+            self._at_once(min(self.most_samples, target - self.film.samples))
+
+    def work_on(self, remaining: int, rhythm: Rhythm, seconds: float) -> None:
+        """One dispatch that the schedule plans; all those of a frame read the same source."""
+        schedule, planned = self.turns.schedule, min(seconds, rhythm.limit / 2)
+        portion = schedule.next_portion(remaining, planned, self.film.samples, rhythm)
+        start = time.perf_counter()
+        self._dispatch(self.turns.kernel, portion)
+        self._context.finish()
+        taken = time.perf_counter() - start
+        if self._fits(portion.samples) and schedule.record(portion, taken):
+            self._advance(portion.samples)
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for part in (self.film, self.turns, self.uploaded):
+            part.release()
+
+    def _compiled(self) -> Turns:
+        schedule = Schedule(self._tiles, self.most_samples)
+        return Turns(self._context, self.uploaded.shaders, schedule, self._dispatch)
+
+    def _at_once(self, samples: int) -> None:
+        """Samples of every pixel at once; none if they prove too many."""
+        for portion in whole_frame(samples, self._tiles):
+            self._dispatch(self.turns.kernel, portion)
+        self._context.finish()
+        if self._fits(samples):
+            self._advance(samples)
+
+    def _advance(self, samples: int) -> None:
+        self.film.advance(samples)
+        self._tiers.add("baked" if self.turns.is_passed else self.uploaded.tier)
+
+    def _fits(self, samples: int) -> bool:
+        """Whether no sample of this frame was lost to the loop limit, or fewer would not help.
+
+        Rays through a tree take as many rounds as they take. A frame that lost some is done again
+        with fewer samples at once; what is lost then is counted on the film.
+        """
+        if self._rounds is None or not self.uploaded.lost_any() or samples == 1:
+            return True
+        self.most_samples = samples // 2
+        self.turns.schedule.limit(self.most_samples)
+        return False
+
+    def _dispatch(self, kernel: AnyKernel, portion: Portion) -> None:
+        images, first = self.film.images(), self.film.samples
+        self.uploaded.dispatch(kernel, images, self._plan, first, portion, self._tiles)
+
+
+def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
+    """How many rounds of loops a dispatch may take, None: any; and how many samples.
+
+    SceneError if not one.
+    """
+    scene, settings = plan.scene, plan.settings
+    iterations = iterations_per_sample(scene, settings)
+    rounds = usable_rounds(context, iterations)
+    least = iterations_per_sample(scene, settings, 0)
+    return rounds, most_samples(iterations, rounds, least)

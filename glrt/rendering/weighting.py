@@ -1,0 +1,106 @@
+"""A film weighed: the picture that other intensities of its lamps give."""
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.glsl import Source
+from glrt.gpu.program import drawing
+from glrt.image.film_state import Gathered, keep, nothing_gathered
+from glrt.methods.light_layers import MOST_LAYERS, NONE, Weights, are_trivial
+from glrt.rendering.film import Array, Exposure, Film, standard_error
+
+_VERSION = "410 core"
+
+
+def mixed(film: Film, weights: Weights) -> tuple[Array, Array, Gathered | None]:
+    """Radiance and its standard error, (H, W, 3) float32 each, of a film under weights.
+
+    And what the film has gathered beside them: None if they do not tell its mean, or not alone.
+    """
+    width, height = film.size
+    radiance, error = np.empty((2, height, width, 3), np.float32)
+    is_all = are_trivial(weights) and not film.extent.layers
+    gathered = nothing_gathered(height, width) if is_all else None
+    for rows in film.bands():
+        exposure = film.read(rows)
+        radiance[rows], error[rows] = _mixed(exposure, weights)
+        if gathered:
+            keep(gathered, rows, exposure.gathered(film.samples))
+    return radiance, error, gathered
+
+
+def _mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
+    """The same of some rows.
+
+    Errors of layers are correlated. So the error of a sum is taken from the sums over two halves
+    of the observations, a and b: |a - b| sqrt(n_a n_b) / n. A pixel's is rough, of one degree of
+    freedom; that of the picture is not.
+    """
+    if are_trivial(weights):
+        return film.mean, standard_error(film)
+    factors = np.array(weights, np.float32)
+    if not film.layers.size:
+        return film.mean * factors[0], standard_error(film) * factors[0]
+    counts = film.layers[:, :1, :, :, 3:].astype(np.float64)  # halves, 1, H, W, 1
+    sums = (film.layers[..., :3] * factors[:, None, None, :]).sum(axis=1, dtype=np.float64)
+    first, second = counts[0, 0], counts[1, 0]
+    total = np.maximum(first + second, 1)
+    mean = (sums[0] * first + sums[1] * second) / total
+    error = np.abs(sums[0] - sums[1]) * np.sqrt(first * second) / total
+    error[film.observations < 2] = np.nan
+    return mean.astype(np.float32), error.astype(np.float32)
+
+
+class Mixer:
+    """The same sum on the driver, for the display pass."""
+
+    def __init__(self, gl: moderngl.Context) -> None:
+        """Nothing is compiled before it is needed."""
+        self._gl = gl
+        self._program: moderngl.Program | None = None
+        self._texture: moderngl.Texture | None = None
+
+    def draw(self, film: Film, weights: Weights) -> moderngl.Texture:
+        """A texture like the film's mean; it is valid until the next call."""
+        program = self._program or self._compile()
+        texture = self._texture
+        if texture is None or texture.size != film.size:
+            texture = self._allocate(film.size)
+        film.mean.use(0)
+        program["mean"] = 0
+        if film.layers:
+            film.layers.use(1)
+            program["layers"] = 1
+        program["layer_count"] = film.extent.layers
+        program["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
+        with self._gl.scope(self._target):
+            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
+        return texture
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._free()
+        if self._program:
+            self._quad.release()
+            self._program.release()
+
+    def _compile(self) -> moderngl.Program:
+        vertex, fragment = (
+            Source("display.vert", version=_VERSION),
+            Source("mix.frag", version=_VERSION),
+        )
+        self._program = drawing(self._gl, vertex, fragment)
+        self._quad = self._gl.vertex_array(self._program, [])
+        return self._program
+
+    def _allocate(self, size: tuple[int, int]) -> moderngl.Texture:
+        self._free()
+        self._texture = self._gl.texture(size, 4, dtype="f4")
+        self._target = self._gl.framebuffer([self._texture])
+        return self._texture
+
+    def _free(self) -> None:
+        if self._texture:
+            self._target.release()
+            self._texture.release()
+        self._texture = None

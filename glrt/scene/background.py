@@ -1,0 +1,39 @@
+"""Light that arrives from infinity."""
+
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+
+from glrt.scene.values import BLACK, Radiance
+from glrt.settings import Cost, Editable, Frozen
+
+
+class Background(Frozen):
+    """The light that arrives from infinity: one colour, or a vertical gradient."""
+
+    color: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="radiance from every direction, 0 to 1e15 each; default black",
+    )
+    bottom: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="radiance from straight below, 0 to 1e15 each; needs top",
+    )
+    top: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="radiance from straight above, 0 to 1e15 each; needs bottom",
+    )
+
+    @property
+    def gradient(self) -> tuple[Radiance, Radiance]:
+        """Radiance from straight below and from straight above, whichever way they were given."""
+        flat = self.color or BLACK
+        return (self.bottom or flat, self.top or flat)
+
+    @model_validator(mode="after")
+    def _is_given_one_way(self) -> Self:
+        if (self.bottom is None) != (self.top is None):
+            raise ValueError("bottom and top go together; give both, or color alone")
+        if self.color is not None and self.top is not None:
+            raise ValueError("color excludes bottom and top; give color alone, or both of these")
+        return self

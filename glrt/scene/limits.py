@@ -1,0 +1,145 @@
+"""What of a scene lies beyond the digits of float32, or of the model: rendered, but not to trust.
+
+docs/truth.md says how far each limit was measured.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Quad, Shape, Sphere
+from glrt.settings import Settings
+from glrt.text import number, quoted
+
+ROUNDING = 2.0**-24  # of a float32, as a share of it
+HUGE = 1e4  # heights of the camera over a ball, or radii of one that it touches, in its radius
+FINEST_PIXEL = 4 * ROUNDING  # radians: directions are known to one or two roundings
+MOST_COMPARED = 1000  # balls, the largest or the first, that are looked at with all others
+
+Floats = NDArray[np.float64]
+
+
+def cautions(scene: Scene, settings: Settings) -> list[str]:
+    """A paragraph for each limit overstepped: where, by how much, and what to do."""
+    found = (
+        _narrow_pixels(scene, settings),
+        _huge_ball(scene),
+        _crossing_glass(scene),
+        _walled_in(scene),
+    )
+    return [text for text in found if text]
+
+
+def _narrow_pixels(scene: Scene, settings: Settings) -> str:
+    angle = 2 * math.tan(math.radians(scene.camera.fov) / 2) / settings.height
+    if angle >= FINEST_PIXEL:
+        return ""
+    return (
+        f"camera.fov {number(scene.camera.fov)} at {settings.height} rows makes pixels of "
+        f"{angle:.1g} radians, finer than float32 tells directions apart ({FINEST_PIXEL:.1g}): "
+        "neighbours will be alike. Use fewer rows, or move the camera closer."
+    )
+
+
+def _huge_ball(scene: Scene) -> str:
+    """A ball's surface is known to a rounding of its radius, whatever stands before it."""
+    balls = _balls(scene)
+    ratio, worst = max(_size_ratios(scene, balls), default=(0.0, 0))
+    if ratio <= HUGE:
+        return ""
+    share = float(f"{100 * ratio * ROUNDING:.1g}")
+    return (
+        f"{_name(scene, balls[worst])}: its radius is {ratio:.1g} times the distance of the camera "
+        "from its surface, or the radius of a ball that touches it; float32 knows the surface to "
+        f"{share:g} % of that at best. Use a plane or a smaller ball."
+    )
+
+
+def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
+    """Of each large ball, its radius over the smallest thing that its surface is near to."""
+    center, radius = _places(scene, balls)
+    for ball in np.argsort(-radius)[:MOST_COMPARED]:
+        gap = np.abs(np.linalg.norm(center - center[ball], axis=1) - radius[ball])
+        touching = radius[(gap <= 2 * radius) & (np.arange(len(radius)) != ball)]
+        height = abs(float(np.linalg.norm(center[ball])) - radius[ball])
+        nearest = float(min([height, *touching]))
+        yield float(radius[ball]) / max(nearest, float(radius[ball]) * ROUNDING), int(ball)
+
+
+def _crossing_glass(scene: Scene) -> str:
+    """A ball within another is fine: `ior` is that of the inside over that of the outside."""
+    glass = [i for i in _balls(scene) if _kind(scene, i) == "dielectric"][:MOST_COMPARED]
+    first, second = next(_crossing(*_places(scene, glass)), (0, 0))
+    if first == second:
+        return ""
+    return (
+        f"{_name(scene, glass[first])} and {_name(scene, glass[second])} are glass and cross: "
+        "light that leaves one within the other is bent as if it came into air. Part them, let "
+        "them touch, or put one into the other."
+    )
+
+
+def _crossing(center: Floats, radius: Floats) -> Iterator[tuple[int, int]]:
+    """Pairs of balls whose surfaces meet in a circle, not in a point."""
+    for first in range(len(radius) - 1):
+        apart = np.linalg.norm(center[first + 1 :] - center[first], axis=1)
+        total, rest = radius[first + 1 :] + radius[first], radius[first + 1 :] - radius[first]
+        slack = 1e-6 * total  # for balls that were meant to touch
+        for second in np.flatnonzero((apart < total - slack) & (apart > np.abs(rest) + slack)):
+            yield first, first + 1 + int(second)
+
+
+def _walled_in(scene: Scene) -> str:
+    """A camera in a ball that is not glass; a lamp that may be in it too makes it a room."""
+    walls = [i for i in _balls(scene) if _kind(scene, i) != "dielectric"]
+    center, radius = _places(scene, walls)
+    around = np.flatnonzero(np.linalg.norm(center, axis=1) < radius)
+    lamps = [thing for thing in scene.objects if any(scene.emission(thing.material))]
+    for index in [walls[i] for i in around]:
+        ball = scene.objects[index]
+        assert isinstance(ball, Sphere)
+        if not any(_reaches_into(ball, lamp) for lamp in lamps):
+            return (
+                f"{_name(scene, index)}: the camera is inside this ball, which "
+                "is not glass and has no lamp inside: nothing outside is seen, and paths find no "
+                "light. Move the camera out, or put a lamp inside."
+            )
+    return ""
+
+
+def _reaches_into(ball: Sphere, lamp: Shape) -> bool:
+    """Whether some of a lamp's surface may lie in a ball, or on it; a quad is taken for a ball."""
+    middle = np.array(ball.center)
+    if isinstance(lamp, Plane):
+        normal = np.array(lamp.normal) / np.linalg.norm(lamp.normal)
+        return bool(abs((middle - lamp.point) @ normal) < ball.radius)
+    if isinstance(lamp, Quad):
+        u, v = np.array(lamp.edge_u), np.array(lamp.edge_v)
+        reach = max(np.linalg.norm(u + v), np.linalg.norm(u - v)) / 2
+        return bool(np.linalg.norm(lamp.corner + (u + v) / 2 - middle) < ball.radius + reach)
+    apart = float(np.linalg.norm(middle - lamp.center))
+    return abs(apart - lamp.radius) <= ball.radius
+
+
+def _balls(scene: Scene) -> list[int]:
+    return [index for index, thing in enumerate(scene.objects) if isinstance(thing, Sphere)]
+
+
+def _places(scene: Scene, balls: list[int]) -> tuple[Floats, Floats]:
+    """Centres relative to the camera, (n, 3), and radii, (n,)."""
+    found = [thing for i in balls if isinstance(thing := scene.objects[i], Sphere)]
+    eye = np.array(scene.camera.position, np.float64)
+    center = np.array([ball.center for ball in found], np.float64).reshape(-1, 3) - eye
+    return center, np.array([ball.radius for ball in found], np.float64)
+
+
+def _kind(scene: Scene, index: int) -> str:
+    return scene.materials[scene.objects[index].material].type
+
+
+def _name(scene: Scene, index: int) -> str:
+    name = scene.objects[index].name
+    return f"objects[{index}]" + (f" {quoted(name)}" if name else "")

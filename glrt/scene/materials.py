@@ -1,0 +1,59 @@
+"""What surfaces are made of: a frozen model for each type of material."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from glrt.scene.values import BLACK, Color, Fraction, Length, Name, Radiance, Tagged
+from glrt.settings import Cost, Editable
+
+# Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
+SMOOTHEST = 1e-8
+
+
+class Lambertian(Tagged):
+    """A matte surface that scatters alike in all directions."""
+
+    type: Literal["lambertian"] = Field("lambertian", description="the kind of material")
+    color: Color = Field(description="albedo, 0 to 1 each")
+
+
+class Metal(Tagged):
+    """A mirror, sharp or rough (GGX)."""
+
+    type: Literal["metal"] = Field("metal", description="the kind of material")
+    color: Color = Field(description="reflectance, the same at all angles, 0 to 1 each")
+    roughness: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        0.0,
+        description="from 0, a mirror, to 1; its square is the alpha of GGX",
+    )
+
+    @property
+    def alpha(self) -> float:
+        """The alpha of GGX; 0 for a mirror, and for what a float32 cannot tell from one."""
+        alpha = self.roughness**2
+        return alpha if alpha >= SMOOTHEST else 0.0
+
+
+class Dielectric(Tagged):
+    """Clear glass or liquid with exact unpolarised Fresnel reflection."""
+
+    type: Literal["dielectric"] = Field("dielectric", description="the kind of material")
+    ior: Annotated[Length, Editable(slider=(1, 3))] = Field(
+        1.5,
+        description="index of refraction, inside over outside, above 0",
+    )
+
+
+class Light(Tagged):
+    """A lamp that emits alike in all directions, from both sides of its surface."""
+
+    type: Literal["light"] = Field("light", description="the kind of material")
+    emission: Radiance = Field(description="radiance at intensity 1, 0 to 1e15 each")
+    color: Color = Field(BLACK, description="albedo of the lamp itself, 0 to 1 each")
+    group: Name | None = Field(
+        None, description="light group that it is dimmed with; default: the material's name"
+    )
+
+
+Material = Annotated[Lambertian | Metal | Dielectric | Light, Field(discriminator="type")]

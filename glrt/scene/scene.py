@@ -1,0 +1,169 @@
+"""A scene as a frozen value: what it is made of, and whether its parts fit together.
+
+The models, here and in `glrt.scene.parts`, state every default, range and meaning once; reading a
+file is the part of `glrt.scene.toml`.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Self
+
+from pydantic import Field, field_validator, model_validator
+
+from glrt.errors import SceneError
+from glrt.scene.background import Background
+from glrt.scene.camera import Camera
+from glrt.scene.materials import Dielectric, Light, Material
+from glrt.scene.shapes import Quad, Shape
+from glrt.scene.values import BLACK, LARGEST, Intensity, Name, Radiance
+from glrt.settings import Cost, Editable, Frozen, RenderSettings
+from glrt.text import number, quoted, unknown
+
+MAX_OBJECTS = 65_536
+SKY_GROUP = "background"
+
+Place = tuple[int | str, ...]
+
+
+class MisfitError(ValueError):
+    """Parts of a scene, each valid, that do not fit together: pairs of place and advice."""
+
+    def __init__(self, problems: list[tuple[Place, str]]) -> None:
+        self.problems = problems
+        super().__init__(" ".join(f"{'.'.join(map(str, at))}: {text}" for at, text in problems))
+
+
+class Scene(Frozen):
+    """Everything that a scene file says."""
+
+    title: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]*$")] | None = Field(
+        None, description="one sentence on one line, shown in the gallery"
+    )
+    format: int = Field(
+        1, description="version of the scene format: 1", json_schema_extra={"const": 1}
+    )
+    camera: Camera = Field(description="where the scene is seen from")
+    render: RenderSettings = Field(
+        RenderSettings(), description="how the scene wants to be rendered"
+    )
+    background: Background = Field(
+        Background(), description="light from infinity, of the light group `background`"
+    )
+    materials: dict[Name, Material] = Field({}, description="materials by name")
+    lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(
+        {},
+        description="intensity of light groups, a factor from 0 to 1e15, each 1 by default",
+    )
+    objects: tuple[Shape, ...] = Field(
+        (), max_length=MAX_OBJECTS, description="the shapes, at most 65,536"
+    )
+
+    @property
+    def light_groups(self) -> dict[str, float]:
+        """Intensity of every light group: those of the lamps in their order, then the sky's."""
+        return {group: self._intensity(group) for group in [*self._lamp_groups(), SKY_GROUP]}
+
+    @property
+    def background_colors(self) -> tuple[Radiance, Radiance]:
+        """Radiance from straight below and from straight above, intensity included."""
+        bottom, top = self.background.gradient
+        intensity = self._intensity(SKY_GROUP)
+        return (_scaled(bottom, intensity), _scaled(top, intensity))
+
+    def emission(self, material_name: str) -> Radiance:
+        """Radiance of a material, intensity of its group included; black for one without light."""
+        material = self.materials[material_name]
+        if not isinstance(material, Light):
+            return BLACK
+        return _scaled(material.emission, self._intensity(material.group or material_name))
+
+    def _intensity(self, group: str) -> float:
+        return self.lights.get(group, 1.0)
+
+    def _lamp_groups(self) -> Iterator[str]:
+        for name, material in self.materials.items():
+            if isinstance(material, Light):
+                yield material.group or name
+
+    @field_validator("format")
+    @classmethod
+    def _is_known_format(cls, value: int) -> int:
+        if value != 1:
+            raise ValueError("must be 1, the only format that this version of glrt reads")
+        return value
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        problems = [*_object_problems(self), *_light_problems(self), *_emptiness(self)]
+        if problems:
+            raise MisfitError(problems)
+        return self
+
+
+def with_lights(scene: Scene, intensities: Mapping[str, float]) -> Scene:
+    """The scene with other intensities of some light groups.
+
+    Raises `SceneError` for a group that the scene lacks and for an intensity out of range.
+    """
+    groups = sorted(scene.light_groups)
+    for group, intensity in intensities.items():
+        if group not in groups:
+            raise SceneError(f"Lights: {unknown('light group', group, groups)}")
+        if not 0 <= intensity <= LARGEST:
+            raise SceneError(
+                f"The intensity of light group {quoted(group)} must be a number from 0 to "
+                f"{number(LARGEST)}, got {number(intensity)}."
+            )
+    lights = scene.lights | {group: float(value) for group, value in intensities.items()}
+    relit = scene.model_copy(update={"lights": lights})
+    for place, text in _light_problems(relit):
+        raise SceneError(f"Light group {quoted(str(place[1]))}: {text}.")
+    return relit
+
+
+def _scaled(color: Radiance, factor: float) -> Radiance:
+    return (color[0] * factor, color[1] * factor, color[2] * factor)
+
+
+def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
+    missing: set[str] = set()
+    for index, item in enumerate(scene.objects):
+        material = scene.materials.get(item.material)
+        if material is None and item.material not in missing:
+            missing.add(item.material)  # named once, where it is used first
+            advice = unknown("material", item.material, sorted(scene.materials))
+            yield ("objects", index, "material"), advice
+        if isinstance(material, Dielectric) and isinstance(item, Quad):
+            yield ("objects", index), _GLASS_ADVICE
+
+
+def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
+    groups = scene.light_groups
+    for name, material in scene.materials.items():
+        if not isinstance(material, Light):
+            continue
+        group = material.group or name
+        if group == SKY_GROUP:
+            yield ("materials", name, "group"), _SKY_ADVICE
+        if max(scene.emission(name)) > LARGEST:
+            yield ("lights", group), _too_bright(f"emission of material {quoted(name)}")
+    for group in scene.lights:
+        if group not in groups:
+            yield ("lights", group), unknown("light group", group, sorted(groups))
+    if max(map(max, scene.background_colors)) > LARGEST:
+        yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
+
+
+_GLASS_ADVICE = "a quad has no inside, so it cannot be dielectric; use a sphere or a plane"
+_SKY_ADVICE = (
+    "must not be 'background', the light group of the sky; give the lamp a group of its own, so "
+    "that each can be dimmed without the other"
+)
+
+
+def _too_bright(what: str) -> str:
+    return f"the intensity times the {what} must be at most {number(LARGEST)}; lower one of them"
+
+
+def _emptiness(scene: Scene) -> Iterator[tuple[Place, str]]:
+    if not scene.objects and not any(map(any, scene.background.gradient)):
+        yield (), "there is nothing to see: add an object, or a background that is not black"

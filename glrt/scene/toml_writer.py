@@ -1,0 +1,136 @@
+"""A scene as a TOML file, on request with the comments, order and formatting of another one."""
+
+import json
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from glrt.errors import SceneError, UsageError
+from glrt.files import write_whole
+from glrt.scene.scene import Scene
+from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.settings import RenderSettings, Settings
+
+MOST_LETTERS = 500_000  # of a file, which takes seconds: beyond, its comments go
+
+Table = Mapping[str, Any]
+
+
+def scene_with(scene: Scene, settings: Settings) -> Scene:
+    """The scene with these settings as its own wishes."""
+    wishes = {name: getattr(settings, name) for name in RenderSettings.model_fields}
+    return scene.model_copy(update={"render": RenderSettings(**wishes)})
+
+
+def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
+    """Write a file that `read_scene` reads back as the same scene.
+
+    `model` is a scene file whose comments, order and formatting it is to have; returns whether that
+    could be. It appears whole or not at all: raises `RenderError` if it cannot be written.
+    """
+    text = _with_comments(_text(model), scene) if model else None
+    plain = "\n".join(toml_lines(scene_to_dict(scene))).strip() + "\n"
+    content = (plain if text is None else text).encode("utf-8")
+    write_whole(path, lambda file: _write(file, content))
+    return text is not None
+
+
+def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:
+    """The lines of a table: its values, then its tables, then its lists of tables."""
+    for key, value in table.items():
+        if not isinstance(value, Mapping) and not _is_list_of_tables(value):
+            yield f"{_key(key)} = {_value(value)}"
+    for key, value in table.items():
+        name = ".".join(map(_key, (*path, key)))
+        if isinstance(value, Mapping):
+            lines = list(toml_lines(value, (*path, key)))
+            yield from (["", f"[{name}]", *lines] if lines and lines[0] else lines)
+        elif _is_list_of_tables(value):
+            for item in value:
+                yield from ("", f"[[{name}]]", *toml_lines(item, (*path, key)))
+
+
+def _is_list_of_tables(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(item, Mapping) for item in value)
+
+
+def _key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "a").replace("-", "a").isalnum()
+    return key if bare else _value(key)
+
+
+def _value(value: Any) -> str:
+    """A number, a truth, a text or a list of them; JSON's texts are TOML's."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _text(path: Path) -> str:
+    """Of a file, with the ends of its lines; of one that is no text, something that is no scene."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return "?"
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.write_bytes(content)
+
+
+def _with_comments(text: str, scene: Scene) -> str | None:
+    """The text of a scene file, made to say `scene`; None where that cannot be done.
+
+    What has not changed stands as it did. UsageError if the library for that is not installed.
+    """
+    if len(text) > MOST_LETTERS:
+        return None
+    try:
+        before = parse_scene(tomllib.loads(text), "")
+        new = _changed(text, scene_to_dict(before), scene_to_dict(scene))
+        return new if parse_scene(tomllib.loads(new), "") == scene else None
+    except (ValueError, SceneError):
+        return None
+
+
+def _changed(text: str, before: Table, after: Table) -> str:
+    """ValueError if the library cannot make the change."""
+    try:
+        import tomlkit
+    except ModuleNotFoundError:
+        raise UsageError(
+            "keeping the comments of a scene file needs the Python package tomlkit: type `pip "
+            "install 'glrt[view]'`, or save under another name."
+        ) from None
+    try:
+        document = tomlkit.parse(text)
+        _follow(document, before, after)
+        return tomlkit.dumps(document)
+    except (LookupError, TypeError, AttributeError) as error:  # ways to write TOML are many
+        raise ValueError(str(error)) from error
+
+
+def _follow(table: Any, before: Table, after: Table) -> None:
+    """Make the same changes to a table of the document as lead from one table to another."""
+    for key in before.keys() - after.keys():
+        table.pop(key, None)
+    for key, value in after.items():
+        old = before.get(key)
+        if value == old:
+            continue
+        if isinstance(value, dict):
+            _follow(table.setdefault(key, {}), old or {}, value)
+        elif key in table and isinstance(old, list) and len(old) == len(value):
+            _follow_items(table[key], old, value)
+        else:
+            table[key] = value
+
+
+def _follow_items(items: Any, before: list[Any], after: list[Any]) -> None:
+    """The same for a list, whose items may be tables."""
+    for index, (old, value) in enumerate(zip(before, after, strict=True)):
+        if isinstance(value, dict) and value != old:
+            _follow(items[index], old, value)
+        elif value != old:
+            items[index] = value

@@ -1,0 +1,237 @@
+"""What is wrong with a scene, in the words of someone who writes scene files.
+
+pydantic says what does not validate, in its own terms; here its reports become sentences.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeGuard
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from glrt.scene.background import Background
+from glrt.scene.camera import Camera
+from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
+from glrt.scene.scene import MisfitError, Place, Scene
+from glrt.scene.shapes import Plane, Quad, Sphere
+from glrt.scene.values import SMALLEST
+from glrt.settings import RenderSettings
+from glrt.text import nearest, number, shortened, unknown
+
+MOST_PROBLEMS_NAMED = 3
+
+_TABLES: dict[str, type[BaseModel]] = {
+    "camera": Camera,
+    "render": RenderSettings,
+    "background": Background,
+}
+_KINDS: dict[str, dict[str, type[BaseModel]]] = {
+    "materials": {
+        "lambertian": Lambertian,
+        "metal": Metal,
+        "dielectric": Dielectric,
+        "light": Light,
+    },
+    "objects": {"sphere": Sphere, "plane": Plane, "quad": Quad},
+}
+
+
+def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
+    """A sentence for each of the first problems, and the number of the others."""
+    problems = _problems(error)
+    for place, detail in problems[:MOST_PROBLEMS_NAMED]:
+        path = _path(place[:-1] if _is_extra(detail) else place, data)
+        text = detail if isinstance(detail, str) else _wording(place, detail)
+        separator = " " if text.startswith(("must ", "is ")) else ": "
+        yield sentence(path + separator + text if path else text)
+    others = len(problems) - MOST_PROBLEMS_NAMED
+    if others > 0:
+        yield f"There {'is 1 other problem' if others == 1 else f'are {others} other problems'}."
+
+
+def sentence(text: str) -> str:
+    """The text with a full stop, unless it ends with a mark of its own."""
+    return text if text.endswith((".", "?")) else text + "."
+
+
+def _problems(error: ValidationError) -> list[tuple[Place, ErrorDetails | str]]:
+    """What is wrong, each place once: ready advice, or details that are still to be worded."""
+    found: dict[Place, ErrorDetails | str] = {}
+    for detail in error.errors(include_url=False):
+        cause = detail.get("ctx", {}).get("error")
+        if isinstance(cause, MisfitError):
+            found.update(cause.problems)
+        else:
+            found.setdefault(_place(detail), detail)
+    return _without_consequences(found)
+
+
+def _without_consequences(
+    found: dict[Place, ErrorDetails | str],
+) -> list[tuple[Place, ErrorDetails | str]]:
+    """A misspelt key is one problem: the right key, missing for that reason, is not another."""
+    meant = {
+        (*place[:-1], nearest(str(place[-1]), _keys(detail)))
+        for place, detail in found.items()
+        if _is_extra(detail)
+    }
+    return [(place, detail) for place, detail in found.items() if place not in meant]
+
+
+def _place(detail: ErrorDetails) -> Place:
+    """Keys and indices from the top of the file, without the tags that pydantic mixes in."""
+    place: Place = detail["loc"]
+    if place[-1:] == ("[key]",) or _is_short_vector(detail):
+        place = place[:-1]
+    if place[:1] in (("objects",), ("materials",)):
+        place = place[:2] + place[3:]
+    if detail["type"].startswith("union_tag"):
+        place = (*place, detail["ctx"]["discriminator"].strip("'"))
+    return place
+
+
+def _is_short_vector(detail: ErrorDetails) -> bool:
+    return detail["type"] == "missing" and isinstance(detail["loc"][-1], int)
+
+
+def _is_extra(detail: ErrorDetails | str) -> TypeGuard[ErrorDetails]:
+    return not isinstance(detail, str) and detail["type"] == "extra_forbidden"
+
+
+def _model(location: Place) -> type[BaseModel]:
+    """The model that a key belongs to, by the location that pydantic gives it."""
+    table = str(location[0])
+    if len(location) == 1:
+        return Scene
+    return _KINDS[table][str(location[2])] if table in _KINDS else _TABLES[table]
+
+
+def _keys(detail: ErrorDetails) -> tuple[str, ...]:
+    return tuple(_model(detail["loc"]).model_fields)
+
+
+def _path(place: Place, data: Mapping[str, Any]) -> str:
+    """A place as users write it: objects[2] ("left ball").radius."""
+    path = ""
+    for depth, step in enumerate(place):
+        if isinstance(step, int):
+            path += f"[{step}]" + (_object_name(data["objects"][step]) if depth == 1 else "")
+        else:
+            key = step if re.fullmatch(r"[\w-]{1,60}", step) else f'"{shortened(step)}"'
+            path += f".{key}" if path else key
+    return path
+
+
+def _object_name(item: Any) -> str:
+    name = item.get("name") if isinstance(item, Mapping) else None
+    return f' ("{shortened(name)}")' if isinstance(name, str) else ""
+
+
+def _plain(place: Place, detail: ErrorDetails) -> str:
+    shown = f", got {_shown(detail['input'])}"
+    if detail["type"] not in _PLAIN or place in _HEADINGS:
+        return _HEADINGS.get(place, "must be a table") + shown
+    limits = {key: _shown(limit) for key, limit in detail.get("ctx", {}).items()}
+    subject = "its name " if detail["loc"][-1] == "[key]" else ""
+    return subject + _PLAIN[detail["type"]].format(**limits) + shown
+
+
+_PLAIN = {
+    "int_type": "must be a whole number",
+    "float_type": "must be a number",
+    "finite_number": "must be a finite number",
+    "string_type": "must be text in quotes",
+    "string_too_short": "must not be empty",
+    "string_pattern_mismatch": "must be one line, without control characters",
+    "greater_than": "must be greater than {gt}",
+    "greater_than_equal": "must be at least {ge}",
+    "less_than": "must be less than {lt}",
+    "less_than_equal": "must be at most {le}",
+    "tuple_type": "must be a list of three numbers",
+}
+_HEADINGS: dict[Place, str] = {
+    (): "a scene must be a table",
+    ("camera",): "must be a table headed [camera]",
+    ("render",): "must be a table headed [render]",
+    ("background",): "must be a table headed [background]",
+    ("lights",): "must be a table headed [lights]",
+    ("materials",): "must be a table of tables, each headed [materials.NAME]",
+    ("objects",): "must be a list of tables, each headed [[objects]]",
+}
+
+
+def _own_words(_place: Place, detail: ErrorDetails) -> str:
+    return str(detail["ctx"]["error"])
+
+
+def _missing(place: Place, detail: ErrorDetails) -> str:
+    if _is_short_vector(detail):
+        return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
+    description = _model(detail["loc"]).model_fields[str(place[-1])].description
+    return f"is missing; add it: {description}"
+
+
+def _missing_kind(place: Place, _detail: ErrorDetails) -> str:
+    return f"is missing; it must be one of: {', '.join(_KINDS[str(place[0])])}"
+
+
+def _too_long(place: Place, detail: ErrorDetails) -> str:
+    if place != ("objects",):
+        return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
+    return f"must be at most {detail['ctx']['max_length']:,} shapes, got {len(detail['input']):,}"
+
+
+def _too_small(place: Place, detail: ErrorDetails) -> str:
+    if detail["ctx"]["ge"] == SMALLEST and detail["input"] <= 0:
+        return f"must be greater than 0, got {_shown(detail['input'])}"
+    return _plain(place, detail)
+
+
+def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
+    model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
+    owner = f"[{table}]" if table in _TABLES else f"a {model.__name__.lower()}"
+    text = unknown("key", key, model.model_fields, f"Keys of {owner}")
+    if model is not Scene and key in Scene.model_fields:
+        text += f" The {key} of the scene itself must stand above the first [table]."
+    return text
+
+
+def _unknown_choice(place: Place, detail: ErrorDetails) -> str:
+    key, context, value = str(place[-1]), detail["ctx"], detail["input"]
+    choices = re.findall(r"'([^']*)'", context.get("expected_tags") or context["expected"])
+    word = value[key] if detail["type"] == "union_tag_invalid" else value
+    if not isinstance(word, str):
+        return f"must be one of: {', '.join(choices)}, got {_shown(word)}"
+    return unknown(key, word, choices, "It must be one of")
+
+
+_WORDINGS: dict[str, Callable[[Place, ErrorDetails], str]] = {
+    "value_error": _own_words,
+    "missing": _missing,
+    "union_tag_not_found": _missing_kind,
+    "too_long": _too_long,
+    "greater_than_equal": _too_small,
+    "extra_forbidden": _unknown_key,
+    "union_tag_invalid": _unknown_choice,
+    "literal_error": _unknown_choice,
+}
+
+
+def _wording(place: Place, detail: ErrorDetails) -> str:
+    return _WORDINGS.get(detail["type"], _plain)(place, detail)
+
+
+def _shown(value: Any) -> str:
+    """A value of a scene file, short enough for a message."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int):
+        return str(value) if abs(value) < 10**20 else "a number of more than 20 digits"
+    if isinstance(value, float):
+        return number(value)
+    if isinstance(value, str):
+        return f'"{shortened(value)}"'
+    if isinstance(value, list | tuple):
+        return f"a list of {len(value)}"
+    return "a table" if isinstance(value, Mapping) else f"a {type(value).__name__}"

@@ -1,0 +1,45 @@
+"""Words and numbers of the user in messages: short, on one line, with the nearest known word."""
+
+from collections.abc import Iterable
+from functools import lru_cache
+
+
+def number(value: float) -> str:
+    """A number for a message, as short as a user would write it and never rounded."""
+    short = f"{value:g}"
+    return short.replace("e+", "e") if float(short) == value else repr(value)
+
+
+def shortened(text: str) -> str:
+    """Text of the user, fit for a message: short, on one line."""
+    printable = "".join(letter if letter.isprintable() else " " for letter in text)
+    return printable if len(printable) <= 60 else printable[:57] + "..."
+
+
+def quoted(word: str) -> str:
+    """A word of the user, fit for a message, in quotes."""
+    return f"'{shortened(word)}'"
+
+
+@lru_cache(maxsize=64)  # a mistake often repeats in thousands of objects
+def nearest(word: str, known: tuple[str, ...]) -> str | None:
+    """The known word that the user probably meant, if any comes near."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.lower(), known, n=1)
+    return near[0] if near else None
+
+
+def unknown(kind: str, word: str, known: Iterable[str], owner: str = "The scene has") -> str:
+    """Advice about a word that is none of the known ones: the nearest of them, and them all."""
+    names = tuple(known)
+    near = nearest(word, names)
+    question = f"; did you mean {quoted(near)}?" if near else "."
+    shown = ", ".join(shortened(name) for name in names[:12])
+    rest = f" and {len(names) - 12} more" if len(names) > 12 else ""
+    return f"unknown {kind} {quoted(word)}{question} {owner}: {shown or 'none'}{rest}."
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things in words: no lamps, 1 lamp, 2 lamps."""
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

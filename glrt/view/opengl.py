@@ -1,0 +1,72 @@
+"""The OpenGL context of the window, as moderngl wants it; and whether a window can be had."""
+
+import ctypes
+import os
+import sys
+from typing import Any
+
+from imgui_bundle import imgui  # noqa: F401 - first: glfw then is the library that it brings
+
+import glfw  # isort: skip
+import moderngl
+
+from glrt.errors import ContextError
+from glrt.gpu.context import COMPUTE, FRAGMENT, Context, Pipeline
+
+INSTEAD = "Use `glrt render`, which needs none; `glrt doctor` tells which OpenGL works here."
+
+
+class WindowLoader:
+    """What moderngl asks for: functions by name. The window's context is always current."""
+
+    def load_opengl_function(self, name: str) -> int:
+        """The address of an OpenGL function, 0 if there is none."""
+        return ctypes.cast(glfw.get_proc_address(name), ctypes.c_void_p).value or 0
+
+    def __enter__(self) -> "WindowLoader":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Stay current."""
+
+    def release(self) -> None:
+        """The window owns the context."""
+
+
+def wrap_window() -> Context:
+    """The context of the window that is open."""
+    loader: Any = WindowLoader()
+    return Context(moderngl.create_context(require=FRAGMENT, context=loader), "window")
+
+
+def window_version(pipeline: Pipeline = "auto") -> int:
+    """The version of OpenGL to open a window with: 430, with compute shaders, else 410.
+
+    Raises ContextError if no window can be opened, or none that the pipeline can do with.
+    """
+    problems: list[str] = []
+    report: Any = glfw.set_error_callback
+    report(lambda _code, message: problems.append(os.fsdecode(message).strip()))
+    versions = (COMPUTE,) if pipeline == "compute" else (COMPUTE, FRAGMENT)
+    version = next(filter(_opens, versions), None) if glfw.init() else None
+    glfw.terminate()
+    report(None)
+    if version is None:
+        needed = versions[-1] / 100
+        reason = "; ".join(dict.fromkeys(problems)) or "no reason given"
+        raise ContextError(f"no window with OpenGL {needed} can be opened: {reason}. {INSTEAD}")
+    return version
+
+
+def _opens(version: int) -> bool:
+    major, minor = divmod(version // 10, 10)
+    glfw.window_hint(glfw.VISIBLE, glfw.FALSE)
+    glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, sys.platform == "darwin")  # macOS insists on it
+    glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, major)
+    glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, minor)
+    glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+    window = glfw.create_window(16, 16, "glrt", None, None)
+    if not window:
+        return False
+    glfw.destroy_window(window)
+    return True

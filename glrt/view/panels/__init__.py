@@ -1,0 +1,15 @@
+"""What the user sees and edits, drawn by Dear ImGui.
+
+Modules, each importing only what stands above it:
+
+- widgets: a widget for each kind of control
+- legend: what false colours mean
+- plots: figures and the error over time
+- gizmo: handles of the selected object
+- key_table: keys, and the choice of others
+- compare: what is shown, and the kept picture
+- objects: the selected object and its material
+- files: open and save
+- panel: all subjects of the panel
+- viewport: the picture, the mouse and the keys
+"""

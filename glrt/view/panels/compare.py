@@ -1,0 +1,42 @@
+"""The parts of the panel that choose what is shown, and keep a picture to compare with."""
+
+from typing import get_args
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.settings import Cost
+from glrt.view.app import App
+from glrt.view.panels.widgets import button, edited
+from glrt.view.state.controls import Control
+from glrt.view.viewport.views import HELP, View
+
+VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, get_args(View))
+_MOST = "the difference, relative to the kept picture, that has the strongest colour"
+MOST = Control("strongest", "number", _MOST, Cost.FREE, "1", 0.001, 10.0, (0.01, 2.0))
+
+
+def draw_view(app: App) -> None:
+    """Which view of the render is shown."""
+    view = edited(VIEW, app.show.view)
+    if view is not None:
+        app.show.view = view
+    if app.show.view == "difference":
+        most = edited(MOST, app.show.most)
+        app.show.most = app.show.most if most is None else most
+
+
+def draw_compare(app: App) -> None:
+    """Keep a picture; wipe between it and what comes, or see the difference."""
+    show = app.show
+    if button("keep this picture", bool(app.picture.name)):
+        app.keep()
+    imgui.same_line()
+    if button("forget it", show.kept is not None):
+        show.forget()
+    if not show.kept:
+        return
+    imgui.set_next_item_width(hello_imgui.em_size(9.5))
+    _, show.wipe = imgui.slider_float("wipe", show.wipe, 0.0, 1.0, "%.2f")
+    _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
+    if is_difference != (show.view == "difference"):
+        show.view = "difference" if is_difference else "picture"

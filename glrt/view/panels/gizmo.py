@@ -1,0 +1,44 @@
+"""The handles that move and scale the selected object."""
+
+from imgui_bundle import imgui
+from imgui_bundle.imguizmo import im_guizmo
+
+from glrt.view.app import App
+from glrt.view.viewport.transform import (
+    moved_to,
+    object_matrix,
+    projection_matrix,
+    view_matrix,
+    with_object,
+)
+
+
+def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -> None:
+    """Over the picture, which fills this rectangle of the screen; edits the selected object."""
+    shape = app.selected_shape
+    if shape is None:
+        return
+    settings = app.session.settings
+    im_guizmo.begin_frame()
+    im_guizmo.set_drawlist()
+    im_guizmo.set_rect(left, top, width, height)
+    matrix = im_guizmo.Matrix16(object_matrix(shape))
+    scales = im_guizmo.OPERATION.scale if shape.shape != "plane" else im_guizmo.OPERATION.translate
+    operation = scales if imgui.get_io().key_shift else im_guizmo.OPERATION.translate
+    changed = im_guizmo.manipulate(
+        im_guizmo.Matrix16(view_matrix(app.camera)),
+        im_guizmo.Matrix16(projection_matrix(app.camera, settings.width / settings.height)),
+        operation,
+        im_guizmo.MODE.world,
+        matrix,
+    )
+    if changed and app.selected is not None:
+        index, values = app.selected, matrix.values
+        app.edit_scene(
+            f"object {index}", lambda scene: with_object(scene, index, moved_to(shape, values))
+        )
+
+
+def is_held(app: App) -> bool:
+    """Whether the mouse is at the handles of the selected object, and not at the camera."""
+    return app.selected_shape is not None and bool(im_guizmo.is_using() or im_guizmo.is_over())

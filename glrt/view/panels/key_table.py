@@ -1,0 +1,118 @@
+"""The part of the panel that shows the keys, and lets the user choose others."""
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.errors import GlrtError
+from glrt.view.app import App
+from glrt.view.panels.widgets import button
+from glrt.view.state import keys
+from glrt.view.state.controls import replaced
+from glrt.view.state.keys import Action
+
+_MOUSE = {  # in the picture
+    "left drag": "turn about the pivot; in fly mode, look around",
+    "right drag": "look around; in fly mode, turn about the pivot",
+    "middle drag": "shift",
+    "wheel": "nearer and farther",
+    "click": "select; handles then move, with Shift they scale",
+    "Alt, click": "focus on that point",
+    "double click": "make that point the pivot",
+}
+
+
+def draw_key_table(app: App) -> None:
+    """What the mouse does, and a row for each action of the keys.
+
+    A click on a key waits for another one.
+    """
+    for gesture, meaning in _MOUSE.items():
+        imgui.text(gesture)
+        imgui.same_line(hello_imgui.em_size(7))
+        imgui.text_wrapped(meaning)
+    imgui.separator_text("click a key to change it")
+    if imgui.begin_table("keys", 2):
+        imgui.table_setup_column("action", imgui.TableColumnFlags_.width_fixed.value)
+        imgui.table_setup_column("keys", imgui.TableColumnFlags_.width_stretch.value)
+        for action, chords in app.preferences.bindings.items():
+            imgui.table_next_column()
+            imgui.align_text_to_frame_padding()
+            imgui.text(keys.MEANING[action])
+            imgui.table_next_column()
+            _row(app, action, chords)
+        imgui.end_table()
+    if button("reset keys", app.preferences.bindings != keys.DEFAULTS):
+        app.prefer(replaced(app.preferences, bindings=keys.DEFAULTS))
+
+
+def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
+    """The keys of an action, and a button for one more."""
+    for index, chord in enumerate((*chords, "")):
+        text = keys.label(chord) if chord else "+"
+        if index:
+            _beside(text)
+        if app.awaited == (action, index):
+            _waiting(app, action, chords)
+        elif imgui.button(f"{text}##{action} {index}"):
+            app.awaited = (action, index)
+        imgui.set_item_tooltip("Click, then press a key" if chord else "One more key")
+
+
+def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
+    assert app.awaited
+    index = app.awaited[1]
+    if imgui.button("press a key##awaited"):
+        app.awaited = None
+    if index < len(chords):
+        _beside("remove")
+        if imgui.button("remove##awaited"):
+            _bind(app, action, (*chords[:index], *chords[index + 1 :]))
+
+
+def _beside(text: str) -> None:
+    """Go on in this line if a button with this text has room there."""
+    imgui.same_line()
+    width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
+
+
+def is_choosing(app: App) -> bool:
+    """Take the key that is waited for; whether keys mean nothing else now.
+
+    So they do until they are let go: the new key of a step must not make one.
+    """
+    if app.awaited:
+        _catch(app)
+    elif app.is_deaf:
+        app.is_deaf = any(imgui.is_key_down(key_named(name)) for name in keys.NAMES)
+    return app.awaited is not None or app.is_deaf
+
+
+def key_named(name: str) -> imgui.Key:
+    """The key as Dear ImGui has it."""
+    return imgui.Key[f"_{name}" if name.isdigit() else name]
+
+
+def _catch(app: App) -> None:
+    assert app.awaited
+    action, index = app.awaited
+    if imgui.is_key_pressed(imgui.Key.escape):
+        app.awaited, app.is_deaf = None, True
+        return
+    io = imgui.get_io()
+    held = {"ctrl": io.key_ctrl, "shift": io.key_shift, "alt": io.key_alt}
+    for name in keys.NAMES:
+        if imgui.is_key_pressed(key_named(name), repeat=False):
+            chords = app.preferences.bindings[action]
+            _bind(app, action, (*chords[:index], keys.chord(name, held), *chords[index + 1 :]))
+            return
+
+
+def _bind(app: App, action: Action, chords: tuple[str, ...]) -> None:
+    """Take other keys; those that clash are told, and the old ones stay."""
+    app.awaited, app.is_deaf = None, True
+    try:
+        bindings = {**app.preferences.bindings, action: chords}
+        app.prefer(replaced(app.preferences, bindings=bindings))
+    except GlrtError as error:
+        app.complain(str(error).removeprefix("bindings: "))

@@ -1,0 +1,54 @@
+"""What false colours mean: a bar of them with its numbers, over the picture."""
+
+from imgui_bundle import ImVec2, hello_imgui, imgui
+
+from glrt.rendering.false_colors import Color, Scale
+from glrt.view.state.error_history import Look
+from glrt.view.viewport.overlay import Show
+from glrt.view.viewport.views import TITLES, ticks_of
+
+_BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
+_TEXT = (1.0, 1.0, 1.0, 1.0)
+_TALLEST = 1.0  # of the bar, in heights of the text
+
+
+def draw_legend(show: Show, last: Look | None, corner: ImVec2, width: float) -> None:
+    """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
+    title = TITLES[show.drawn]
+    if show.drawn == "dropped" and last and not last.nonfinite:
+        title = "no sample was dropped"
+    _draw(title, show.scale, ticks_of(show.drawn, show.scale), corner, width)
+
+
+def _draw(title: str, scale: Scale, ticks: dict[float, str], corner: ImVec2, width: float) -> None:
+    painter, em = imgui.get_window_draw_list(), hello_imgui.em_size(1)
+    line = imgui.get_text_line_height()
+    length = min(width - 4 * em, 20 * em)
+    size = ImVec2(length + 4 * em, 4.2 * line)
+    low = corner + ImVec2(0, -size.y)
+    painter.add_rect_filled(low, low + size, _code(_BACK))
+    painter.add_text(low + ImVec2(1.5 * em, 0.4 * line), _code(_TEXT), title)
+    bar = low + ImVec2(2 * em, 1.6 * line)
+    _draw_bar(scale, bar, ImVec2(length, _TALLEST * line))
+    for number, name in ticks.items():
+        place = bar + ImVec2(float(scale.share(number)) * length, _TALLEST * line)
+        painter.add_line(place, place + ImVec2(0, 0.2 * line), _code(_TEXT))
+        text = ImVec2(-imgui.calc_text_size(name).x / 2, 0.2 * line)
+        painter.add_text(place + text, _code(_TEXT), name)
+
+
+def _draw_bar(scale: Scale, at: ImVec2, size: ImVec2) -> None:
+    painter, steps = imgui.get_window_draw_list(), len(scale.colors) - 1
+    for number, (left, right) in enumerate(zip(scale.colors, scale.colors[1:], strict=False)):
+        start = at + ImVec2(number * size.x / steps, 0)
+        end = at + ImVec2((number + 1) * size.x / steps, size.y)
+        first, last = _opaque(left), _opaque(right)
+        painter.add_rect_filled_multi_color(start, end, first, last, last, first)
+
+
+def _opaque(color: Color) -> int:
+    return _code((*color, 1.0))
+
+
+def _code(color: tuple[float, float, float, float]) -> int:
+    return int(imgui.get_color_u32(color))

@@ -1,0 +1,114 @@
+"""The part of the panel that edits the selected object and its material."""
+
+from collections import Counter
+from functools import partial
+from typing import Any
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.scene.materials import Material
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Shape
+from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.widgets import edited_fields
+from glrt.view.state.controls import Control, controls_of, replaced
+from glrt.view.viewport import pick
+from glrt.view.viewport.transform import with_object
+
+_NONE = "nothing"
+
+
+def draw_object(app: App) -> None:
+    """Which object is selected, its shape and its material."""
+    _chooser(app)
+    shape = app.selected_shape
+    if shape is None or app.selected is None:
+        imgui.text_disabled("click an object in the picture")
+        return
+    _buttons(app, shape)
+    _shape(app, app.selected, shape)
+    _material(app, app.selected, shape)
+
+
+def _chooser(app: App) -> None:
+    """A list of all objects, of which those in sight are drawn: there may be thousands."""
+    objects, index = app.session.scene.objects, app.selected
+    row = 0 if app.selected_shape is None or index is None else index + 1
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    if not imgui.begin_combo("object", _row(objects, row)):
+        return
+    clipper = imgui.ListClipper()
+    clipper.begin(len(objects) + 1)
+    clipper.include_item_by_index(row)
+    while clipper.step():
+        for number in range(clipper.display_start, clipper.display_end):
+            imgui.push_id(number)
+            if imgui.selectable(_row(objects, number), number == row)[0]:
+                app.selected = number - 1 if number else None
+            if number == row and imgui.is_window_appearing():
+                imgui.set_item_default_focus()
+            imgui.pop_id()
+    imgui.end_combo()
+
+
+def _row(objects: tuple[Shape, ...], number: int) -> str:
+    """Of the list, whose first row is no object."""
+    return _name(number - 1, objects[number - 1]) if number else _NONE
+
+
+def _name(index: int, shape: Shape) -> str:
+    return f"{index}: {shape.name or shape.shape + ' of ' + shape.material}"
+
+
+def _buttons(app: App, shape: Shape) -> None:
+    if imgui.button("frame"):
+        app.frame_selected()
+    imgui.same_line()
+    if imgui.button("focus here"):
+        app.focus_on(pick.middle(shape))
+    imgui.same_line()
+    imgui.text_disabled("Shift scales")
+
+
+def _shape(app: App, index: int, shape: Shape) -> None:
+    changes = edited_fields(controls_of(type(shape)), dict(shape), f"shape {index}")
+    if changes:
+        app.edit_scene(f"object {index} {list(changes)}", partial(_reshaped, index, changes))
+
+
+def _reshaped(index: int, changes: dict[str, Any], scene: Scene) -> Scene:
+    return with_object(scene, index, replaced(scene.objects[index], **changes))
+
+
+def _material(app: App, index: int, shape: Shape) -> None:
+    scene, name = app.session.scene, shape.material
+    names = list(scene.materials)
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    chosen, which = imgui.combo("material", names.index(name), names)
+    if chosen:
+        app.edit_scene("", partial(_reshaped, index, {"material": names[which]}))
+        return
+    sharing = _uses(scene.objects)[name]
+    imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s)")
+    material = scene.materials[name]
+    changes = edited_fields(_controls(material), dict(material), f"material {name}")
+    if changes:
+        app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
+
+
+@kept_for_the_same
+def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
+    """How many objects each material is of."""
+    return Counter(shape.material for shape in objects)
+
+
+def _controls(material: Material) -> tuple[Control, ...]:
+    """Emission stands with the light groups."""
+    return controls_of(type(material), leave_out=("emission",))
+
+
+def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
+    """The scene with other values of a material."""
+    material = replaced(scene.materials[name], **changes)
+    return replaced(scene, materials={**scene.materials, name: material})

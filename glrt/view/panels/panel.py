@@ -1,0 +1,226 @@
+"""The panel: every setting and every value of the scene that a user tunes, by subject."""
+
+from functools import partial
+from typing import Any
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.methods.light_layers import MOST_LAYERS
+from glrt.scene.background import Background
+from glrt.scene.camera import Camera
+from glrt.scene.materials import Light
+from glrt.scene.scene import SKY_GROUP, Scene, with_lights
+from glrt.settings import Settings
+from glrt.view.app import App
+from glrt.view.panels.compare import draw_compare, draw_view
+from glrt.view.panels.files import draw_files
+from glrt.view.panels.key_table import draw_key_table
+from glrt.view.panels.objects import draw_object, with_material
+from glrt.view.panels.widgets import button, edited, edited_fields, legend
+from glrt.view.state.controls import Control, control_of_items, controls_of, replaced
+from glrt.view.state.preferences import Preferences
+from glrt.view.state.session import Session
+
+SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
+PATHS = ("method", "sampler", "roulette", "seed")
+DISPLAY = ("exposure", "tonemap")
+FRAME = ("width", "height")
+CAMERA = {c.name: c for c in controls_of(Camera)}
+INTENSITY = control_of_items(Scene, "lights")
+EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
+BACKGROUND = {c.name: c for c in controls_of(Background)}
+PREFERENCES = controls_of(Preferences)
+FREE_SAMPLES = ("samples_per_frame", "target_error")
+
+_OPEN = imgui.TreeNodeFlags_.default_open.value
+_LIVE = (
+    "Keep the light of each bounce apart: then fewer bounces than traced cost no sample, and each "
+    "can be shown alone. Turning it on or off begins the picture anew; meanwhile a change of a "
+    "lamp restarts."
+)
+_NO_ROOM = (
+    "At this size there is no room to keep the light of each lamp or bounce apart: a change of "
+    "light begins the picture anew. A smaller frame has room."
+)
+_RED = (0.95, 0.35, 0.35, 1.0)
+
+
+def draw_panel(app: App) -> None:
+    """The content of the window that holds the controls."""
+    _problem(app)
+    _commands(app)
+    for title, section, flags in _SECTIONS:
+        if imgui.collapsing_header(title, flags):
+            section(app)
+
+
+def _problem(app: App) -> None:
+    """What went wrong, above everything else: the panel goes up to it when it comes."""
+    is_new = app.session.problem != app.shown_problem
+    app.shown_problem = app.session.problem
+    if not app.session.problem:
+        return
+    if is_new:
+        imgui.set_scroll_y(0.0)
+    imgui.push_style_color(imgui.Col_.text, _RED)
+    imgui.text_wrapped(app.session.problem)
+    imgui.pop_style_color()
+    if imgui.button("dismiss"):
+        app.session.problem = ""
+
+
+def _commands(app: App) -> None:
+    session = app.session
+    if imgui.button("go on" if session.paused else "pause"):
+        session.paused = not session.paused
+    imgui.same_line()
+    if imgui.button("restart"):
+        session.restart()
+    imgui.same_line()
+    if button("undo", session.history.can_undo):
+        session.undo()
+    imgui.same_line()
+    if button("redo", session.history.can_redo):
+        session.redo()
+
+
+def _lights(app: App) -> None:
+    """A slider for each group, and the colours of its lamps."""
+    scene = app.session.scene
+    if app.session.lacks_room:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_disabled(_NO_ROOM)
+        imgui.pop_text_wrap_pos()
+    for group, intensity in scene.light_groups.items():
+        if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
+            continue
+        imgui.separator_text(group)
+        control = INTENSITY.named("intensity").costing(app.session.cost_of_light(group))
+        new = edited(control, intensity, group)
+        if new is not None:
+            app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
+        for name, material in scene.materials.items():
+            if isinstance(material, Light) and (material.group or name) == group:
+                _emission(app, name, material)
+
+
+def _emission(app: App, name: str, material: Light) -> None:
+    cost = app.session.cost_of_light(material.group or name, is_tint=True)
+    color = edited(EMISSION.costing(cost), material.emission, name)
+    if color is not None:
+        app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
+
+
+def _with_camera(scene: Scene, **changes: Any) -> Scene:
+    return replaced(scene, camera=replaced(scene.camera, **changes))
+
+
+def _with_background(scene: Scene, **colors: Any) -> Scene:
+    return replaced(scene, background=replaced(Background(), **colors))
+
+
+def _paths(app: App) -> None:
+    session = app.session
+    bounces = SETTINGS["bounces"].costing(session.cost_of_fewer_bounces())
+    _edit(app, edited_fields((bounces,), dict(session.settings)))
+    if session.pipeline == "compute":
+        _, session.by_length = imgui.checkbox("bounces live", session.by_length)
+        imgui.set_item_tooltip(_LIVE)
+    if session.layering == "lengths":
+        _lengths(session)
+    _settings(app, PATHS)
+
+
+def _lengths(session: Session) -> None:
+    """Show the light of one length of paths alone."""
+    last = min(session.settings.bounces, MOST_LAYERS - 1)
+    rest = f"{last} and more" if session.settings.bounces > last else f"{last}"
+    names = ["all light", *[f"bounce {n} alone" for n in range(last)], f"bounce {rest} alone"]
+    chosen = 0 if session.alone is None else min(session.alone, last) + 1
+    imgui.set_next_item_width(hello_imgui.em_size(9.5))
+    _, chosen = imgui.combo("shown", chosen, names)
+    session.alone = chosen - 1 if chosen else None
+
+
+def _samples(app: App) -> None:
+    _settings(app, ("samples",))
+    _preferences(app, [c for c in PREFERENCES if c.name in FREE_SAMPLES])
+
+
+def _camera(app: App) -> None:
+    camera = app.camera
+    values = {**dict(camera), "focus_distance": camera.resolved_focus_distance}
+    names = ("fov", "focus_distance", "defocus_angle", "position", "look_at")
+    changes = edited_fields(tuple(CAMERA[name] for name in names), values)
+    if changes:
+        app.edit_scene(f"camera {list(changes)}", partial(_with_camera, **changes))
+    if camera.focus_distance is not None and imgui.button("focus on look at"):
+        app.edit_scene("", partial(_with_camera, focus_distance=None))
+    if imgui.button("home"):
+        app.home()
+    _preferences(app, [c for c in PREFERENCES if c.name in ("mode",)])
+
+
+def _display(app: App) -> None:
+    _settings(app, DISPLAY)
+    draw_view(app)
+
+
+def _background(app: App) -> None:
+    """One colour, or a gradient from bottom to top."""
+    background = app.session.scene.background
+    bottom, top = background.gradient
+    is_gradient = background.top is not None
+    names = ("bottom", "top") if is_gradient else ("color",)
+    values: dict[str, Any] = {"color": bottom, "bottom": bottom, "top": top}
+    changes = edited_fields(tuple(BACKGROUND[name] for name in names), values, "background")
+    if changes:
+        kept = {name: values[name] for name in names}
+        app.edit_scene("background", partial(_with_background, **{**kept, **changes}))
+    pressed, wanted = imgui.checkbox("gradient", is_gradient)
+    if pressed:
+        other: dict[str, Any] = {"color": top} if not wanted else {"bottom": bottom, "top": top}
+        app.edit_scene("", partial(_with_background, **other))
+
+
+def _frame(app: App) -> None:
+    _settings(app, FRAME)
+
+
+def _window(app: App) -> None:
+    shown = [c for c in PREFERENCES if c.name not in ("mode", *FREE_SAMPLES)]
+    _preferences(app, shown)
+    imgui.separator_text("what an edit costs")
+    legend()
+
+
+def _settings(app: App, names: tuple[str, ...]) -> None:
+    _edit(app, edited_fields(tuple(SETTINGS[n] for n in names), dict(app.session.settings)))
+
+
+def _edit(app: App, changes: dict[str, Any]) -> None:
+    if changes:
+        app.session.edit(gesture=f"{list(changes)}", **changes)
+
+
+def _preferences(app: App, controls: list[Control]) -> None:
+    changes = edited_fields(tuple(controls), dict(app.preferences), "preference")
+    if changes:
+        with app.telling():
+            app.prefer(replaced(app.preferences, **changes))
+
+
+_SECTIONS = (
+    ("Light", _lights, _OPEN),
+    ("Paths", _paths, _OPEN),
+    ("Samples", _samples, _OPEN),
+    ("Display", _display, _OPEN),
+    ("Camera", _camera, _OPEN),
+    ("Object", draw_object, _OPEN),
+    ("Compare", draw_compare, _OPEN),
+    ("Background", _background, 0),
+    ("Frame", _frame, 0),
+    ("Files", draw_files, 0),
+    ("Mouse and keys", draw_key_table, 0),
+    ("Window", _window, 0),
+)

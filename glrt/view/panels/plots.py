@@ -1,0 +1,140 @@
+"""The figures of a render: how far, how fast, how sure, and when it is good enough."""
+
+import math
+
+import numpy as np
+from imgui_bundle import ImVec2, hello_imgui, imgui, implot
+
+from glrt.methods.features import explain
+from glrt.methods.light_layers import Plan
+from glrt.settings import MAX_SAMPLES, Settings
+from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
+from glrt.view.state.error_history import Look, Progress
+
+_MOST_TICKS = 5  # of an axis: more run into each other
+_BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
+
+
+def draw_figures(app: App) -> None:
+    """The content of the window below the picture."""
+    columns = 2 if imgui.get_content_region_avail().x > hello_imgui.em_size(_BESIDE) else 1
+    if imgui.begin_table("figures", columns, imgui.TableFlags_.sizing_stretch_same.value):
+        imgui.table_next_column()
+        for line in figures(app):
+            imgui.text(line)
+        _kernel(app)
+        imgui.table_next_column()
+        _plot(app)
+        imgui.end_table()
+
+
+def figures(app: App) -> list[str]:
+    """What is known of the picture, line by line."""
+    session, progress = app.session, app.progress
+    width, height = session.renderer.size if session.renderer else (0, 0)
+    work = session.renderer.work if session.renderer else 0.0
+    rate = work * width * height / max(session.rendering, 1e-9)
+    preview = " (coarse while it moves)" if session.is_preview else ""
+    lines = [
+        f"{session.samples} of {session.settings.samples} samples{preview}",
+        f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
+        f"error {_banded(progress.last, session.settings)}",
+        forecast(progress, app.preferences.target_error, session.settings.samples),
+    ]
+    if progress.last and progress.last.nonfinite:
+        lines.append(f"{progress.last.nonfinite:,} samples were not finite, and are left out")
+    return lines
+
+
+def forecast(progress: Progress, target: float, samples: int) -> str:
+    """When the error will be small enough, and whether a render of so many samples gets there."""
+    seconds, needed = progress.remaining(target), progress.samples_to(target)
+    if seconds is None or needed is None:
+        return f"{_percent(target)} at a time not known yet"
+    if seconds == 0:
+        return f"{_percent(target)} is reached"
+    if needed > MAX_SAMPLES:
+        return f"{_percent(target)} takes more samples than a picture holds"
+    more = f": raise samples to {needed:,}" if needed > samples else ""
+    return f"{_percent(target)} in about {_duration(seconds)} of rendering{more}"
+
+
+def _banded(look: Look | None, settings: Settings) -> str:
+    """The error, and the band that chance leaves it: to as many digits as tell its ends apart."""
+    if look is None:
+        return f"estimated from {2 * settings.block} samples on"
+    error, low, high = (100 * part for part in look.band)
+    if not 0 < high - low < math.inf:
+        return f"{error:.2g} %, estimated"
+    digits = min(max(0, 1 - math.floor(math.log10(high - low))), 4)
+    return f"{error:.{digits}f} % ({low:.{digits}f} to {high:.{digits}f}), estimated"
+
+
+def _percent(error: float | None) -> str:
+    return "not known yet" if error is None else f"{100 * error:.2g} %"
+
+
+def _duration(seconds: float) -> str:
+    units = (("days", 86400), ("hours", 3600), ("minutes", 60))
+    for name, unit in units:
+        if seconds >= 2 * unit:
+            return f"{seconds / unit:.0f} {name}"
+    return f"{seconds:.0f} s"
+
+
+def _kernel(app: App) -> None:
+    """What the kernel contains, and what draws it."""
+    session = app.session
+    if not session.renderer:
+        return
+    inside, left_out = _contents(session.renderer.plan)
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_disabled(f"{session.pipeline} kernel: {inside}")
+    imgui.set_item_tooltip(f"left out\n{left_out}")
+    baked = "; the kernel of a scene at rest" if session.renderer.is_baked else ""
+    imgui.text_disabled(f"{session.renderer.context.renderer}{baked}")
+    imgui.pop_text_wrap_pos()
+
+
+@kept_for_the_same
+def _contents(plan: Plan) -> tuple[str, str]:
+    """What a kernel contains; and what it does not, with the reasons."""
+    features = explain(plan.scene, plan.settings)
+    inside = ", ".join(feature.name for feature in features if feature.present)
+    layers = f"; {plan.layers} layers" if plan.layers else ""
+    left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
+    return f"{inside}{layers}", left_out
+
+
+def _plot(app: App) -> None:
+    """Error over seconds, both logarithmic, and the line of slope -1/2 that noise follows."""
+    looks = app.progress.drawn
+    size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
+    if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
+        return
+    implot.setup_legend(implot.Location_.east.value, implot.LegendFlags_.outside.value)
+    implot.setup_axes("seconds of rendering", "error")
+    implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
+    implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
+    limits = app.progress.limits()
+    for axis, ticks in (
+        (implot.ImAxis_.x1, {tick: f"{tick:g}" for tick in _ticks(*limits[:2])}),
+        (implot.ImAxis_.y1, {tick: f"{100 * tick:g} %" for tick in _ticks(*limits[2:])}),
+    ):
+        implot.setup_axis_ticks(axis.value, list(ticks), list(ticks.values()))
+    implot.setup_axes_limits(*limits, implot.Cond_.always.value)
+    if len(looks) > 1:
+        seconds = np.array([look.seconds for look in looks])
+        implot.plot_line("error", seconds, np.array([look.error for look in looks]))
+        along, down = app.progress.slope()
+        implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
+    implot.end_plot()
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """1, 2, 5 and so on between limits; powers of ten alone where those are many."""
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    fine, coarse = ([share * 10.0**p for p in powers for share in s] for s in ((1, 2, 5), (1,)))
+    inside = [tick for tick in fine if low <= tick <= high]
+    return inside if len(inside) <= _MOST_TICKS else [t for t in coarse if low <= t <= high]

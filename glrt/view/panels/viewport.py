@@ -1,0 +1,189 @@
+"""The picture in its window, and the mouse and the keys that move the camera."""
+
+import math
+import time
+
+from imgui_bundle import ImVec2, imgui
+
+from glrt.view.app import App, Rectangle
+from glrt.view.panels.gizmo import draw_gizmo, is_held
+from glrt.view.panels.key_table import is_choosing, key_named
+from glrt.view.panels.legend import draw_legend
+from glrt.view.state.keys import Action, Move
+
+_AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
+    "forward": (0, 0, 1),
+    "back": (0, 0, -1),
+    "left": (-1, 0, 0),
+    "right": (1, 0, 0),
+    "up": (0, 1, 0),
+    "down": (0, -1, 0),
+}
+_LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
+_EVERY_BUTTON = int(
+    imgui.ButtonFlags_.mouse_button_left
+    | imgui.ButtonFlags_.mouse_button_right
+    | imgui.ButtonFlags_.mouse_button_middle
+)
+_ANY_POPUP = int(imgui.PopupFlags_.any_popup)
+_NOTICE = (0.0, 0.0, 0.0, 0.65)
+
+
+def fitted(room: tuple[float, float], size: tuple[int, int]) -> Rectangle:
+    """Where a picture of a size lies, as large as fits and in the middle of the room."""
+    scale = min(room[0] / size[0], room[1] / size[1])
+    width, height = max(1.0, scale * size[0]), max(1.0, scale * size[1])
+    return ((room[0] - width) / 2, (room[1] - height) / 2, width, height)
+
+
+def draw_viewport(app: App) -> None:
+    """The content of the window that holds the picture."""
+    settings = app.session.settings
+    room = imgui.get_content_region_avail()
+    left, top, width, height = fitted((room.x, room.y), (settings.width, settings.height))
+    corner = imgui.get_cursor_screen_pos() + ImVec2(left, top)
+    app.rectangle = (corner.x, corner.y, width, height)
+    if app.picture.name:
+        imgui.set_cursor_screen_pos(corner)
+        texture = imgui.ImTextureRef(app.picture.name)
+        imgui.image(texture, ImVec2(width, height), uv0=(0, 1), uv1=(1, 0))  # OpenGL's row 0 is low
+    is_wiped = bool(app.picture.kept_name) and app.show.drawn == "picture"
+    if is_wiped:
+        _wipe(app)
+    draw_gizmo(app, corner.x, corner.y, width, height)
+    if not is_held(app):  # a button below the handles would keep the mouse from them
+        if is_wiped:
+            _wipe_handle(app)
+        imgui.set_cursor_screen_pos(corner)
+        imgui.invisible_button("picture", ImVec2(width, height), _EVERY_BUTTON)
+        x, y = imgui.get_io().mouse_pos
+        _mouse(app)
+        _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
+    if app.show.drawn != "picture":
+        draw_legend(app.show, app.progress.last, corner + ImVec2(0, height), width)
+    notices = app.show.notice(app.session), app.recent_message(time.perf_counter())
+    for line, notice in enumerate(filter(None, notices)):
+        _notice(notice, corner + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+
+
+def _wipe(app: App) -> None:
+    """The kept picture over the left part, and the line where it ends."""
+    left, top, width, height = app.rectangle
+    share = app.show.wipe
+    painter, edge = imgui.get_window_draw_list(), math.floor(left + share * width) + 0.5
+    texture = imgui.ImTextureRef(app.picture.kept_name)
+    painter.add_image(texture, (left, top), (edge, top + height), (0, 1), (share, 0))
+    black, white = (imgui.get_color_u32((c, c, c, 1.0)) for c in (0.0, 1.0))
+    for color, thickness in ((black, 3.0), (white, 1.0)):  # seen on any picture
+        painter.add_line((edge, top), (edge, top + height), color, thickness)
+    for name, x in (("A", edge - imgui.get_font_size() * 1.6), ("B", edge)):
+        _notice(name, ImVec2(x, top + height - imgui.get_font_size() * 2.4))
+
+
+def _wipe_handle(app: App) -> None:
+    """Takes the mouse near the line, to drag it."""
+    left, top, width, height = app.rectangle
+    grip = imgui.get_font_size() * 0.7
+    imgui.set_cursor_screen_pos(ImVec2(left + app.show.wipe * width - grip / 2, top))
+    imgui.invisible_button("wipe", ImVec2(grip, height))
+    if imgui.is_item_hovered() or imgui.is_item_active():
+        imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ew.value)
+    if imgui.is_item_active():
+        share = (imgui.get_io().mouse_pos.x - left) / width
+        app.show.wipe = min(max(share, 0.0), 1.0)
+
+
+def draw_keys(app: App) -> None:
+    """Act on the keys; not while a text is typed, a list is open, or a key is chosen."""
+    io = imgui.get_io()
+    if io.want_text_input or imgui.is_popup_open("", _ANY_POPUP) or is_choosing(app):
+        return
+    seconds = min(io.delta_time, _LONGEST_STEP)
+    held = [axis for action, axis in _AXES.items() if _is_held(app, action)]
+    if held:
+        right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
+        app.walk(right, up, forward, seconds)
+    if _is_pressed(app, "home"):
+        app.home()
+    if _is_pressed(app, "frame"):
+        app.frame_selected()
+    if _is_pressed(app, "pause"):
+        app.session.paused = not app.session.paused
+    if _is_pressed(app, "undo"):
+        app.session.undo()
+    if _is_pressed(app, "redo"):
+        app.session.redo()
+    if _is_pressed(app, "save"):
+        app.save()
+    if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
+        app.session.history.settle()
+
+
+def _mouse(app: App) -> None:
+    """Left drags by the mode, right the other way, middle shifts; the wheel dollies."""
+    io = imgui.get_io()
+    if imgui.is_item_hovered() and io.mouse_wheel:
+        app.wheel(io.mouse_wheel)
+    if imgui.is_item_activated():  # in a slow frame the way to the button's press is in it, too
+        return
+    if not imgui.is_item_active() or (io.mouse_delta.x == 0 and io.mouse_delta.y == 0):
+        return
+    across, down = io.mouse_delta.x / io.display_size.x, io.mouse_delta.y / io.display_size.y
+    if imgui.is_mouse_down(imgui.MouseButton_.middle):
+        app.shift(across, down)
+    else:
+        is_right = imgui.is_mouse_down(imgui.MouseButton_.right)
+        app.turn(across, down, about_camera=(app.preferences.mode == "fly") != is_right)
+
+
+def _clicks(app: App, share: tuple[float, float]) -> None:
+    """A click selects, with Alt it focuses; a double click sets the pivot."""
+    left = imgui.MouseButton_.left.value
+    if not imgui.is_item_hovered() or imgui.is_mouse_dragging(left):
+        return
+    if imgui.is_mouse_double_clicked(left):
+        if picked := app.pick(*share):
+            app.turn_about(picked.point)
+    elif imgui.is_mouse_released(left) and not _was_dragged():
+        picked = app.pick(*share)
+        if picked and imgui.get_io().key_alt:
+            app.focus_on(picked.point)
+        else:
+            app.selected = picked.number if picked else None
+
+
+def _was_dragged() -> bool:
+    moved = imgui.get_io().mouse_drag_max_distance_sqr[0]
+    return bool(moved > imgui.get_io().mouse_drag_threshold ** 2)
+
+
+def _notice(text: str, corner: ImVec2) -> None:
+    """A line of text over the picture."""
+    margin = ImVec2(imgui.get_font_size() * 0.6, imgui.get_font_size() * 0.4)
+    painter, at = imgui.get_window_draw_list(), corner + margin
+    painter.add_rect_filled(
+        at, at + imgui.calc_text_size(text) + margin + margin, imgui.get_color_u32(_NOTICE), 4.0
+    )
+    painter.add_text(at + margin, imgui.get_color_u32((1.0, 1.0, 1.0, 1.0)), text)
+
+
+def _is_held(app: App, action: Action) -> bool:
+    """Whether a key without modifiers is down."""
+    if imgui.get_io().key_ctrl:
+        return False
+    return any(imgui.is_key_down(key_named(name)) for name in app.preferences.bindings[action])
+
+
+def _is_pressed(app: App, action: Action) -> bool:
+    return any(
+        imgui.is_key_chord_pressed(_chord(name)) for name in app.preferences.bindings[action]
+    )
+
+
+def _chord(name: str) -> int:
+    """ "ctrl+shift+z" as Dear ImGui has it."""
+    *modifiers, key = name.split("+")
+    chord = key_named(key).value
+    for modifier in modifiers:
+        chord |= imgui.Key[f"mod_{modifier}"].value
+    return int(chord)

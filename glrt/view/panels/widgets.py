@@ -1,0 +1,177 @@
+"""Widgets for controls: a value in, the edited value out, and what an edit costs beside it."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.settings import Cost
+from glrt.view.state.controls import MEANING, Control
+
+# Hue tells the classes apart in both themes; the word stands beside it.
+COLORS = {
+    Cost.FREE: (0.30, 0.66, 0.36, 1.0),
+    Cost.RELIGHT: (0.30, 0.58, 0.90, 1.0),
+    Cost.RESTART: (0.85, 0.58, 0.13, 1.0),
+    Cost.RECOMPILE: (0.88, 0.36, 0.36, 1.0),
+}
+_MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
+_NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
+_LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
+
+
+def edited(control: Control, value: Any, name: str = "") -> Any:
+    """Draw the widget of a control; the new value, or None if it was not touched.
+
+    `name` distinguishes controls of one label: those of two lamps, say.
+    """
+    label = f"{control.label}##{name}" if name else control.label
+    imgui.set_next_item_width(_width_beside(control.label))
+    changed, new = _draw(control, label, value)
+    tooltip(control)
+    _tag(control.cost)
+    return _clamped(control, new) if changed else None
+
+
+def button(label: str, is_enabled: bool = True) -> bool:
+    """A button, grey where it would do nothing; whether it was pressed."""
+    imgui.begin_disabled(not is_enabled)
+    pressed = imgui.button(label)
+    imgui.end_disabled()
+    return pressed
+
+
+def tooltip(control: Control) -> None:
+    """Tell what the item drawn last does, and what it costs."""
+    help_text = control.help[:1].upper() + control.help[1:]
+    unit = f" [{control.unit}]" if control.unit else ""
+    imgui.set_item_tooltip(f"{help_text}{unit}\n{control.cost.value}: {MEANING[control.cost]}")
+
+
+def legend() -> None:
+    """What the classes of cost mean."""
+    for cost, meaning in MEANING.items():
+        imgui.text_colored(COLORS[cost], cost.value)
+        imgui.same_line(hello_imgui.em_size(5.5))
+        imgui.text_wrapped(meaning)
+
+
+def _tag(cost: Cost) -> None:
+    """At the right edge; where the label reaches that far, behind it."""
+    end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
+    imgui.same_line(max(end, _tags_start()))
+    imgui.text_colored(COLORS[cost], cost.value)
+
+
+def _tags_start() -> float:
+    """Where the widest tag still ends before the scroll bar, from the window's left edge."""
+    style = imgui.get_style()
+    widest = max(imgui.calc_text_size(cost.value).x for cost in Cost)
+    return imgui.get_window_width() - style.scrollbar_size - style.window_padding.x - widest
+
+
+def _width_beside(label: str) -> float:
+    """The width of a widget that leaves room for its label and its tag."""
+    beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
+    room = _tags_start() - imgui.get_cursor_pos_x() - beside
+    usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
+    return max(hello_imgui.em_size(3.5), min(usual, room))
+
+
+def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.kind == "switch":
+        return imgui.checkbox(label, value)
+    if control.kind == "choice":
+        changed, index = imgui.combo(label, control.choices.index(value), list(control.choices))
+        return changed, control.choices[index]
+    if control.kind == "color":
+        return _color(control, label, value)
+    if control.kind == "vector":
+        changed, parts = imgui.drag_float3(label, list(value), 0.01, format="%.3f")
+        return changed, tuple(parts)
+    return _number(control, label, value)
+
+
+def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.high is None or control.high > 1:
+        return _radiance(label, value)
+    changed, parts = imgui.color_edit3(label, list(value), imgui.ColorEditFlags_.float.value)
+    return changed, tuple(parts)
+
+
+def _radiance(label: str, value: Any) -> tuple[bool, Any]:
+    """Three numbers of any size, and a patch of their hue; a click on it chooses another hue."""
+    name, brightest = label.partition("##")[0], max(*value, 0.0) or 1.0
+    patch, room = imgui.get_frame_height(), imgui.get_style().item_inner_spacing.x
+    imgui.push_id(label)
+    imgui.begin_group()
+    imgui.set_next_item_width(imgui.calc_item_width() - patch - room)
+    changed, parts = imgui.drag_float3(
+        f"##{name}", list(value), 0.005 * brightest, 0.0, 0.0, "%.3g"
+    )
+    imgui.same_line(0.0, room)
+    if hue := _hue([part / brightest for part in value]):
+        changed, parts = True, [brightest * part for part in hue]
+    imgui.same_line(0.0, room)
+    imgui.text(name)
+    imgui.end_group()
+    imgui.pop_id()
+    return changed, tuple(parts)
+
+
+def _hue(hue: list[float]) -> list[float] | None:
+    """A patch of a colour, and what is picked after a click on it: its largest part is 1."""
+    if imgui.color_button("hue", [*hue, 1.0], _NO_TOOLTIP):
+        imgui.open_popup("picker")
+    picked = False
+    if imgui.begin_popup("picker"):
+        picked, hue = imgui.color_picker3("##picker", hue, imgui.ColorEditFlags_.float.value)
+        imgui.end_popup()
+    return [part / max(*hue, 1e-6) for part in hue] if picked else None
+
+
+def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """A slider over the range worth dragging; Ctrl and a click take any valid number."""
+    flags = _LOGARITHMIC if control.is_logarithmic else 0
+    if control.slider is None:
+        return _free_number(control, label, value)
+    low, high = control.slider
+    if control.kind == "integer":
+        return imgui.slider_int(label, value, int(low), int(high), flags=flags)
+    return imgui.slider_float(label, value, float(low), float(high), "%.3g", flags)
+
+
+def _free_number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.kind == "integer":
+        return _typed_integer(label, value)
+    return imgui.drag_float(label, value, max(abs(value) * 0.005, 1e-6), format="%.4g")
+
+
+def _typed_integer(label: str, value: int) -> tuple[bool, int]:
+    """A text box: the integers of Dear ImGui end at 2^31."""
+    flags = imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
+    changed, text = imgui.input_text(label, str(value), int(flags))
+    digits = text[:_MOST_DIGITS]
+    return changed and text.isdecimal(), int(digits) if digits.isdecimal() else value
+
+
+def _clamped(control: Control, value: Any) -> Any:
+    """The nearest valid value: one that was typed may be anything."""
+    if isinstance(value, tuple):
+        return tuple(_clamped(control, part) for part in value)
+    if isinstance(value, bool | str):
+        return value
+    low = -math.inf if control.low is None else control.low
+    high = math.inf if control.high is None else control.high
+    near = max(low, min(value, high))
+    return int(near) if isinstance(value, int) else float(str(np.float32(near)))
+
+
+def edited_fields(
+    controls: tuple[Control, ...], values: Mapping[str, Any], name: str = ""
+) -> dict[str, Any]:
+    """Draw the widgets of several fields; those that were edited, with their new values."""
+    drawn = {c.name: edited(c, values[c.name], name) for c in controls}
+    return {field: value for field, value in drawn.items() if value is not None}

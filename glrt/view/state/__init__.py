@@ -1,0 +1,17 @@
+"""Values and pure functions behind the window; nothing here draws.
+
+Modules, each importing only what stands above it:
+
+- controls: what a widget must know of a value
+- keys: names of keys and what they mean
+- preferences: what a user wants of any window
+- history: undo and redo
+- preview_size: how coarsely a moving camera is shown
+- frame_budget: how long a frame may render
+- layer_limits: whether a driver has room for layers
+- idle_compile: a kernel compiled ahead by another process
+- idle_kernel: when the faster kernel takes over
+- session: the scene, its settings and the renderer that follows them
+- reference_image: the picture kept to compare with
+- error_history: how the error falls, and when it is small enough
+"""

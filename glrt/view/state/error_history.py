@@ -1,0 +1,113 @@
+"""How the error falls while a picture is rendered, and when it will be small enough."""
+
+import math
+from collections.abc import Hashable
+from typing import NamedTuple
+
+import numpy as np
+
+from glrt.error.estimate import Band, error_band
+from glrt.methods.light_layers import Weights
+from glrt.rendering.film import Film
+from glrt.rendering.weighting import mixed
+
+GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
+PAUSE = 0.5  # seconds between two looks, at least
+MARGIN = 1.6  # factor beyond the looks that a plot of them shows: its square is more than 5 / 2
+EMPTY = (0.1, 100.0, 0.01, 1.0)  # the limits of a plot that has no line yet
+
+
+class Look(NamedTuple):
+    """What is known of a picture after some samples and seconds of rendering."""
+
+    samples: int
+    seconds: float
+    band: Band  # of the relative error
+    mean: float = 1.0  # radiance, over pixels and channels
+    nonfinite: int = 0  # samples that were dropped
+
+    @property
+    def error(self) -> float:
+        """The estimated relative error."""
+        return self.band.error
+
+
+def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
+    """Read a film as its light is weighed; None for one that knows no error yet."""
+    radiance, stderr, _ = mixed(film, weights)
+    band = error_band(radiance, stderr)
+    if band is None:
+        return None
+    mean = float(radiance.mean(dtype=np.float64))
+    return Look(film.samples, seconds, band, mean, film.dropped())
+
+
+class Progress:
+    """Looks at one picture, from its first sample on."""
+
+    def __init__(self) -> None:
+        """No look yet."""
+        self.looks: list[Look] = []
+        self._picture: Hashable = None
+        self._looked = 0.0
+
+    def is_due(self, picture: Hashable, samples: int, now: float, is_done: bool = False) -> bool:
+        """Whether to look at the error now; another picture forgets the looks at the one before.
+
+        `picture` tells pictures apart: it changes with each restart, and each change of light. One
+        that `is_done` is looked at once more: its error is that of all its samples.
+        """
+        if picture != self._picture:
+            self._picture, self.looks = picture, []
+        least = GROWTH * self.looks[-1].samples if self.looks else 2
+        if is_done and self.looks:
+            least = self.looks[-1].samples + 1
+        return samples >= least and now - self._looked >= PAUSE
+
+    def record(self, look: Look | None, now: float) -> None:
+        """Remember a look, and when it was, whether it told anything or not."""
+        self._looked = now
+        self.looks += [look] if look else []
+
+    @property
+    def last(self) -> Look | None:
+        """The last look."""
+        return self.looks[-1] if self.looks else None
+
+    @property
+    def drawn(self) -> list[Look]:
+        """The looks that logarithmic axes have a place for: a black picture has no error."""
+        return [look for look in self.looks if 0 < look.error < math.inf and look.seconds > 0]
+
+    def remaining(self, target: float) -> float | None:
+        """Seconds of rendering to an error, which falls with the root of time; None if unknown."""
+        if not self.looks:
+            return None
+        last = self.looks[-1]
+        return max(0.0, last.seconds * ((last.error / target) ** 2 - 1))
+
+    def samples_to(self, target: float) -> int | None:
+        """Samples to an error, to two digits upwards; None if unknown."""
+        if not self.looks:
+            return None
+        needed = self.looks[-1].samples * (self.looks[-1].error / target) ** 2
+        unit = int(10 ** max(0, math.floor(math.log10(max(needed, 1))) - 1))
+        return unit * math.ceil(needed / unit)
+
+    def limits(self) -> tuple[float, float, float, float]:
+        """First and last second, least and largest error of a plot of the looks.
+
+        However near the looks lie to each other, a tick of 1, 2 or 5 is between the limits.
+        """
+        if len(self.drawn) < 2:
+            return EMPTY
+        (seconds, errors), known = self.slope(), [look.error for look in self.drawn]
+        ends = min(seconds), max(seconds), min(*errors, *known), max(*errors, *known)
+        least, most = 1 / MARGIN, MARGIN
+        return ends[0] * least, ends[1] * most, ends[2] * least, ends[3] * most
+
+    def slope(self) -> tuple[list[float], list[float]]:
+        """Seconds and errors of the line of slope -1/2 through the last look."""
+        first, last = self.drawn[0], self.drawn[-1]
+        seconds = [first.seconds, last.seconds]
+        return seconds, [last.error * (last.seconds / max(s, 1e-9)) ** 0.5 for s in seconds]

@@ -1,0 +1,109 @@
+"""What a user wants of the window whatever the scene; kept in a file of the user's."""
+
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, ValidationError, field_validator
+
+from glrt.errors import RenderError
+from glrt.files import reason, write_text
+from glrt.settings import Cost, Editable, Frozen
+from glrt.view.state import keys
+from glrt.view.state.keys import DEFAULTS, Bindings
+
+Mode = Literal["orbit", "fly"]
+Theme = Literal["dark", "light"]
+
+FREE = Cost.FREE
+
+_MEND = "Correct or delete it to be rid of this message."
+
+
+class Preferences(Frozen):
+    """How the window behaves; none of it changes what is rendered."""
+
+    samples_per_frame: Annotated[int, Editable(FREE, slider=(0, 64))] = Field(
+        0, description="samples that each frame adds; 0: as many as it has time for", ge=0, le=1024
+    )
+    target_error: Annotated[float, Editable(FREE, slider=(0.001, 0.5))] = Field(
+        0.02, description="the relative error whose time is forecast", gt=0, le=1
+    )
+    frame_rate: Annotated[int, Editable(FREE, slider=(0, 60))] = Field(
+        0,
+        description="frames a second to keep up; 0: 30 on a GPU, 10 without one",
+        ge=0,
+        le=240,
+    )
+    mode: Annotated[Mode, Editable(FREE)] = Field(
+        "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"
+    )
+    turn_speed: Annotated[float, Editable(FREE, "degrees", (30, 720))] = Field(
+        180.0, description="turn for a drag across the whole window", gt=0, le=3600
+    )
+    walk_speed: Annotated[float, Editable(FREE, slider=(0.05, 5))] = Field(
+        0.6, description="step of the keys, in distances to the pivot a second", gt=0, le=100
+    )
+    wheel_speed: Annotated[float, Editable(FREE, slider=(0.1, 5))] = Field(
+        1.0,
+        description="how far a click of the wheel goes, against a tenth of the way",
+        gt=0,
+        le=9,
+    )
+    invert: Annotated[bool, Editable(FREE)] = Field(False, description="a drag upwards looks down")
+    theme: Annotated[Theme, Editable(FREE)] = Field("dark", description="colours of the window")
+    scale: Annotated[float, Editable(FREE, slider=(0.75, 3))] = Field(
+        1.0, description="size of the text", ge=0.5, le=4
+    )
+    bindings: Bindings = Field(DEFAULTS, description="keys of each action, where not the usual")
+
+    @field_validator("bindings")
+    @classmethod
+    def _mean_one_thing_each(cls, given: Bindings) -> Bindings:
+        bindings = {**DEFAULTS, **given}
+        if problem := keys.problem(bindings):
+            raise ValueError(problem)
+        return bindings
+
+
+def preferences_file() -> Path:
+    """Where they are kept: the user's configuration folder, as the system has it."""
+    if sys.platform == "win32":
+        base = Path(os.environ.get("APPDATA") or Path.home() / "AppData" / "Roaming")
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Application Support"
+    else:
+        base = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config")
+    return base / "glrt" / "view.json"
+
+
+def load_preferences(file: Path) -> tuple[Preferences, str]:
+    """What the file says, the defaults where it is wrong, and what is wrong with it; "" if fine."""
+    try:
+        given = json.loads(file.read_text("utf-8"))
+    except FileNotFoundError:
+        return Preferences(), ""
+    except (OSError, ValueError, RecursionError) as error:
+        return Preferences(), f"{file} is not used: {reason(error)}. {_MEND}"
+    if not isinstance(given, dict):
+        return Preferences(), f"{file} is not used: it holds no table of preferences. {_MEND}"
+    try:
+        return Preferences.model_validate(given), ""
+    except ValidationError as error:
+        wrong = {str(problem["loc"][0]): str(problem["msg"]) for problem in error.errors()}
+    good = {key: value for key, value in given.items() if key not in wrong}
+    told = "; ".join(f"{key}: {text.removeprefix('Value error, ')}" for key, text in wrong.items())
+    return Preferences.model_validate(good), f"Some of {file} is not used: {told}. {_MEND}"
+
+
+def save_preferences(preferences: Preferences, file: Path) -> str:
+    """Write them; returns what went wrong, "" for nothing. What is not default is written."""
+    text = preferences.model_dump_json(indent=2, exclude_defaults=True) + "\n"
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_text(file, text)
+    except (OSError, RenderError) as error:
+        return f"The preferences cannot be kept: {error}"
+    return ""

@@ -1,0 +1,296 @@
+"""What the window edits: a scene and its settings, and the renderer that follows them.
+
+Edits are gathered and reach the renderer once a frame. It knows no window.
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from glrt.errors import GlrtError, RenderError
+from glrt.gpu.context import Context, Pipeline
+from glrt.image.image import Image
+from glrt.methods.features import needs_of
+from glrt.methods.light_layers import Layering, Weights, emitters, layer_of_group, plan_for
+from glrt.rendering.pipelines import resolve
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.values import Radiance
+from glrt.settings import Cost, Settings, settings_for
+from glrt.view.memo import kept_for_the_same
+from glrt.view.state.history import History
+from glrt.view.state.idle_kernel import Rest
+from glrt.view.state.layer_limits import Room
+from glrt.view.state.preview_size import Preview
+
+ANNOUNCED = 2  # frames that say what is about to stop them
+FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
+LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
+
+
+@dataclass(frozen=True)
+class State:
+    """What is edited, and what undo brings back."""
+
+    scene: Scene
+    settings: Settings
+
+
+class Session:
+    """A renderer that follows edits, a frame at a time."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        settings: Settings,
+        context: Context,
+        clock: Callable[[], float] = time.perf_counter,
+        pipeline: Pipeline = "auto",
+        rest: Rest | None = None,
+    ) -> None:
+        """Nothing is compiled before the first frames, which say that it will be."""
+        self.rest = rest
+        self.pipeline = resolve(pipeline, context)
+        self.state = self.opened = State(scene, settings_for(settings, crop=None))
+        self.history: History[State] = History()
+        self.renderer: Renderer | None = None
+        self.paused = False
+        self.waits = False  # for another picture, which is to get as many samples
+        self.by_length = False  # layers by the length of paths, so that bounces are weighed
+        self.alone: int | None = None  # the one length that is shown
+        self.busy = ""  # what the next frame will wait for
+        self.problem = ""  # the last refusal, for the user
+        self.restarts = 0
+        self.rendering = 0.0  # seconds that were spent on the samples so far
+        self.last_cost: Cost | None = None
+        self.room = Room(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
+        self._context = context
+        self._clock = clock
+        self._announced = 0
+        self._preview = Preview(clock)
+        self._budget = 0.0  # seconds: of the last frame
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as edited."""
+        return self.state.scene
+
+    @property
+    def settings(self) -> Settings:
+        """The settings as edited, at full size."""
+        return self.state.settings
+
+    @property
+    def samples(self) -> int:
+        """Samples of each pixel of the picture."""
+        return self.renderer.samples if self.renderer else 0
+
+    @property
+    def layering(self) -> Layering:
+        """What the layers of the film are to hold: light groups, or lengths of paths.
+
+        A fragment shader writes to few textures: it keeps none. So does a film too large for them.
+        """
+        return "none" if self.pipeline == "fragment" or self.lacks_room else self._wanted_layering
+
+    @property
+    def lacks_room(self) -> bool:
+        """Whether the film is too large to keep layers: then lamps and bounces restart."""
+        return not self.room.fits(self.scene, self.settings, self._wanted_layering)
+
+    @property
+    def _wanted_layering(self) -> Layering:
+        return "lengths" if self.by_length else "groups"
+
+    @property
+    def weights(self) -> Weights:
+        """What the film is shown by: as wanted, or one length of paths alone."""
+        assert self.renderer
+        plan = self.renderer.plan
+        is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
+        return plan.alone(self.alone or 0) if is_alone else plan.weights
+
+    def cost_of_light(self, group: str, is_tint: bool = False) -> Cost:
+        """What another intensity of a light group costs now, or another colour of one lamp."""
+        layers, lamps = _lamps(self.scene)
+        shares = [other for other in layers if layers[other] == layers.get(group)]
+        is_weighed = len(shares) == 1 and not (is_tint and len(lamps.get(group, [])) > 1)
+        if is_weighed and self.layering == "groups":
+            return Cost.RELIGHT
+        return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
+
+    def cost_of_fewer_bounces(self) -> Cost:
+        """What a lower bounce limit costs now."""
+        return Cost.RELIGHT if self.layering == "lengths" else Cost.RESTART
+
+    @property
+    def is_preview(self) -> bool:
+        """Whether the renderer is at less than full size."""
+        return self.renderer is not None and self.renderer.settings.width != self.settings.width
+
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing remains to be rendered."""
+        waits = self.paused and self.samples > 0
+        return not self._is_behind and (waits or self.samples >= self.settings.samples)
+
+    def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
+        """Take another scene or settings from the next frame on; a refusal is told, not raised."""
+        try:
+            after = State(scene or self.scene, settings_for(self.settings, **changes))
+        except GlrtError as error:
+            self.problem = str(error)
+            return
+        if after != self.state:
+            self.history.record(self.state, gesture)
+            self._follow(after)
+
+    def undo(self) -> None:
+        """Take back the last gesture."""
+        self._follow(self.history.undo(self.state))
+
+    def redo(self) -> None:
+        """Do again what was taken back."""
+        self._follow(self.history.redo(self.state))
+
+    def restart(self) -> None:
+        """Begin to accumulate anew."""
+        if self.renderer:
+            self.renderer.restart()
+            self._begin()
+
+    def advance(self, seconds: float, count: int = 0) -> None:
+        """A frame: bring edits to the renderer, then render for a time or `count` samples."""
+        self._budget = seconds
+        if self._is_settled() and self.renderer:
+            target = self.samples if self.waits else 1 if self.paused else self.settings.samples
+            if count:
+                target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
+            is_short = self.samples < target
+            if is_short and not (self.rest and self.rest.follow(self.renderer, self.restarts)):
+                self._render(self.renderer, target, seconds)
+
+    def reload_shaders(self) -> None:
+        """Compile the shaders again, within `files_anew`; RenderError, and the old kernel stays."""
+        if not self.renderer:
+            return
+        fresh = self._open(self._wanted())
+        self.renderer.release()
+        self.renderer, self.problem = fresh, ""
+        self._begin()
+
+    def _open(self, state: State) -> Renderer:
+        ways: dict[str, Any] = {"pipeline": self.pipeline, "layering": self.layering}
+        return Renderer(state.scene, state.settings, self._context, **ways)
+
+    def image(self) -> Image:
+        """The picture as it is shown, with its error and its recipe."""
+        assert self.renderer
+        return self.renderer.image(self.weights)
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        if self.rest:
+            self.rest.end()
+        if self.renderer:
+            self.renderer.release()
+
+    def _follow(self, after: State) -> None:
+        if after.scene.camera != self.scene.camera:
+            self._preview.move(self.settings.width * self.settings.height, self._budget)
+        self.state = after
+
+    def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
+        start, before = self._clock(), renderer.work
+        renderer.advance(seconds, target)
+        spent, done = self._clock() - start, renderer.work - before
+        self.rendering += spent
+        is_early = renderer.samples <= FIRST_SAMPLES and not renderer.is_baked
+        if done > 0 and is_early:
+            width, height = renderer.size
+            self._preview.record(spent / (done * width * height))
+
+    @property
+    def _is_behind(self) -> bool:
+        """Whether the renderer lacks an edit."""
+        if self.renderer is None:
+            return True
+        given = State(self.renderer.scene, self.renderer.settings)
+        return given != self._wanted() or self.renderer.plan.layering != self.layering
+
+    def _is_settled(self) -> bool:
+        """Whether the renderer has all edits; what compiles is announced first."""
+        is_behind = self._is_behind
+        if is_behind and self._compiles() and self._announced < ANNOUNCED:
+            self.busy = "Compiling a kernel for this scene"
+            self._announced += 1
+            return False
+        self.busy, self._announced = "", 0
+        if is_behind:
+            try:
+                self._apply()
+            except GlrtError as error:
+                self._refuse(error)
+        return self.renderer is not None
+
+    def _apply(self) -> None:
+        layering = self.layering
+        try:
+            self._bring()
+        except RenderError:
+            if not self.room.refuse(self.scene, self.settings, layering):
+                raise
+            self._bring()
+
+    def _bring(self) -> None:
+        wanted = self._wanted()
+        if not self.renderer:
+            self.renderer = self._open(wanted)
+            return self._begin()
+        self.last_cost = self.renderer.update(wanted.scene, self.layering, **dict(wanted.settings))
+        if self.last_cost in (Cost.RESTART, Cost.RECOMPILE):
+            self._begin()
+        return None
+
+    def _begin(self) -> None:
+        assert self.renderer
+        self.restarts += 1
+        self.rendering = 0.0
+
+    def _refuse(self, error: GlrtError) -> None:
+        """Tell, and go back to what the renderer has; without one there is nothing to do."""
+        self.problem = str(error)
+        if not self.renderer:
+            raise error
+        self.state = State(self.renderer.scene, self.settings_of(self.renderer))
+
+    def settings_of(self, renderer: Renderer) -> Settings:
+        """The renderer's settings at full size."""
+        size = {"width": self.settings.width, "height": self.settings.height}
+        return settings_for(renderer.settings, **size)
+
+    def _compiles(self) -> bool:
+        if not self.renderer:
+            return True
+        plan = self.renderer.plan
+        if plan.relit(self.scene, self._wanted().settings, self.layering):
+            return False
+        after = plan_for(self.scene, self.settings, self.layering)
+        is_other = needs_of(after.scene, after.settings) != needs_of(plan.scene, plan.settings)
+        return is_other or after.constants() != plan.constants()
+
+    def _wanted(self) -> State:
+        """What the renderer is to have: while the camera moves, a size that keeps up."""
+        settings = self.settings
+        factor = self._preview.factor
+        if factor > 1:
+            size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
+            settings = settings_for(settings, **size)
+        return State(self.scene, settings)
+
+
+@kept_for_the_same
+def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
+    """The layer of each light group, and what its lamps emit."""
+    return layer_of_group(scene), emitters(scene)

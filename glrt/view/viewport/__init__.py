@@ -1,0 +1,11 @@
+"""What is drawn of a picture, and moves of camera and objects.
+
+Modules, each importing only what stands above it:
+
+- picture: the film as a texture for Dear ImGui
+- views: the views of a render
+- orbit: moves of the camera
+- pick: what lies under a point
+- transform: moves of shapes
+- overlay: a view, and the kept picture beside it
+"""

@@ -1,0 +1,154 @@
+"""What of a render is on the screen: a view of it, and the kept picture beside it."""
+
+from dataclasses import dataclass
+
+import moderngl
+
+from glrt.rendering.false_colors import FalseColors, Scale
+from glrt.rendering.renderer import Renderer
+from glrt.view.state.reference_image import Kept
+from glrt.view.state.session import Session
+from glrt.view.viewport.picture import Picture
+from glrt.view.viewport.views import View, scale_of
+
+
+@dataclass
+class Show:
+    """A picture on the screen, which is drawn again when there is something new to show."""
+
+    picture: Picture
+    colors: FalseColors
+    view: View = "picture"  # as wanted; see `drawn`
+    most: float = 0.5  # relative difference that has the strongest colour
+    wipe: float = 0.5  # share of the picture's width that shows the kept one
+    kept: Kept | None = None
+    mean: float | None = None  # radiance at the last look
+    drawn: View = "picture"  # on the screen now
+    _content: object = None  # what the picture was drawn from
+
+    @property
+    def scale(self) -> Scale:
+        """Of the view."""
+        return scale_of(self.view, self.most)
+
+    def advance(self, session: Session, seconds: float, count: int) -> None:
+        """A frame's samples; while the kept picture is compared, it gets half of the time.
+
+        RenderError if the driver has no room for that.
+        """
+        renderer = session.renderer
+        kept = self._compared(session)
+        session.waits = bool(kept and renderer and kept.samples(renderer) < session.samples)
+        session.advance(seconds / 2 if kept else seconds, count)
+        if kept and session.renderer:
+            kept.catch_up(session.renderer, seconds if session.waits else seconds / 2)
+        elif self.kept and self.view != "difference":
+            self.kept.rest()
+
+    def is_done(self, session: Session) -> bool:
+        """Whether nothing remains to be rendered."""
+        kept, renderer = self._compared(session), session.renderer
+        is_behind = kept and renderer and kept.samples(renderer) < session.samples
+        return session.is_done and not is_behind
+
+    def draw(self, session: Session) -> None:
+        """Bring the newest samples to the screen; without any the old picture stays."""
+        renderer, kept = session.renderer, self._compared(session)
+        if not renderer or not session.samples:
+            return
+        other = kept.light(renderer) if kept else None
+        if kept and other is None:
+            return  # until it has as many samples
+        settings, view = session.settings, self._possible(session)
+        progress = session.samples, session.restarts, session.weights
+        content = (
+            *progress,
+            settings.exposure,
+            settings.tonemap,
+            view,
+            self.scale,
+            self.mean,
+            kept,
+        )
+        if content != self._content:
+            self._draw(session, renderer, view, other)
+            self._content, self.drawn = content, view
+
+    def keep(self, session: Session) -> None:
+        """Keep the picture, whatever the view, to compare it with what comes."""
+        if not session.renderer or not session.samples:
+            return
+        self.forget()
+        self._draw(session, session.renderer, "picture", None)
+        self.picture.keep()
+        mean = float(session.image().radiance.mean(dtype="float64"))
+        self.kept = Kept(session.state, mean, session.renderer.context)
+        self._content = None
+
+    def forget(self) -> None:
+        """Keep no picture."""
+        self.picture.forget()
+        if self.kept:
+            self.kept.release()
+        self.kept = None
+
+    def notice(self, session: Session) -> str:
+        """Why the view is not what was wanted, or what the next frame waits for; "" for nothing."""
+        renderer, kept = session.renderer, self.kept
+        if session.busy or self.view == "picture" or not renderer:
+            return session.busy
+        if self.view == "error" and not self._knows_error(session):
+            return f"The error is known after {2 * renderer.film.extent.block} samples"
+        if self.view != "difference":
+            return ""
+        if not kept:
+            return "Keep a picture to see how what comes differs from it"
+        if not kept.fits(renderer) and not session.is_preview:
+            return "The kept picture has another size"
+        if kept.busy:
+            return kept.busy
+        behind = kept.samples(renderer) < session.samples and self.drawn != "difference"
+        told = f"{kept.samples(renderer)} of {session.samples} samples"
+        return f"The kept picture is rendered again: {told}" if behind else ""
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self.forget()
+        self.picture.release()
+        self.colors.release()
+
+    def _compared(self, session: Session) -> Kept | None:
+        """The kept picture if its difference is to be shown, and can be."""
+        kept, renderer = self.kept, session.renderer
+        if self.view != "difference" or not kept or not renderer or session.is_preview:
+            return None
+        return kept if kept.fits(renderer) else None
+
+    def _possible(self, session: Session) -> View:
+        """The view as wanted, or the picture where that cannot be told."""
+        if session.is_preview or (self.view == "error" and not self._knows_error(session)):
+            return "picture"
+        return "picture" if self.view == "difference" and not self._compared(session) else self.view
+
+    def _knows_error(self, session: Session) -> bool:
+        """Whether there are two observations, and a look at the picture or at the one before."""
+        film = session.renderer and session.renderer.film
+        return bool(film and self.mean is not None and film.samples >= 2 * film.extent.block)
+
+    def _draw(
+        self, session: Session, renderer: Renderer, view: View, other: moderngl.Texture | None
+    ) -> None:
+        film, weights = renderer.film, session.weights
+        light = renderer.weighed(weights)
+        if view == "picture":
+            return self.picture.draw(light, session.settings, session.is_preview)
+
+        def paint() -> None:
+            if view == "error":
+                self.colors.draw_error(film, light, weights, self.mean or 0.0)
+            elif view == "dropped":
+                self.colors.draw_dropped(film, light)
+            elif other and self.kept:
+                self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)
+
+        return self.picture.paint(film.size, paint)

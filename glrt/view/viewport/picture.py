@@ -1,0 +1,88 @@
+"""The film as a texture that Dear ImGui can show."""
+
+from collections.abc import Callable
+
+import moderngl
+
+from glrt.rendering.display import Display
+from glrt.settings import Settings
+
+
+class Picture:
+    """What the display pass made of the film last; it stays until the film has something new."""
+
+    def __init__(self, gl: moderngl.Context) -> None:
+        """Compile the display pass; there is no picture yet."""
+        self._gl = gl
+        self._display = Display(gl)
+        self._texture: moderngl.Texture | None = None
+        self._kept: moderngl.Texture | None = None
+
+    @property
+    def name(self) -> int:
+        """OpenGL's name of the texture, 0 if there is none."""
+        return self._texture.glo if self._texture else 0
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self._texture.size if self._texture else (0, 0)
+
+    def draw(self, film: moderngl.Texture, settings: Settings, is_preview: bool = False) -> None:
+        """Expose, tone-map and encode; row 0 of the film comes to lie on top."""
+        self.paint(film.size, lambda: self._display.draw(film, settings), is_preview)
+
+    def paint(
+        self, size: tuple[int, int], draw: Callable[[], None], is_preview: bool = False
+    ) -> None:
+        """Let something draw the whole picture."""
+        if self._texture is None or self._texture.size != size:
+            self._allocate(size)
+        assert self._texture
+        magnify = moderngl.LINEAR if is_preview else moderngl.NEAREST
+        self._texture.filter = (moderngl.LINEAR, magnify)
+        with self._gl.scope(self._target):
+            draw()
+
+    @property
+    def kept_name(self) -> int:
+        """OpenGL's name of the picture that is kept to compare with, 0 if there is none."""
+        return self._kept.glo if self._kept else 0
+
+    def keep(self) -> None:
+        """Keep the picture as it is now, to compare with what comes."""
+        self.forget()
+        if self._texture:
+            self._kept = self._gl.texture(self._texture.size, 4)
+            target = self._gl.framebuffer([self._kept])
+            self._gl.copy_framebuffer(target, self._target)
+            target.release()
+
+    def forget(self) -> None:
+        """Keep no picture."""
+        if self._kept:
+            self._kept.release()
+        self._kept = None
+
+    def reload_shaders(self) -> None:
+        """Compile the display pass again, as `Session.reload_shaders`."""
+        fresh = Display(self._gl)
+        self._display.release()
+        self._display = fresh
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._display.release()
+        self.forget()
+        self._free()
+
+    def _allocate(self, size: tuple[int, int]) -> None:
+        self._free()
+        self._texture = self._gl.texture(size, 4)
+        self._target = self._gl.framebuffer([self._texture])
+
+    def _free(self) -> None:
+        if self._texture:
+            self._target.release()
+            self._texture.release()
+        self._texture = None

@@ -1,0 +1,84 @@
+"""Moving and scaling shapes, as pure functions, and the matrices that a gizmo wants.
+
+Matrices are 4 x 4 in OpenGL's order, column by column, as flat lists.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.scene.camera import Camera
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Quad, Shape, Sphere
+from glrt.scene.values import Vector
+from glrt.view.state.controls import replaced
+from glrt.view.viewport.orbit import axes
+from glrt.view.viewport.pick import middle
+
+Matrix = list[float]
+
+
+def view_matrix(camera: Camera) -> Matrix:
+    """From the world to the camera, which looks along -z."""
+    right, up, forward = axes(camera)
+    turn = np.array([right, up, -forward])
+    return _flat(turn, -turn @ np.array(camera.position))
+
+
+def projection_matrix(camera: Camera, aspect: float) -> Matrix:
+    """From the camera to the clip cube; the depths that it keeps apart do not matter here."""
+    focal = 1 / math.tan(math.radians(camera.fov) / 2)
+    near, far = 0.01, 1000.0
+    depth, shift = (far + near) / (near - far), 2 * far * near / (near - far)
+    return [focal / aspect, 0, 0, 0, 0, focal, 0, 0, 0, 0, depth, -1, 0, 0, shift, 0]
+
+
+def object_matrix(shape: Shape) -> Matrix:
+    """From a shape's own place to the world: its middle, not its size."""
+    return _flat(np.eye(3), np.array(middle(shape)))
+
+
+def moved_to(shape: Shape, matrix: NDArray[np.float32]) -> Shape:
+    """The shape where a gizmo has put it; scaled by the mean of the scales of the three axes."""
+    columns = np.asarray(matrix, np.float64).reshape(4, 4)
+    step = columns[3, :3] - np.array(middle(shape))
+    return scaled(shifted(shape, step), float(np.mean(np.linalg.norm(columns[:3, :3], axis=1))))
+
+
+def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
+    """The shape moved by a vector."""
+    name = {"sphere": "center", "plane": "point", "quad": "corner"}[shape.shape]
+    return replaced(shape, **{name: _short(np.array(getattr(shape, name)) + step)})
+
+
+def scaled(shape: Shape, factor: float) -> Shape:
+    """The shape made larger about its middle; a plane has no size."""
+    if factor == 1 or isinstance(shape, Plane):
+        return shape
+    if isinstance(shape, Sphere):
+        return replaced(shape, radius=_digits(shape.radius * factor))
+    edges = {name: _short(factor * np.array(getattr(shape, name))) for name in ("edge_u", "edge_v")}
+    larger: Quad = replaced(shape, **edges)
+    return shifted(larger, np.array(middle(shape)) - np.array(middle(larger)))
+
+
+def with_object(scene: Scene, index: int, shape: Shape) -> Scene:
+    """The scene with another shape in the place of one."""
+    objects = (*scene.objects[:index], shape, *scene.objects[index + 1 :])
+    return replaced(scene, objects=objects)
+
+
+def _flat(turn: NDArray[np.float64], shift: NDArray[np.float64]) -> Matrix:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turn, shift
+    return [float(value) for value in matrix.T.ravel()]
+
+
+def _short(vector: NDArray[np.float64]) -> Vector:
+    return (_digits(vector[0]), _digits(vector[1]), _digits(vector[2]))
+
+
+def _digits(value: float) -> float:
+    """Seven digits: a gizmo knows no more, and a scene file is to be read."""
+    return float(f"{value:.7g}")

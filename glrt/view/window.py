@@ -1,0 +1,178 @@
+"""The window: its parts, its loop, and how it ends."""
+
+import time
+from collections.abc import Callable
+
+from imgui_bundle import hello_imgui, imgui, immapp
+
+from glrt.gpu.context import Pipeline
+from glrt.rendering.false_colors import FalseColors
+from glrt.rendering.stopping import Interruption
+from glrt.resources import folder
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+from glrt.view.app import App
+from glrt.view.file_watch import Watch
+from glrt.view.opengl import window_version, wrap_window
+from glrt.view.panels.panel import draw_panel
+from glrt.view.panels.plots import draw_figures
+from glrt.view.panels.viewport import draw_keys, draw_viewport
+from glrt.view.state.frame_budget import Pace
+from glrt.view.state.idle_kernel import Rest
+from glrt.view.state.preferences import load_preferences, preferences_file
+from glrt.view.state.session import Session
+from glrt.view.viewport.overlay import Show
+from glrt.view.viewport.picture import Picture
+
+SIZE = (1240, 800)
+PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
+MOST = 0.45  # of either, where the text is large
+RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
+THEMES = {
+    "dark": hello_imgui.ImGuiTheme_.darcula_darker,
+    "light": hello_imgui.ImGuiTheme_.light_rounded,
+}
+KEEP_EVERY = 2.0  # seconds between looks at whether preferences are to be written
+
+
+class Window:
+    """A session in a window; `app` exists once the window is open."""
+
+    app: App
+
+    def __init__(
+        self, source: str, scene: Scene, settings: Settings, pipeline: Pipeline = "auto"
+    ) -> None:
+        """Prepare; `run` opens it. ContextError if there is no display, or no OpenGL 4.1.
+
+        `pipeline` is compute, which needs OpenGL 4.3, or fragment; by default the first that works.
+        """
+        self._version = window_version(pipeline)
+        self._opened = (source, scene, settings)
+        self._pipeline: Pipeline = pipeline
+        self._rendered = 0.0
+        self._styled: tuple[str, float] | None = None
+        self._began = self._kept = time.perf_counter()
+        self._interruption = Interruption()
+        self.add_ons = immapp.AddOnsParams(with_implot=True)
+        self.params = self._params()
+
+    def run(self) -> int:
+        """Show the window until it is closed, or the process is asked to end; the exit code."""
+        with Interruption().watched() as self._interruption:
+            immapp.run(self.params, self.add_ons)
+        return 128 + self._interruption.signal if self._interruption.signal else 0
+
+    def _params(self) -> hello_imgui.RunnerParams:
+        params = hello_imgui.RunnerParams()
+        params.app_window_params.window_title = "glrt"
+        params.app_window_params.window_geometry.size = SIZE
+        params.app_window_params.restore_previous_geometry = True
+        params.imgui_window_params.default_imgui_window_type = (
+            hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
+        )
+        params.renderer_backend_options.open_gl_options = _opengl(self._version)
+        params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
+        params.ini_filename = "glrt/view.ini"
+        params.docking_params = self._docking()
+        callbacks = params.callbacks
+        callbacks.setup_imgui_config = _configure
+        callbacks.post_init = self._open
+        callbacks.pre_new_frame = self._render
+        callbacks.before_exit = self._close
+        return params
+
+    def _docking(self) -> hello_imgui.DockingParams:
+        preferences, _ = load_preferences(preferences_file())
+        panel, figures = (min(share * preferences.scale, MOST) for share in (PANEL, FIGURES))
+        side = hello_imgui.DockingSplit("MainDockSpace", "Side", imgui.Dir.left, panel)
+        below = hello_imgui.DockingSplit("MainDockSpace", "Below", imgui.Dir.down, figures)
+        docking = hello_imgui.DockingParams()
+        docking.docking_splits = [side, below]
+        docking.dockable_windows = [
+            _part("Controls", "Side", lambda: draw_panel(self.app)),
+            _part("Figures", "Below", lambda: draw_figures(self.app)),
+            _part("Picture", "MainDockSpace", lambda: draw_viewport(self.app)),
+        ]
+        return docking
+
+    def _open(self) -> None:
+        """The window is there, and its context current."""
+        source, scene, settings = self._opened
+        context = wrap_window()
+        preferences, problem = load_preferences(preferences_file())
+        self._rate = RATES[context.is_software]
+        self.app = App(
+            session=Session(scene, settings, context, pipeline=self._pipeline, rest=Rest()),
+            show=Show(Picture(context.gl), FalseColors(context.gl)),
+            preferences=preferences,
+            preferences_file=preferences_file(),
+            source=source,
+            pace=Pace(self._rate),
+            pivot=scene.camera.look_at,
+            shaders=Watch(folder("shaders_glsl").iterdir()),
+        )
+        self.app.complain(problem)
+
+    def _render(self) -> None:
+        """Before a frame is drawn: keys, edits, samples, and the picture of them."""
+        app, now = self.app, time.perf_counter()
+        app.frame_seconds = now - self._began
+        app.pace.record(app.frame_seconds, self._rendered)
+        self._began = now
+        app.pace.frames_per_second = app.preferences.frame_rate or self._rate
+        draw_keys(app)
+        self._style()
+        app.advance()
+        app.look(now)
+        app.follow_files(now)
+        app.dialogs.poll()
+        self._rendered = time.perf_counter() - now
+        self.params.fps_idling.enable_idling = app.show.is_done(app.session)
+        self._keep(now)
+        if self._interruption.signal:
+            self.params.app_shall_exit = True
+
+    def _keep(self, now: float) -> None:
+        """Write changed preferences soon, not only at the end: a window may be killed."""
+        if now - self._kept > KEEP_EVERY:
+            self._kept = now
+            self.app.keep_preferences()
+
+    def _style(self) -> None:
+        """Follow the preferences of theme and size."""
+        wanted = self.app.preferences.theme, self.app.preferences.scale
+        if wanted != self._styled:
+            self._styled = wanted
+            hello_imgui.apply_theme(THEMES[wanted[0]])
+            imgui.get_style().font_scale_main = wanted[1]
+            imgui.get_style().frame_border_size = 1.0  # a light box on a light ground has an edge
+
+    def _close(self) -> None:
+        self.app.keep_preferences()
+        self.app.show.release()
+        self.app.dialogs.close()
+        self.app.session.release()
+
+
+def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
+    part = hello_imgui.DockableWindow()
+    part.label, part.dock_space_name, part.gui_function = label, place, draw
+    part.can_be_closed = False
+    return part
+
+
+def _opengl(version: int) -> hello_imgui.OpenGlOptions:
+    """Without antialiasing: it takes a software driver as long again."""
+    options = hello_imgui.OpenGlOptions()
+    options.major_version, options.minor_version = divmod(version // 10, 10)
+    options.use_core_profile, options.anti_aliasing_samples = True, 0
+    return options
+
+
+def _configure() -> None:
+    """The arrow keys move the camera, not from widget to widget."""
+    hello_imgui.imgui_default_settings.setup_default_imgui_config()
+    io = imgui.get_io()
+    io.config_windows_move_from_title_bar_only = True
+    io.config_flags &= ~imgui.ConfigFlags_.nav_enable_keyboard.value

@@ -1,0 +1,270 @@
+"""`glrt chart`: measured rounds, and the files that show and tell what they say."""
+
+import csv
+import json
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from glrt.analysis import plot
+from glrt.analysis.chart import drawing, experiment
+from glrt.analysis.chart.curves import Curve, Interval, Point
+from glrt.analysis.chart.experiment import Plan, measure_scene
+from glrt.analysis.chart.measure import Bench, of_variant
+from glrt.analysis.chart.rays import rays_per_sample
+from glrt.analysis.reference import Reference
+from glrt.analysis.variants import variants_of
+from glrt.cli.main import main
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from glrt.settings import settings_for
+from tests.support.builders import box_of_quads, lamp, scene_of, sphere
+from tests.support.processes import glrt, start
+
+QUICK = ("--height", "8", "--rounds", "2", "--seconds", "0.3")
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return str(tmp_path_factory.mktemp("cache"))
+
+
+@pytest.fixture(scope="module")
+def charted(tmp_path_factory: pytest.TempPathFactory, cache: str) -> Path:
+    """The folder of charts of two scenes."""
+    folder = tmp_path_factory.mktemp("charts") / "new" / "folder"
+    done = glrt("chart", "cornell", "sky", "-o", folder, *QUICK, XDG_CACHE_HOME=cache)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == f"Wrote {folder}/chart.md and the charts of cornell, sky.\n"
+    return folder
+
+
+def table(folder: Path, name: str) -> list[dict[str, str]]:
+    with (folder / f"{name}.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+# --- files ---------------------------------------------------------------------------------
+
+
+def test_every_scene_gets_its_files_and_one_page_shows_all(charted: Path) -> None:
+    suffixes = ("csv", "json", "png", "rounds.json", "svg")
+    expected = {f"{name}.{suffix}" for name in ("cornell", "sky") for suffix in suffixes}
+    assert {file.name for file in charted.iterdir()} == expected | {"chart.md"}
+    page = (charted / "chart.md").read_text()
+    for name in ("cornell", "sky"):
+        assert f"![Error against time for {name}]({name}.svg)" in page
+        assert str(load(name).title) in page
+
+
+def test_pictures_are_as_large_as_promised_and_name_every_variant(charted: Path) -> None:
+    with Image.open(charted / "cornell.png") as picture:
+        assert picture.size == (1320, 715)
+        codes = np.asarray(picture.convert("L"))
+    assert 0.01 < (codes < 64).mean() < 0.2, "black on white"
+    assert (codes > 250).mean() > 0.5
+    text = (charted / "cornell.svg").read_text()
+    for variant in {row["variant"] for row in table(charted, "cornell")}:
+        assert f"<!-- {variant}" in text
+    for file in (*charted.glob("*.png"), *charted.glob("*.svg")):
+        assert file.stat().st_size < 300_000
+
+
+def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
+    rows = table(charted, "cornell")
+    data = json.loads((charted / "cornell.json").read_text())
+    assert [str(point["error"]) for point in data["points"]] == [row["error"] for row in rows]
+    assert data["size"] == [8, 8]
+    assert data["rounds"] == 2
+    for row in rows:
+        assert float(row["error_low"]) <= float(row["error"]) <= float(row["error_high"])
+        assert float(row["rays"]) >= int(row["samples"])
+
+
+def test_points_on_the_front_are_beaten_by_none(charted: Path) -> None:
+    dots = [
+        (float(row["milliseconds"]), float(row["error"]), row["on_front"] == "True")
+        for row in table(charted, "cornell")
+    ]
+    for x, y, on_front in dots:
+        beaten = any(a <= x and b <= y and (a, b) != (x, y) for a, b, _ in dots)
+        assert on_front == (not beaten)
+
+
+def test_methods_that_are_one_are_measured_once(charted: Path) -> None:
+    """The sky scene has no lamp."""
+    assert "naive = nee = mis" in {row["variant"] for row in table(charted, "sky")}
+
+
+# --- rounds --------------------------------------------------------------------------------
+
+
+def test_the_same_command_measures_nothing_again_and_more_rounds_add(
+    charted: Path, cache: str
+) -> None:
+    rounds = charted / "cornell.rounds.json"
+    before = rounds.read_bytes()
+    assert glrt("chart", "cornell", "-o", charted, *QUICK, XDG_CACHE_HOME=cache).returncode == 0
+    assert rounds.read_bytes() == before
+    more = [*QUICK, "--rounds", "3", "--quiet"]
+    done = glrt("chart", "cornell", "-o", charted, *more, XDG_CACHE_HOME=cache)
+    assert (done.returncode, done.stderr) == (0, "")
+    old, new = json.loads(before), json.loads(rounds.read_bytes())
+    assert new["rounds"][:2] == old["rounds"]
+    assert len(new["rounds"]) == 3
+
+
+def test_rounds_of_another_measurement_or_damaged_ones_are_not_gone_on_with(
+    tmp_path: Path, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    file = tmp_path / "rounds.json"
+    scene = load("sky")
+
+    def measured(height: int) -> list[Any]:
+        plan = Plan(height, 2, 0.1)
+        measure_scene("sky", scene, plan, context, file, lambda _text, _share: None)
+        return list(json.loads(file.read_text())["rounds"])
+
+    first = measured(8)
+    assert measured(8) == first
+    assert measured(9) != first
+    file.write_text('{"key": 1, "rounds": [[]')
+    assert len(measured(9)) == 2
+
+
+def test_interruption_keeps_the_rounds_that_are_done(
+    tmp_path: Path, cache: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    long = ("--height", "8", "--rounds", "200", "--seconds", "60")
+    monkeypatch.setenv("XDG_CACHE_HOME", cache)
+    process = start("chart", "sky", "-o", tmp_path, *long)
+    rounds = tmp_path / "sky.rounds.json"
+    while not rounds.exists() and process.poll() is None:
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "the same command goes on from there" in told
+    assert json.loads(rounds.read_text())["rounds"]
+
+
+def test_progress_has_a_share_that_grows_to_one(
+    tmp_path: Path, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    told: list[tuple[str, float]] = []
+    plan = Plan(8, 2, 0.1)
+    measure_scene("sky", load("sky"), plan, context, tmp_path / "r", lambda *t: told.append(t))
+    shares = [share for _, share in told]
+    assert shares == sorted(shares)
+    assert shares[-1] == pytest.approx(1)
+    assert told[0][0] == "sky: reference"
+    assert told[-1][0] == "sky: round 2 of 2"
+
+
+def test_labels_move_apart_as_little_as_it_takes() -> None:
+    assert drawing._spread([0.1, 0.5, 0.9], 0.1) == pytest.approx([0.1, 0.5, 0.9])
+    assert drawing._spread([0.5, 0.5, 0.5], 0.1) == pytest.approx([0.4, 0.5, 0.6])
+    spread = drawing._spread([0.0, 0.3, 0.31, 0.32, 0.9], 0.1)
+    assert spread == pytest.approx([0.0, 0.21, 0.31, 0.41, 0.9])
+
+
+def test_an_interval_that_reaches_below_zero_makes_no_band_down_the_whole_chart() -> None:
+    errors = [Interval(9, -5, 23), Interval(8, 6, 10), Interval(7, 6, 8)]
+    points = tuple(Point(2**i, Interval(2**i, 1, 1), error) for i, error in enumerate(errors))
+    curve = Curve("naive", points, None, Interval(0, 0, 0))
+    with plot.open_figure((4, 3)) as figure:
+        axes = figure.subplots()
+        drawing._draw(axes, [curve], [[1, 2, 4]])
+    (band,) = axes.collections[0].get_paths()
+    assert tuple(band.get_extents().extents) == (2, 6, 4, 10)
+
+
+def test_variants_beyond_the_loop_limit_are_left_out(
+    context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(experiment, "usable_rounds", lambda _context, _rounds: 300)
+    scene = load("cornell")
+    result = measure_scene("c", scene, Plan(8, 2, 0.1), context, tmp_path / "r", lambda *_: None)
+    names = [curve.name for curve in result.curves]
+    assert "mis" in names
+    assert "mis, 80 bounces" not in names
+
+
+# --- what is measured ----------------------------------------------------------------------
+
+
+def test_rays_are_counted(context: Context) -> None:
+    walls = {"wall": {"type": "lambertian", "color": [0.5] * 3}, "lamp": lamp()}
+    room = scene_of(box_of_quads("wall", 2.0), walls)
+    rays = {
+        bounces: rays_per_sample(
+            room,
+            settings_for(room.render, width=8, height=8, bounces=bounces, roulette=False),
+            context,
+        )
+        for bounces in (0, 1, 5)
+    }
+    assert rays == {0: 1.0, 1: 2.0, 5: 6.0}
+    lit = scene_of([*box_of_quads("wall", 2.0), sphere([0, 0, -1], 0.01, "lamp")], walls)
+    settings = settings_for(lit.render, width=8, height=8, bounces=1, method="nee")
+    shadowed = rays_per_sample(lit, settings, context)
+    assert 2.9 < shadowed <= 3.0, "camera, shadow and scattered ray, but for the pixels of the lamp"
+
+
+def test_order_changes_from_round_to_round_and_seeds_too(context: Context) -> None:
+    scene = load("cornell")
+    settings = settings_for(scene.render, width=8, height=8)
+    variants = variants_of(scene, settings, ["naive", "nee"], leads=False)
+    truth = np.ones((8, 8, 3))
+    bench = Bench(scene, variants, Reference(truth, truth, 1, 1), context)
+    rounds = [list(bench.round(number, 0.01))[-1] for number in range(4)]
+    bench.release()
+    orders = {tuple(run.variant for run in runs) for runs in rounds}
+    assert orders == {("naive", "nee"), ("nee", "naive")}
+    firsts = [of_variant([runs], "nee")[0].looks[0].squared_error for runs in rounds]
+    assert len(set(firsts)) == 4
+
+
+# --- refusals ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["cornel", "-o", "there"], "did you mean 'cornell'"),
+        (["cornell", "-o", "there", "--rounds", "1"], "--rounds must be from 2 to 1000"),
+        (["cornell", "-o", "there", "--seconds", "nan"], "--seconds must be from 0.1"),
+        (["cornell", "scenes/cornell.toml", "-o", "there"], "Two scenes are called cornell"),
+        (["cornell", "-o", "file"], "Cannot make the folder file"),
+        (["cornell"], "required: -o"),
+    ],
+)
+def test_a_bad_command_is_refused_in_a_paragraph(
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("file").touch()
+    assert main(["chart", *arguments]) == 2
+    assert message in capsys.readouterr().err
+    assert not Path("there").exists()
+
+
+def test_without_matplotlib_the_command_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(plot, "find_spec", lambda _name: None)
+    assert main(["chart", "cornell", "-o", str(tmp_path / "there")]) == 2
+    assert "pip install 'glrt[chart]'" in capsys.readouterr().err
+    assert not (tmp_path / "there").exists()

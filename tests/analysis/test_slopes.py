@@ -1,0 +1,87 @@
+"""Curves of a chart: noise falls with the square root of the samples, and ends in the bias."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from glrt.analysis import reference
+from glrt.analysis.chart import measure
+from glrt.analysis.chart.curves import Curve, Interval
+from glrt.analysis.chart.experiment import Plan, measure_scene
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from tests.support.builders import box_of_quads, lamp, quad, scene_of
+from tests.support.renders import rendered
+
+
+@pytest.fixture
+def unhurried(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Samples that no speed changes: 1024 of each run, at least, and 4096 of a reference's half."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(measure, "LEAST_LOOKS", 11)
+    monkeypatch.setattr(reference, "FIRST_LOOK", 4096)
+
+
+def slopes_of(curves: tuple[Curve, ...]) -> list[Interval]:
+    """Of the unbiased variants with independent numbers, over three decades."""
+    plain = [c for c in curves if "sobol" not in c.name and not c.is_biased]
+    assert {c.points[-1].samples for c in plain} == {1024}
+    slopes = [c.slope for c in plain if c.slope is not None]
+    assert len(slopes) == len(plain) >= 5
+    return slopes
+
+
+def assert_halves(slopes: list[Interval]) -> None:
+    """Within 0.03 of -0.5, and within their intervals, of which one in twenty misses by chance."""
+    assert all(abs(slope.value + 0.5) <= 0.03 for slope in slopes), slopes
+    missed = [slope for slope in slopes if not slope.low <= -0.5 <= slope.high]
+    assert len(missed) <= 1, missed
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("unhurried")
+def test_slopes_are_a_half_and_the_floor_is_the_bias(context: Context, tmp_path: Path) -> None:
+    """In a glowing box of albedo 0.5, B bounces leave 0.5^(B+1) of the light: a closed form."""
+    ceiling = quad([-1, 1.9, -1], [2, 0, 0], [0, 0, 2], "wall")
+    box = scene_of([*box_of_quads("wall", 2.0), ceiling], {"wall": lamp(0.5, 0.5)})
+    scene = box.model_copy(update={"render": box.render.model_copy(update={"bounces": 12})})
+    plan = Plan(16, 8, 0.1)
+    result = measure_scene("box", scene, plan, context, tmp_path / "r", lambda *_: None)
+    for curve in result.curves:
+        bounces = {"mis, 1 bounce": 1, "mis, 2 bounces": 2, "mis, 5 bounces": 5}.get(curve.name)
+        if bounces:
+            assert curve.bias.value == pytest.approx(0.5 ** (bounces + 1) / 1.01**0.5, abs=0.002)
+            assert curve.points[-1].error.value == pytest.approx(curve.bias.value, rel=0.05)
+    assert_halves(slopes_of(result.curves))
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+@pytest.mark.usefixtures("unhurried")
+def test_in_a_room_too_and_floors_are_what_other_pictures_differ_by(
+    context: Context, tmp_path: Path
+) -> None:
+    """Floors against pictures of 16,384 samples that have nothing to do with the chart."""
+    room = load("methods/diffuse")  # with paths so long that what they leave out is nothing
+    scene = room.model_copy(update={"render": room.render.model_copy(update={"bounces": 64})})
+    result = measure_scene(
+        "room", scene, Plan(24, 24, 0.1), context, tmp_path / "r", lambda *_: None
+    )
+    assert_halves(slopes_of(result.curves))
+    size = {"width": 24, "height": 24, "seed": 71}
+    truth = rendered(scene, context, 16384, **size, bounces=128, method="nee")
+    scale = np.square(truth.radiance, dtype=np.float64) + 0.01 * truth.radiance.mean() ** 2
+    for variant, curve in zip(result.variants, result.curves, strict=True):
+        if not curve.is_biased:
+            continue
+        ways = variant.settings.model_dump(include={"method", "bounces"})
+        other = rendered(scene, context, 16384, **{**size, "seed": 72}, **ways)
+        difference = np.square(other.radiance - truth.radiance, dtype=np.float64)
+        noise = np.square(other.stderr) + np.square(truth.stderr)
+        floor = np.sqrt(np.mean((difference - noise) / scale))
+        assert curve.bias.value == pytest.approx(floor, rel=0.03, abs=0.004), curve.name
+        if "5 bounces" not in curve.name:  # whose noise is not small beside it
+            assert curve.points[-1].error.value == pytest.approx(floor, rel=0.03), curve.name
+    biased = {curve.name for curve in result.curves if curve.is_biased}
+    assert {"whitted", "cook", "mis, 1 bounce", "mis, 2 bounces"} <= biased

@@ -1,0 +1,146 @@
+"""`glrt stress`: every case at a tiny size, verdicts that can fail, files whole or absent."""
+
+import csv
+import json
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from glrt.analysis.stress import report
+from glrt.analysis.stress.cases import CASES
+from glrt.analysis.stress.sweep import Case, Finding, Lab, Sweep
+from glrt.cli import stress
+from glrt.cli.main import main
+from glrt.gpu import glsl
+from glrt.gpu.context import Context
+from glrt.resources import folder
+from tests.support.alarms import book
+
+TINY = 1 / 64
+VERDICTS = {"lamps": 11, "ceiling": 18, "bulb": 18, "caustic": 3, "fireflies": 1, "seeds": 7}
+SWEEP = Sweep(
+    parameter="size",
+    measure="error",
+    x=[1.0, 2.0, 4.0, 8.0],
+    chosen=("ours", [0.1, 0.2, 0.1, 9.0]),
+    others={"naive": [0.1, 1.0, 2.0, 9.0]},
+    promise="below a half up to 4",
+    bound=[0.5] * 4,
+    guaranteed=[True, True, True, False],
+)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_case_holds_and_tells_the_naive_method_from_the_chosen(
+    context: Context, name: str
+) -> None:
+    lab = Lab(context, TINY)
+    sweep = CASES[name].run(lab)
+    book(VERDICTS.get(name, 0))
+    assert sweep.broken() == []
+    curves = [sweep.chosen[1], *sweep.others.values()]
+    assert all(len(curve) == len(sweep.x) > 3 for curve in curves)
+    assert np.isfinite(curves).all()
+    assert np.min(curves) >= 0
+    if sweep.bound is not None:
+        naive = next(iter(sweep.others.items()))
+        assert replace(sweep, chosen=naive).broken() != []
+
+
+def test_a_guarantee_holds_where_it_is_given_and_nowhere_else() -> None:
+    assert SWEEP.broken() == []
+    assert SWEEP.limit() == 4.0
+    assert replace(SWEEP, guaranteed=None).broken() == [8.0]
+    assert replace(SWEEP, guaranteed=None).limit() is None
+    assert replace(SWEEP, guaranteed=[False, False, True, True]).limit() == 4.0
+    assert replace(SWEEP, chosen=("naive", SWEEP.others["naive"])).broken() == [2.0, 4.0]
+    assert replace(SWEEP, chosen=("nan", [float("nan")] * 4)).broken() == [1.0, 2.0, 4.0]
+    free = replace(SWEEP, bound=None, guaranteed=None, chosen=("", [9.0] * 4))
+    assert free.broken() == []
+    assert replace(free, wrong=[2.0]).broken() == [2.0]
+    assert replace(SWEEP, wrong=[8.0]).broken() == [8.0]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
+    """`glrt stress` in this process, at a tiny size."""
+    monkeypatch.setattr(stress, "QUICK", TINY)
+    return lambda *words: main(["stress", "--quick", *map(str, words)])
+
+
+def test_a_run_writes_table_figures_and_charts(
+    run: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("lamp", "distance", "lamp", "-o", tmp_path / "new" / "folder") == 0
+    target = tmp_path / "new" / "folder"
+    names = {"stress.md", "stress.csv", "overview.png", "lamp.svg", "distance.svg"}
+    assert {file.name for file in target.iterdir()} == names
+    told = capsys.readouterr()
+    assert told.out == (target / "stress.md").read_text() + "\n"
+    assert told.err == ""
+    assert told.out.count("| holds |") == 2
+    with (target / "stress.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert {row["case"] for row in rows} == {"lamp", "distance"}
+    assert all(float(row["y"]) >= 0 for row in rows)
+    assert {row["guaranteed"] for row in rows} == {"0", "1", ""}
+
+
+def test_a_broken_guarantee_ends_with_code_1_and_its_place(
+    run: Callable[..., int],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    stable, naive = "s2 / (1.0 + sqrt(1.0 - s2))", "1.0 - sqrt(1.0 - s2)"
+    shaders = tmp_path / "shaders"
+    shutil.copytree(folder("shaders_glsl"), shaders)
+    text = (shaders / "light.glsl").read_text()
+    assert stable in text
+    (shaders / "light.glsl").write_text(text.replace(stable, naive))
+    monkeypatch.setattr(glsl, "folder", lambda _name: shaders)
+    assert run("lamp", "distance", "-o", tmp_path, "--json") == 1
+    told = json.loads(capsys.readouterr().out)
+    assert told["distance"]["holds"] is True
+    assert told["lamp"]["holds"] is False
+    assert told["lamp"]["verdict"].startswith("BROKEN at 1e-06, 1.78e-06, 3.16e-06 and ")
+    assert min(told["lamp"]["broken"]) == pytest.approx(1e-6)
+    assert "| BROKEN at" in (tmp_path / "stress.md").read_text()
+
+
+def test_what_cannot_be_run_is_refused_before_anything_is_measured(
+    run: Callable[..., int],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(stress, "_run", lambda *_: pytest.fail("measured"))
+    assert run("lampe", "-o", tmp_path) == 2
+    said = capsys.readouterr().err
+    assert "did you mean 'lamp'?" in said
+    assert all(name in said for name in CASES)
+    assert run("lamp") == 2
+    assert "-o DIR" in capsys.readouterr().err
+    (tmp_path / "file").touch()
+    assert run("lamp", "-o", tmp_path / "file") == 2
+    (tmp_path / "taken" / "lamp.svg").mkdir(parents=True)
+    assert run("lamp", "-o", tmp_path / "taken") == 2
+    assert sorted(file.name for file in tmp_path.rglob("*")) == ["file", "lamp.svg", "taken"]
+
+
+def test_the_list_names_every_case_without_running_one(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["stress", "--list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(CASES)
+
+
+def test_the_table_names_the_worst_under_the_guarantee() -> None:
+    case = Case("sizes", "Sizes", lambda _: SWEEP)
+    text = report.table([Finding(case, SWEEP, 1.25)], "a driver")
+    row = "| sizes | Sizes | below a half up to 4 | holds | 0.2 | 9 (naive) | 1.2 |"
+    assert row in text.splitlines()
+    assert "on a driver." in text

@@ -1,0 +1,60 @@
+"""The sweep over the number of spheres runs, and its table says what was measured."""
+
+import numpy as np
+import pytest
+
+from bench import sphere_counts
+from bench.sphere_counts import FIRST, crowd, main, measure, table
+from glrt.gpu.context import Context
+from glrt.rendering.renderer import Renderer
+from glrt.scene.shapes import Sphere
+
+
+@pytest.mark.parametrize("count", [16, 485])
+def test_balls_of_a_crowd_stand_on_the_floor_and_do_not_touch(count: int) -> None:
+    balls = [shape for shape in crowd(count).objects if isinstance(shape, Sphere)]
+    center = np.array([ball.center for ball in balls])
+    radius = np.array([ball.radius for ball in balls])
+    assert len(balls) == count
+    assert np.allclose(center[:, 1], radius)
+    apart = np.linalg.norm(center[:, None] - center[None], axis=2) - radius - radius[:, None]
+    assert apart[~np.eye(count, dtype=bool)].min() > 0
+    assert 0.15 < np.pi * np.square(radius).sum() / 4 < 0.35, "the share of the floor"
+
+
+def test_each_crowd_is_measured_with_a_tree_and_without(context: Context) -> None:
+    rows = measure(context, [40, FIRST], size=8, rounds=3)
+    assert [row.spheres for row in rows] == [40, FIRST]
+    for row in rows:
+        assert row.loop_seconds
+        assert row.gain
+        assert row.gain[1] <= row.gain[0] <= row.gain[2]
+    assert rows[1].growth == (1, 1, 1)
+    lines = list(table(rows, 64))
+    assert len(lines) == 4
+    assert f"{64 / rows[0].tree_seconds / 1e6:.2f}" in lines[2]
+
+
+def test_a_crowd_beyond_the_loop_limit_is_measured_with_a_tree_alone(
+    context: Context, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if not context.is_software:
+        pytest.skip("this machine renders on hardware")
+    assert main(["--spheres", "6000", "--size", "8", "--rounds", "2"]) == 0
+    (line,) = (line for line in capsys.readouterr().out.splitlines() if "6,000" in line)
+    assert line.split("|")[3].strip() == "refused"
+
+
+def test_the_loop_is_in_constants_up_to_as_many_balls_as_are_asked_for(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tiers: list[str] = []
+    seconds = sphere_counts._seconds
+
+    def noted(renderer: Renderer) -> float:
+        tiers.append(renderer.tier)
+        return seconds(renderer)
+
+    monkeypatch.setattr(sphere_counts, "_seconds", noted)
+    measure(context, [39, 40], size=8, rounds=2, constants=39)
+    assert tiers == 2 * ["generic", "generic", "baked", "generic"]  # by tree, then one by one

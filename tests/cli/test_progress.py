@@ -1,0 +1,86 @@
+"""The bar of a render: seconds that are left to the first of its limits."""
+
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from glrt.cli import progress
+from glrt.cli.progress import Forecast
+from glrt.rendering.stopping import Limits
+from glrt.settings import MAX_SAMPLES
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
+    """The time, which stands until it is set."""
+    now = {"seconds": 100.0}
+    monkeypatch.setattr(progress, "time", SimpleNamespace(perf_counter=lambda: now["seconds"]))
+    return now
+
+
+def renderer(samples: int, error: float) -> Any:
+    image = SimpleNamespace(error=error)
+    return SimpleNamespace(samples=samples, work=float(samples), image=lambda: image)
+
+
+def told(clock: dict[str, float], limits: Limits, samples: int, begun: int = 0) -> dict[str, Any]:
+    """After 4 seconds, with an error of 20 %."""
+    forecast = Forecast(limits, begun)
+    clock["seconds"] += 4
+    return forecast.after(renderer(samples, 0.2))
+
+
+@pytest.mark.parametrize(
+    ("limits", "begun", "total"),
+    [
+        (Limits(400), 0, 16),  # at 25 samples a second
+        (Limits(1000, deadline=110.0), 0, 10),
+        (Limits(1000, deadline=187.0), 0, 40),
+        (Limits(1 << 20, error=0.1), 0, 16),  # four times the samples
+        (Limits(1 << 20, deadline=106.0, error=0.1), 0, 6),
+        (Limits(400), 50, 28),  # at 12.5 a second
+        (Limits(1 << 20, error=0.1), 50, 28),
+    ],
+    ids=["samples", "time", "samples before time", "error", "time before error", *"ab"],
+)
+def test_the_first_limit_tells_how_long_it_takes(
+    clock: dict[str, float], limits: Limits, begun: int, total: float
+) -> None:
+    state = told(clock, limits, 100, begun)
+    assert state["completed"] == pytest.approx(4 / total)
+    assert state["rest"].endswith(f"4 s, {total - 4} s to go")
+    most = "" if limits.samples == MAX_SAMPLES else f" of {limits.samples}"
+    assert state["done"] == f"100{most} samples", "nobody asked for 2^20"
+
+
+def test_the_error_is_told_once_it_was_looked_at(clock: dict[str, float]) -> None:
+    assert told(clock, Limits(400), 100)["rest"].startswith("error 20 %  4 s")
+    forecast = Forecast(Limits(400))
+    clock["seconds"] += progress.LOOK / 2
+    assert "error" not in forecast.after(renderer(100, 0.2))["rest"]
+
+
+def test_looks_at_the_error_take_a_twentieth_of_the_time(clock: dict[str, float]) -> None:
+    """A large film takes seconds to read back."""
+    looks: list[float] = []
+
+    def image() -> Any:
+        looks.append(clock["seconds"])
+        clock["seconds"] += 3.0
+        return SimpleNamespace(error=0.2)
+
+    large: Any = SimpleNamespace(samples=1, work=1.0, image=image)
+    forecast = Forecast(Limits(400))
+    for _ in range(1000):
+        clock["seconds"] += 0.25
+        forecast.after(large)
+    assert len(looks) > 3
+    assert all(after - before > 3.0 / 0.05 for before, after in pairwise(looks))
+
+
+def test_what_takes_longer_than_foretold_is_all_but_done(clock: dict[str, float]) -> None:
+    state = told(clock, Limits(400, deadline=101.0), 100)
+    assert state["completed"] == 1
+    assert state["rest"].endswith(" 0 s to go")

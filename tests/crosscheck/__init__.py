@@ -1,0 +1,1 @@
+"""Other renderers show the same pictures."""

@@ -1,0 +1,217 @@
+"""A third opinion: Mitsuba 3, which shares no line with glrt, shows the same pictures."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import nullcontext
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import glrt
+from bench.peer import Peer, Request
+from glrt.comparison.result import Comparison
+from glrt.comparison.verdict import compare
+from glrt.errors import RenderError, SceneError
+from glrt.gpu.context import Context
+from glrt.image.image import Image
+from glrt.image.sources import load
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Sphere
+from tests.mitsuba.engine import LLVM_PACKAGE
+from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
+from tests.support.alarms import ALPHA, book
+from tests.support.builders import glass, lamp, plane, quad, scene_of, sphere
+from tests.support.renders import rendered
+from tests.support.system_packages import needs_package
+
+# Each shape and material; a lamp seen from both sides, and sheared: Mitsuba has rectangles for
+# those that are not.
+MATERIALS: dict[str, dict[str, Any]] = {
+    "white": {"type": "lambertian", "color": [0.8, 0.75, 0.7]},
+    "glass": glass(1.5),
+    "mirror": {"type": "metal", "color": [0.9, 0.7, 0.5]},
+    "rough": {"type": "metal", "color": [0.6, 0.8, 0.9], "roughness": 0.5},
+    "screen": lamp(4.0, 0.3),
+    "bulb": {"type": "light", "emission": [9.0, 6.0, 3.0]},
+}
+OBJECTS = [
+    plane([0, 0, 0], [0, 2, 0], "white"),
+    sphere([-1.1, 0.5, 0.2], 0.5, "glass"),
+    sphere([0, 0.5, 0.4], 0.5, "rough"),
+    sphere([1.1, 0.5, 0.2], 0.5, "mirror"),
+    sphere([0.5, 1.5, -0.6], 0.2, "bulb"),
+    quad([-1.6, 0.3, -1.0], [1.2, 0.2, 0], [0.2, 1.1, -0.1], "screen"),
+]
+CAMERA = {"position": [0.3, 1.3, 4.0], "look_at": [0.0, 0.6, 0.0], "defocus_angle": 8.0}
+SKY = {"bottom": [0.5, 0.3, 0.1], "top": [0.1, 0.3, 0.6]}
+
+SHEET = quad([0, 0, 0], [1, 0, 0], [0, 0, 1], "white")
+
+NO_WHEEL = "Mitsuba has no wheel for this system"
+SMALL = {"width": 48, "height": 48, "bounces": 3, "roulette": False}
+SAMPLES = 256
+
+
+def everything(roughness: float = 0.5, **camera: Any) -> Scene:
+    """All of the above, with another roughness or camera."""
+    rough = MATERIALS["rough"] | {"roughness": roughness}
+    return scene_of(OBJECTS, MATERIALS | {"rough": rough}, CAMERA | camera, background=SKY)
+
+
+@pytest.fixture(scope="module")
+def mitsuba() -> Iterator[Peer]:
+    """Mitsuba in its fast mode, ready."""
+    if find_spec("mitsuba") is None:
+        pytest.skip(NO_WHEEL)
+    try:
+        peer = Peer([sys.executable, "-m", "tests.mitsuba.serve"])
+    except RenderError as error:
+        needs_package(LLVM_PACKAGE not in str(error), LLVM_PACKAGE)
+        raise
+    yield peer
+    peer.close()
+
+
+@pytest.fixture(scope="module")
+def their_picture(mitsuba: Peer) -> Image:
+    """What Mitsuba makes of `everything`."""
+    return theirs(mitsuba, everything())
+
+
+def theirs(mitsuba: Peer, scene: Scene, samples: int = SAMPLES, **changes: Any) -> Image:
+    settings = {**SMALL, "samples": samples, "seed": 1, "batches": 64, **changes}
+    return mitsuba.render(Request.of(scene, **settings))[0]
+
+
+def ours(context: Context, scene: Scene, samples: int = SAMPLES, **changes: Any) -> Image:
+    return rendered(scene, context, samples, **{**SMALL, "sampler": "independent", **changes})
+
+
+def judged(ours: Image, theirs: Image) -> Comparison:
+    """With equal numbers of samples the noise of both adds up, whatever their methods."""
+    book()
+    return compare(ours, theirs, alpha=ALPHA, alike=True)
+
+
+def test_everything_looks_the_same_to_mitsuba(context: Context, their_picture: Image) -> None:
+    found = judged(ours(context, everything()), their_picture)
+    assert found, str(found)
+    assert found.shown < 0.02
+
+
+def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    """Found if the shadowing of both directions were independent, as in its `roughconductor`."""
+    scene = everything(roughness=1.0)
+    found = judged(ours(context, scene), theirs(mitsuba, scene))
+    assert found, str(found)
+
+
+def test_the_inside_of_balls_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    """From within glass: a matte wall and a lamp from inside, and the surface of water."""
+    scene = scene_of(
+        [
+            sphere([0, 0, 0], 5.0, "white"),
+            sphere([0, 0.2, 0], 1.0, "glass"),
+            sphere([0, 4, -4], 3.0, "bulb"),
+            sphere([0, 0.5, -3], 0.7, "rough"),
+            plane([0, -1.5, 0], [0, 1, 0], "water"),
+        ],
+        MATERIALS | {"water": glass(1.33)},
+    )
+    found = judged(ours(context, scene), theirs(mitsuba, scene))
+    assert found, str(found)
+    assert found.shown < 0.03
+
+
+@pytest.mark.parametrize(
+    ("scene", "settings"),
+    [
+        (everything(), {"bounces": 4}),
+        (everything(), {"bounces": 2}),
+        (everything(roughness=0.5**0.5), {}),
+        (everything(defocus_angle=4.0), {}),
+        (everything(focus_distance=3.0), {}),
+        (everything(fov=45.5), {}),
+    ],
+    ids=["one bounce more", "one less", "alpha = roughness", "half a lens", "focus", "fov"],
+)
+def test_a_planted_difference_is_found(
+    context: Context, their_picture: Image, scene: Scene, settings: dict[str, Any]
+) -> None:
+    found = judged(ours(context, scene, **settings), their_picture)
+    assert not found, str(found)
+
+
+def test_a_lamp_without_its_back_is_found(context: Context, mitsuba: Peer) -> None:
+    found = judged(ours(context, everything()), theirs(mitsuba, everything(), one_sided=True))
+    assert not found, str(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cornell", "lens", "metals", "sky", "lamps"])
+def test_scene_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer, name: str) -> None:
+    scene = load(name)
+    settings = {"width": 64, "height": 64, "bounces": scene.render.bounces}
+    found = judged(ours(context, scene, 1024, **settings), theirs(mitsuba, scene, 1024, **settings))
+    assert found.verdict == "same", str(found)
+
+
+def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:
+    """In its slow mode, which needs no LLVM, and from the command line."""
+    if find_spec("mitsuba") is None:
+        pytest.skip(NO_WHEEL)
+    file = tmp_path / "sky.exr"
+    line = "sky --width 24 --height 16 --samples 16 --bounces 2 --variant scalar --json -o"
+    command = [sys.executable, "-m", "tests.mitsuba", *line.split(), str(file)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    image = Image.load(file)
+    assert image.radiance.shape == (16, 24, 3)
+    assert image.samples == json.loads(done.stdout)["samples"] == 16
+    assert image.error == json.loads(done.stdout)["error"]
+    book()
+    assert compare(image, glrt.render(load("sky"), 16, width=24, height=16, bounces=2), ALPHA)
+
+
+@pytest.mark.parametrize(
+    ("objects", "reason"),
+    [
+        ([plane([0, 0, 0], [0, 1, 0], "white"), plane([5, 0, 1], [0, -2, 0], "white")], "plane"),
+        ([plane([0, 0, 0], [0, 1, 0], "white"), SHEET], "plane"),
+        ([SHEET, quad([0.9, 0, 0.9], [0, 0, 1], [1, 0, 0], "white")], "plane"),
+        ([SHEET, quad([1.0, 0, 0.0], [0, 0, 1], [1, 0, 0], "white")], ""),
+        ([SHEET, quad([0, 0.01, 0], [0, 0, 1], [1, 0, 0], "white")], ""),
+        ([SHEET, quad([0, 0, 0], [0, 1, 0], [1, 0, 0], "white")], ""),
+    ],
+)
+def test_faces_in_one_plane_are_refused(objects: list[dict[str, Any]], reason: str) -> None:
+    scene = scene_of(objects, MATERIALS)
+    with pytest.raises(SceneError, match=reason) if reason else nullcontext():
+        refuse_coincident(scene)
+
+
+@pytest.mark.parametrize(
+    ("item", "seen"),
+    [
+        (sphere([0, 2, 0], 1.0, "white"), False),  # touches
+        (sphere([0, 1.9, 0], 1.0, "white"), True),
+        (sphere([0, 0.5, 0], 0.1, "white"), True),  # within
+        (sphere([0, 0.5, 0], 3.0, "white"), False),  # around
+        (plane([0, 1, 0], [0, 1, 0], "white"), False),
+        (plane([5, 0.9, 5], [0, 1, 0], "white"), True),
+        (quad([-1, 0.5, -1], [2, 0, 0], [0, 0, 2], "white"), True),
+        (quad([4, 0.5, -1], [2, 0, 0], [0, 0, 2], "white"), False),
+    ],
+)
+def test_inside_of_a_ball_is_seen_if_something_is_there(item: dict[str, Any], seen: bool) -> None:
+    objects = [sphere([0, 0, 0], 1.0, "white"), item]
+    scene = scene_of(objects, MATERIALS, {"position": [0, 0, 9]})
+    ball = scene.objects[0]
+    assert isinstance(ball, Sphere)
+    assert is_seen_from_inside(ball, scene) == seen
+    inside = scene_of(objects, MATERIALS, {"position": [0, 0, 0.9]})
+    assert is_seen_from_inside(ball, inside)

@@ -1,0 +1,290 @@
+"""Kernel source: what is assembled, what the driver thinks of it, and where it says errors are."""
+
+import re
+import shutil
+from pathlib import Path
+
+import moderngl
+import pytest
+
+from glrt.errors import RenderError
+from glrt.gpu import glsl
+from glrt.gpu.evaluate import path_files
+from glrt.gpu.glsl import Source, files_anew, read
+from glrt.gpu.program import FragmentKernel, Kernel
+from glrt.gpu.struct_arrays import blocks_text
+from glrt.image.sources import load
+from glrt.rendering.pack import pack_scene
+from glrt.rendering.pipelines import sources
+from glrt.resources import folder
+from tests.support.builders import EVERYTHING, FEATURE_SETS
+from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
+
+INCLUDES = path_files()
+TONEMAP_ENTRY = """
+layout(local_size_x = 1) in;
+#include "tonemap.glsl"
+layout(std430) buffer Data { vec4 data; };
+void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
+"""
+OLD_BLOCKS = {"blocks.glsl": blocks_text(pack_scene(load("cornell")), has_storage=False)}
+DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
+
+
+@pytest.fixture
+def shaders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the shader folder, to plant faults in."""
+    copy = tmp_path / "shaders_glsl"
+    shutil.copytree(folder("shaders_glsl"), copy)
+    monkeypatch.setattr(glsl, "folder", lambda name: tmp_path / name)
+    return copy
+
+
+def plant(file: Path, line: str) -> int:
+    """Put a line in front of the file's second function; the number it has there."""
+    lines = file.read_text().splitlines()
+    starts = [i for i, text in enumerate(lines) if re.match(r"\w+ \w+\(.*\{", text)]
+    lines.insert(starts[1], line)
+    file.write_text("\n".join(lines))
+    return starts[1] + 1
+
+
+# --- assembling ----------------------------------------------------------------------------
+
+
+def test_the_version_stands_first_and_the_prelude_follows() -> None:
+    lines = Source("trace.comp", {"HAS_LENS": False, "BLOCK": 16}).text.splitlines()
+    assert lines[:3] == [
+        "#version 430 core",
+        "const bool HAS_LENS = false;",
+        "const int BLOCK = 16;",
+    ]
+
+
+def test_a_file_is_included_once_where_it_is_first_named(shaders: Path) -> None:
+    (shaders / "a.glsl").write_text('#include "b.glsl"\nint a;\n')
+    (shaders / "b.glsl").write_text('#include "a.glsl"\nint b;\n')
+    entry = '#include "a.glsl"\n#include "b.glsl"\nint entry;'
+    source = Source("entry.comp", parts={"entry.comp": entry})
+    assert [line.text for line in source.lines[1:]] == ["int b;", "int a;", "int entry;"]
+    origins = ["prelude", "b.glsl:2", "a.glsl:2", "entry.comp:3"]
+    assert [line.origin for line in source.lines] == origins
+
+
+def test_no_include_is_left_for_the_driver() -> None:
+    assert "#include" not in Source("trace.comp", EVERYTHING).text
+
+
+def test_a_missing_include_names_the_file_and_the_line_that_asks(shaders: Path) -> None:
+    (shaders / "a.glsl").write_text('// one\n#include "lost.glsl"\n')
+    with pytest.raises(RenderError, match=r"a\.glsl:2: .*'lost\.glsl': No such file"):
+        Source("entry.comp", parts={"entry.comp": '#include "a.glsl"\n'})
+
+
+def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
+    def text() -> str:
+        return Source("entry.comp", parts={"entry.comp": '#include "a.glsl"\n'}).lines[-1].text
+
+    file = shaders / "a.glsl"
+    file.write_text("int a;\n")
+    assert text() == "int a;"
+    file.write_bytes(b"int b; // \xff\n")
+    assert text() == "int a;"
+    with pytest.raises(RenderError, match="int b"), files_anew():
+        raise RenderError(text())
+    assert text() == "int a;"
+    with files_anew():
+        assert text() == "int b; // \ufffd"
+    assert text() == "int b; // \ufffd"
+
+
+# --- the driver's messages -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", INCLUDES)
+def test_an_error_in_an_included_file_is_told_by_file_and_line(
+    ctx: moderngl.Context, shaders: Path, name: str
+) -> None:
+    (shaders / name).write_text("int first() { return 1; }\n\nint second() { return 2; }\n")
+    number = plant(shaders / name, "float broken() { return undeclared; }")
+    source = Source(
+        "entry.comp", EVERYTHING, parts={"entry.comp": f'#include "{name}"\nvoid main() {{}}'}
+    )
+    with pytest.raises(RenderError, match=rf"{re.escape(name)}:{number}: .*undeclared"):
+        Kernel(ctx, source)
+
+
+def test_an_error_deep_in_the_kernel_is_told_by_file_and_line(
+    ctx: moderngl.Context, shaders: Path
+) -> None:
+    number = plant(shaders / "light.glsl", "float broken() { return undeclared; }")
+    with pytest.raises(RenderError, match=rf"light\.glsl:{number}: .*undeclared") as caught:
+        Kernel(ctx, Source("trace.comp", EVERYTHING))
+    assert "\n" not in str(caught.value)
+
+
+def test_an_error_in_the_entry_text_is_told_under_its_name(ctx: moderngl.Context) -> None:
+    text = "layout(local_size_x = 1) in;\nvoid main() {\n    undeclared = 1;\n}\n"
+    with pytest.raises(RenderError, match=r"entry\.comp:3: .*undeclared"):
+        Kernel(ctx, Source("entry.comp", parts={"entry.comp": text}))
+
+
+@pytest.mark.parametrize(
+    ("told", "led_back"),
+    [
+        ("0:3(14): error: `x' undeclared", "e.comp:2: error: `x' undeclared"),
+        ("0(3) : error C1503: undefined", "e.comp:2: error C1503: undefined"),
+        ("ERROR: 0:3: 'x' : undeclared", "ERROR: e.comp:2: 'x' : undeclared"),
+        ("0:1(1): error: version", "prelude: error: version"),
+        ("0:99(1): error: x", "line 99: error: x"),
+        ("0:0(0): error: x", "line 0: error: x"),
+        ("expected 10:3 or 0.5(3)", "expected 10:3 or 0.5(3)"),
+    ],
+    ids=["Mesa", "NVIDIA", "glslang", "prelude", "past the end", "nowhere", "no place"],
+)
+def test_messages_of_all_drivers_are_led_back_to_files(told: str, led_back: str) -> None:
+    source = Source("e.comp", parts={"e.comp": "one\ntwo\nthree"})
+    assert source.explain(told) == led_back
+
+
+def test_each_line_of_a_message_is_led_back() -> None:
+    source = Source("e.comp", parts={"e.comp": "one\ntwo\nthree"})
+    told = "0:2(1): error: a\n0:4(1): warning: b\n"
+    assert source.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
+
+
+# --- precise -------------------------------------------------------------------------------
+
+
+def function_bodies(glsl: str) -> list[str]:
+    """What stands between the braces of each function."""
+    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", glsl, flags=re.DOTALL)
+    bodies = []
+    for start in re.finditer(r"^\w+ \w+\([^;{}]*\)\s*\{", text, re.MULTILINE):
+        depth, end = 1, start.end()
+        while depth:
+            depth += {"{": 1, "}": -1}.get(text[end], 0)
+            end += 1
+        bodies.append(text[start.end() : end])
+    return bodies
+
+
+def imprecise(glsl: str) -> list[str]:
+    """Names of locals and inout parameters that hold floats, declared without `precise`."""
+    types = ["float", r"d?vec\d", r"d?mat\d(?:x\d)?", *re.findall(r"\bstruct\s+(\w+)", glsl)]
+    local = re.compile(rf"(?<!precise )\b(?:{'|'.join(types)})(?:\s*\[\w*\])?\s+(\w+)\s*[=;,\[)]")
+    parameter = re.compile(rf"(?<!precise )\b(?:in)?out\s+(?:{'|'.join(types)})\s+(\w+)")
+    found = [name for body in function_bodies(glsl) for name in local.findall(body)]
+    return found + parameter.findall(glsl)
+
+
+def test_every_float_that_the_kernel_assigns_is_precise() -> None:
+    text = Source("trace.comp", EVERYTHING).text
+    bodies = function_bodies(text)
+    assert text.count("return") == sum(body.count("return") for body in bodies)  # none is missed
+    assert text.count("precise ") > 80
+    assert imprecise(text) == []
+
+
+def test_the_search_for_what_is_not_precise_finds_every_way_to_declare_it() -> None:
+    glsl = """
+    struct Ray { vec3 origin; };
+vec3 field;
+Ray f(vec3 parameter, inout float other) {
+    vec3 a;  // vec3 comment = 1;
+    float b = 1.0, more;
+    const float c = 2.0;
+    if (b > 0.0) vec3 d = vec3(b);
+    for (float e = 0.0; e < 1.0; e += 0.1) { mat3 g = mat3(1.0); }
+    float[2] h = float[2](1.0, 2.0);
+    vec2 k[3];
+    Ray l = Ray(vec3(1.0));
+    int i = 0;
+    precise float fine = 1.0;
+    precise Ray good = Ray(vec3(1.0));
+    return Ray(vec3(1.0));
+}
+"""
+    assert imprecise(glsl) == ["a", "b", "c", "d", "e", "g", "h", "k", "l", "other"]
+
+
+# --- what the driver thinks ----------------------------------------------------------------
+
+
+def test_every_shader_file_is_compiled_by_a_test_here() -> None:
+    files = {path.name for path in folder("shaders_glsl").iterdir()}
+    reached = {*INCLUDES, *re.findall(r'#include "(\w+\.glsl)"', TONEMAP_ENTRY)}
+    assert files == reached | {
+        "trace.comp",
+        "trace.vert",
+        "trace.frag",
+        "mix.frag",
+        "false_colors.frag",
+        *DISPLAY_STAGES,
+    }
+
+
+@pytest.mark.parametrize("features", FEATURE_SETS)
+def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: str) -> None:
+    assert ctx.version_code >= 430
+    assert warnings((COMPUTE, Source("trace.comp", FEATURE_SETS[features]).text)) == []
+
+
+def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
+    assert ctx.version_code >= 430
+    assert warnings((COMPUTE, Source("tonemap", parts={"tonemap": TONEMAP_ENTRY}).text)) == []
+
+
+@pytest.mark.parametrize("name", ["display.frag", "mix.frag", "false_colors.frag"])
+def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
+    assert ctx.version_code >= 430
+    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(name).text)]
+    assert warnings(*stages) == []
+
+
+def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
+    assert ctx.version_code >= 430
+    for layers in ({"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}):
+        text = Source("trace.comp", {**EVERYTHING, **layers}).text
+        assert imprecise(text) == []
+        assert warnings((COMPUTE, text)) == []
+
+
+def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:
+    number = plant(shaders / "warp.glsl", "float odd() { float x; return x; }")
+    text = (shaders / "path.glsl").read_text()
+    use = "return Path(ray, vec3(1.0)"
+    assert text.count(use) == 1
+    (shaders / "path.glsl").write_text(text.replace(use, use.replace("vec3(1.0)", "vec3(odd())")))
+    source = Source("trace.comp", EVERYTHING)
+    Kernel(ctx, source).release()
+    for _ in ("for the first time", "again, though the driver may have it in its cache"):
+        told = [source.explain(line) for line in warnings((COMPUTE, source.text))]
+        assert told
+        assert all(f"warp.glsl:{number}:" in line and "initialized" in line for line in told)
+
+
+@pytest.mark.parametrize("features", FEATURE_SETS)
+def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) -> None:
+    vertex, fragment = sources("fragment", FEATURE_SETS[features], OLD_BLOCKS)
+    FragmentKernel(ctx, vertex, fragment).release()
+    assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
+
+
+def test_glsl_4_10_refuses_what_came_later(ctx: moderngl.Context) -> None:
+    for late in ("buffer Later { float later[]; };", "layout(binding = 1) uniform L { float l; };"):
+        parts = {"blocks.glsl": OLD_BLOCKS["blocks.glsl"] + late}
+        with pytest.raises(RenderError, match="refuses a shader"):
+            FragmentKernel(ctx, *sources("fragment", EVERYTHING, parts))
+
+
+def test_both_kernels_include_the_same_path_text() -> None:
+    by_fragment = re.findall(r'#include "(\w+\.glsl)"', read("trace.frag"))
+    assert [name for name in INCLUDES if name != "tiles.glsl"] == by_fragment
+
+
+def test_the_path_text_is_what_the_kernel_includes() -> None:
+    assert [f'#include "{name}"' for name in INCLUDES] == [
+        line for line in read("trace.comp").splitlines() if line.startswith("#include")
+    ]
+    assert "blocks.glsl" in INCLUDES

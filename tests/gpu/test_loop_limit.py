@@ -1,0 +1,82 @@
+"""Drivers end loops early: frames that lost samples are done again, or what is lost is counted."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from glrt.cli.main import main
+from glrt.gpu.context import Context
+from glrt.methods import features
+from glrt.rendering import schedule
+from glrt.rendering.renderer import Renderer
+from tests.support.builders import MATTE, plane, scene_of, sphere
+from tests.support.renders import rendered, rendering, same
+
+
+@pytest.fixture
+def hopeful(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The renderer believes that rays run through any tree in no time."""
+    monkeypatch.setattr(schedule.iterations_per_sample, "__defaults__", (0.0,))  # of `tree_rounds`
+
+
+@pytest.mark.usefixtures("hopeful")
+def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bit for bit: 300 samples a dispatch of rays that meet 300 nodes each are too many."""
+    if not context.is_software:
+        pytest.skip("this machine renders on hardware")
+    scene = scene_of(
+        [sphere([0, 0, 0], 1, "m")] * 300, {"m": MATTE}, background={"color": [1, 1, 1]}
+    )
+    settings = {"width": 8, "height": 8, "bounces": 3}
+    with rendering(scene, context, **settings) as renderer:
+        before = renderer.most_samples
+        renderer.step(300)
+        assert renderer.most_samples <= 300 // 2 < before
+        assert renderer.nonfinite() == 0
+        image = renderer.image()
+    monkeypatch.setattr(features, "TREE_FROM", 1 << 30)
+    assert same(image, rendered(scene, context, 300, **settings))
+
+
+def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context) -> None:
+    """Rays to the left meet 40,000 spheres, twice, and are lost; those to the right none."""
+    if not context.is_software:
+        pytest.skip("this machine renders on hardware")
+    pile_of = [sphere([-3, 0, -5], 2, "white")] * 40_000
+    white = {"white": {"type": "lambertian", "color": [1, 1, 1]}}
+    scene = scene_of(pile_of, white, background={"color": [0.5, 0.5, 0.5]})
+    renderer = Renderer(scene, context=context, width=64, height=16, method="naive")
+    image = renderer.render(2).image()
+    dropped = renderer.nonfinite()
+    assert 2 * 64 * 16 / 8 < dropped < 2 * 64 * 16
+    assert set(np.unique(image.radiance)) <= {0.0, 0.5}, "no sample is wrong"
+    renderer.step(2)
+    assert (renderer.samples, renderer.most_samples) == (4, 1)
+    renderer.release()
+
+
+def test_dropped_samples_are_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Renderer, "nonfinite", lambda _: 1234)
+    small = ["--width", "8", "--height", "8", "--samples", "1"]
+    assert main(["render", "sky", "-o", str(tmp_path / "a.npy"), *small]) == 0
+    assert "1,234 samples were dropped" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_65_536_spheres_are_rendered_without_losing_a_sample(context: Context) -> None:
+    rng = np.random.default_rng(4)
+    center = rng.uniform(-1, 1, (65_535, 3)).round(4).tolist()
+    many = [sphere(c, 0.01, "m") for c in center]
+    scene = scene_of(
+        [*many, plane([0, -1, 0], [0, 1, 0], "m")],
+        {"m": MATTE},
+        {"position": [0, 0, 4]},
+        background={"color": [1, 1, 1]},
+    )
+    image = rendered(scene, context, 4, width=64, height=64)
+    assert 0.05 < image.radiance.mean() < 1

@@ -1,0 +1,144 @@
+"""The kernel contains what its scene needs and nothing else.
+
+A read of a uniform `probe_X` is planted into the text of every feature X. A linked program lists
+the uniforms that it still reads; so `probe_X` stands in the list exactly if X is compiled in.
+"""
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import moderngl
+import pytest
+
+from glrt.gpu import glsl
+from glrt.gpu.glsl import Source
+from glrt.gpu.program import Kernel
+from glrt.methods.features import MOST_NEAR, TREE_FROM, Needs, needs_of
+from glrt.resources import folder
+from glrt.settings import settings_for
+from tests.support.builders import EVERYTHING, MATTE, glass, lamp, plane, quad, scene_of, sphere
+
+FLAGS = {name for name, value in EVERYTHING.items() if value is True}
+# Of each feature: its file, an expression that it computes, and that expression with the probe.
+PROBES = {
+    "HAS_SPHERE": ("shape.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
+    "HAS_PLANE": ("shape.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
+    "HAS_QUAD": ("shape.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
+    "HAS_TREE": ("bvh.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
+    "HAS_MIRROR": ("material.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
+    "HAS_ROUGH_METAL": ("material.glsl", "2.0 * PI * u.x", "{} * u.x"),
+    "HAS_DIELECTRIC": ("material.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
+    "HAS_LENS": ("camera.glsl", "camera.tan_lens * offset", "{} * offset"),
+    "HAS_BACKGROUND": ("path.glsl", "0.5 * (direction.y + 1.0)", "{} * (direction.y + 1.0)"),
+    "HAS_SPHERE_LIGHT": ("light.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
+    "HAS_QUAD_LIGHT": ("light.glsl", "length(to_point)", "length({} * to_point)"),
+    "SAMPLE_LIGHTS": ("path.glsl", "weight * light.radiance", "{} * weight * light.radiance"),
+    "WEIGHT_BOTH": ("path.glsl", "p_b / p_a", "{} * p_b / p_a"),
+    "MANY_LIGHTS": ("light_choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
+    "ROULETTE": ("path.glsl", "throughput /= survival", "throughput /= {} + survival"),
+}
+ALWAYS = ("film.glsl", "1.0 / count", "{} / count")
+NEEDED_TOO = {
+    "HAS_TREE": {"HAS_SPHERE"},
+    "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
+    "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
+    "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
+    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
+    "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
+}
+
+GONE_TOO = {
+    "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
+    "HAS_QUAD": {"HAS_QUAD_LIGHT"},
+    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"},
+}
+
+
+def smallest_with(flag: str) -> set[str]:
+    """The flags of the smallest scene that has this feature."""
+    return {flag, "HAS_PLANE"} | NEEDED_TOO.get(flag, set())
+
+
+def all_but(flag: str) -> set[str]:
+    """The flags of the richest scene without this feature: what rests on it goes too."""
+    return FLAGS - {flag} - GONE_TOO.get(flag, set())
+
+
+SETS = {
+    "everything": FLAGS,
+    **{f"smallest with {flag}": smallest_with(flag) for flag in sorted(FLAGS)},
+    **{f"all but {flag}": all_but(flag) for flag in sorted(FLAGS)},
+}
+MATERIALS: dict[str, dict[str, Any]] = {
+    "matte": MATTE,
+    "mirror": {"type": "metal", "color": [1, 1, 1], "roughness": 0},
+    "rough": {"type": "metal", "color": [1, 1, 1], "roughness": 0.5},
+    "glass": glass(),
+    "lamp": lamp(),
+}
+
+
+def needs_with(flags: set[str]) -> Needs:
+    """What a scene and settings need that ask for these features."""
+
+    def body(material: str) -> dict[str, Any]:
+        if "HAS_SPHERE" in flags:
+            return sphere([0, 0, -3], 1, material)
+        return plane([0, 0, -3], [0, 0, 1], material)
+
+    made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
+    objects = [body(name) for flag, name in made_of.items() if flag in flags]
+    objects += [body("matte")] if "HAS_SPHERE" in flags else []
+    objects += [sphere([9, 9, 9], 1, "matte")] * (TREE_FROM if "HAS_TREE" in flags else 0)
+    objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
+    objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
+    lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
+    lit = "HAS_QUAD_LIGHT" in flags
+    lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
+    objects += lamps + lamps[-1:] * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
+    scene = scene_of(
+        objects,
+        MATERIALS,
+        {"defocus_angle": 2.0 if "HAS_LENS" in flags else 0.0},
+        background={"color": [1, 1, 1] if "HAS_BACKGROUND" in flags else [0, 0, 0]},
+    )
+    method = "mis" if "WEIGHT_BOTH" in flags else "nee" if "SAMPLE_LIGHTS" in flags else "naive"
+    settings = settings_for(scene.render, method=method, roulette="ROULETTE" in flags)
+    return needs_of(scene, settings)
+
+
+@pytest.fixture
+def probed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Shader files with a probe in every feature, and one that is always read."""
+    copy = tmp_path / "shaders_glsl"
+    shutil.copytree(folder("shaders_glsl"), copy)
+    for name, (file, expression, probed) in {**PROBES, "ALWAYS": ALWAYS}.items():
+        text = (copy / file).read_text()
+        assert text.count(expression) == 1, f"{expression} in {file}"
+        (copy / file).write_text(text.replace(expression, probed.format(f"probe_{name}")))
+    scene = (copy / "scene.glsl").read_text()
+    uniforms = "".join(f"uniform float probe_{name};\n" for name in [*PROBES, "ALWAYS"])
+    (copy / "scene.glsl").write_text(uniforms + scene)
+    monkeypatch.setattr(glsl, "folder", lambda name: tmp_path / name)
+
+
+def test_every_feature_has_its_probe() -> None:
+    assert PROBES.keys() == FLAGS
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_a_scene_asks_for_the_features_that_it_uses(name: str) -> None:
+    constants = needs_with(SETS[name]).constants()
+    assert {flag for flag in FLAGS if constants[flag]} == SETS[name]
+
+
+@pytest.mark.usefixtures("probed")
+@pytest.mark.parametrize("name", SETS)
+def test_a_feature_is_compiled_in_exactly_if_the_scene_uses_it(
+    ctx: moderngl.Context, name: str
+) -> None:
+    kernel = Kernel(ctx, Source("trace.comp", needs_with(SETS[name]).constants()))
+    found = {member for member in kernel.names if member.startswith("probe_")}
+    kernel.release()
+    assert found == {"probe_ALWAYS", *(f"probe_{flag}" for flag in SETS[name])}

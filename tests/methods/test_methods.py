@@ -1,0 +1,118 @@
+"""The three methods share one mean: on every scene that comes with glrt, and where it is hard."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from glrt.methods.features import needs_of
+from glrt.scene.catalog import scene_names
+from glrt.scene.scene import Scene
+from glrt.settings import settings_for
+from tests.support.builders import quad, scene_of, sphere
+from tests.support.hard_scenes import BALL, CEILING, FLOOR, HARD, MATERIALS, Samples, hard_scene
+from tests.support.renders import METHODS, assert_agree, rendered
+
+
+def methods_agree(
+    scene: Scene, context: Context, samples: Samples, within: float, **settings: Any
+) -> None:
+    pictures = [
+        rendered(scene, context, count, method=method, seed=seed, **settings)
+        for seed, (method, count) in enumerate(zip(METHODS, samples, strict=True))
+    ]
+    *others, mis = pictures
+    for other in others:
+        assert_agree(other, mis, within)
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_methods_agree_where_it_is_hard(context: Context, name: str) -> None:
+    methods_agree(hard_scene(name), context, HARD[name][1], 0.05, width=32, height=32)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", HARD)
+def test_methods_agree_closely_where_it_is_hard(context: Context, name: str) -> None:
+    samples = HARD[name][1].times(16)
+    methods_agree(hard_scene(name), context, samples, 0.02, width=32, height=32)
+
+
+def is_lit_by_lamps(name: str) -> bool:
+    scene = load(name)
+    return needs_of(scene, settings_for(scene.render, method="mis")).sample_lights
+
+
+LIT = [name for name in scene_names() if is_lit_by_lamps(name)]
+UNLIT = [name for name in scene_names() if not is_lit_by_lamps(name)]
+
+
+def small(name: str, height: int) -> dict[str, int]:
+    """The frame of a scene file at another height, in whole blocks of 8 pixels."""
+    wish = load(name).render
+    return {"width": round(height * wish.width / wish.height / 8) * 8, "height": height}
+
+
+@pytest.mark.parametrize("name", LIT)
+def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
+    """Blocks grow until the caustics, the rarest hits, stop ruling them."""
+    samples = Samples(naive=2048, nee=4096, mis=1024)  # nee suffers from polished metal
+    methods_agree(load(name), context, samples, 0.05, **small(name, 16))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LIT)
+def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> None:
+    """With nee on cornell too: its lamp hangs a thousandth of the room below the ceiling."""
+    samples = Samples(naive=8192, nee=8192, mis=4096)
+    methods_agree(load(name), context, samples, 0.015, **small(name, 32))
+
+
+@pytest.mark.parametrize("name", UNLIT)
+def test_methods_are_one_without_lamps(context: Context, name: str) -> None:
+    pictures = [
+        rendered(load(name), context, 2, method=method, **small(name, 16)).radiance
+        for method in METHODS
+    ]
+    assert np.array_equal(pictures[0], pictures[1])
+    assert np.array_equal(pictures[0], pictures[2])
+
+
+@pytest.mark.parametrize("method", ["nee", "mis"])
+def test_two_lamps_light_as_much_as_both_alone(context: Context, method: str) -> None:
+    """One of them sixty times as strong."""
+    objects = [FLOOR, BALL, CEILING, sphere([-0.9, 0.2, -2.8], 0.2, "cold")]
+    both = {"warm": 4.0, "cold": 1.0}
+    settings = {"method": method, "bounces": 4, "width": 32, "height": 32}
+    pictures = [
+        rendered(scene_of(objects, MATERIALS, lights=lights), context, 128, seed=seed, **settings)
+        for seed, lights in enumerate([both, {**both, "cold": 0.0}, {**both, "warm": 0.0}])
+    ]
+    together, warm, cold = pictures
+    total = replace(
+        warm,
+        radiance=warm.radiance + cold.radiance,
+        stderr=np.hypot(warm.stderr, cold.stderr),
+    )
+    assert_agree(together, total, within=0.05)
+
+
+@pytest.mark.parametrize("method", ["nee", "mis"])
+def test_a_lamp_cut_in_four_is_one_lamp(context: Context, method: str) -> None:
+    corner, u, v = np.array([-0.7, 1.2, -3.5]), np.array([1.4, 0, 0]), np.array([0, 0, 1.2])
+    settings = {"method": method, "bounces": 4, "width": 32, "height": 32}
+    quarters = [
+        quad((corner + i * u / 2 + j * v / 2).tolist(), list(u / 2), list(v / 2), "warm")
+        for i in (0, 1)
+        for j in (0, 1)
+    ]
+    whole_lamp, cut = (
+        rendered(
+            scene_of([FLOOR, BALL, *lamps], MATERIALS), context, 128, seed=len(lamps), **settings
+        )
+        for lamps in ([CEILING], quarters)
+    )
+    assert_agree(cut, whole_lamp, within=0.05)

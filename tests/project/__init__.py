@@ -1,0 +1,1 @@
+"""The house as a whole: structure, set-up, packaging, faults, fuzz."""

@@ -1,0 +1,251 @@
+"""The house keeps its rules: who imports whom, who knows OpenGL, and what path code may say."""
+
+import ast
+import re
+from itertools import chain
+from pathlib import Path
+from statistics import median
+
+import glrt
+from glrt.resources import folder
+
+PACKAGE = Path(glrt.__file__).parent
+ROOT = PACKAGE.parent
+# Packages whose modules may use moderngl; the others go through them.
+KNOW_OPENGL = {"gpu", "rendering", "view", "analysis"}
+SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}
+MOST_LINES_OF_A_FILE = 300
+MOST_LINES_OF_A_FUNCTION = 60
+
+ENTRIES = {
+    "trace.comp",
+    "trace.vert",
+    "trace.frag",
+    "blocks.glsl",
+    "display.frag",
+    "display.vert",
+} | {"mix.frag", "false_colors.frag"}
+NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
+PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
+    "3.402823466e38",  # the largest float: no distance is beyond it
+    "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
+    "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
+    "65536.0",  # 2^16: the chances of roulette
+    "1.1920928955078125e-7",  # 2^-23: the last place of a float from its power of two
+    *("0.333323916", "0.19974214", "0.140413272", "0.0996847111"),  # of an arc tangent
+    *("0.0602030977", "0.0247340375", "0.00482252624"),
+}
+
+
+def sources() -> list[Path]:
+    return sorted(PACKAGE.rglob("*.py"))
+
+
+def dotted(file: Path) -> str:
+    """`glrt.scene.toml`; a package has the name of its folder."""
+    parts = file.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {dotted(file): file for file in sources()}
+
+
+def listed(package: str) -> list[str]:
+    """The modules and packages of a package, in the order that its docstring gives them."""
+    text = ast.get_docstring(ast.parse(MODULES[package].read_text())) or ""
+    return re.findall(r"^- (\w+): ", text, re.MULTILINE)
+
+
+def children(package: str) -> set[str]:
+    """The modules and packages directly below a package."""
+    below = (name.removeprefix(f"{package}.") for name in MODULES if name.startswith(f"{package}."))
+    return {name for name in below if "." not in name}
+
+
+def imported(tree: ast.AST) -> set[str]:
+    """All modules imported anywhere in a tree, in full; a public name is in `glrt.__init__`."""
+    names: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "relative imports"
+            module = node.module or ""
+            whole = {f"{module}.{alias.name}" for alias in node.names}
+            names |= {name if name in MODULES else module for name in whole}
+    return names
+
+
+def upward(importer: str, tree: ast.AST) -> set[str]:
+    """What a module imports though it does not stand above it.
+
+    Two modules are compared where their paths part: by the order of the package they share.
+    """
+    found = set()
+    for name in imported(tree):
+        if name.split(".")[0] != "glrt" or name == importer:
+            continue
+        here, there = importer.split("."), name.split(".")
+        depth = next(
+            (i for i, (a, b) in enumerate(zip(here, there, strict=False)) if a != b),
+            min(len(here), len(there)),
+        )
+        if depth == len(there):  # a package around the importer: its names come from below
+            found.add(name)
+            continue
+        order = listed(".".join(here[:depth]))
+        if order.index(there[depth]) >= order.index(here[depth]):
+            found.add(name)
+    return found
+
+
+def uses(tree: ast.AST, library: str) -> bool:
+    return library in {name.split(".")[0] for name in imported(tree)}
+
+
+def glsl_files() -> dict[str, str]:
+    """Shader files without their comments, line for line."""
+    return {path.name: bare(path.read_text()) for path in folder("shaders_glsl").iterdir()}
+
+
+def path_files() -> dict[str, str]:
+    """The files whose functions trace a path."""
+    return {name: text for name, text in glsl_files().items() if name not in NOT_OF_A_PATH}
+
+
+def bare(glsl: str) -> str:
+    def blank(comment: re.Match[str]) -> str:
+        return "\n" * comment[0].count("\n")
+
+    return re.sub(r"//[^\n]*|/\*.*?\*/", blank, glsl, flags=re.DOTALL)
+
+
+def functions(glsl: str) -> dict[str, int]:
+    """The number of lines of each function."""
+    whole = r"^\w+ (\w+)\([^;{]*\{(?:[^\n]*\}$|.*?^\})"
+    found = re.finditer(whole, glsl, re.MULTILINE | re.DOTALL)
+    return {match[1]: match[0].count("\n") + 1 for match in found}
+
+
+def python_functions(file: Path) -> dict[str, int]:
+    """The number of lines of each function."""
+    nodes = ast.walk(ast.parse(file.read_text()))
+    found = [node for node in nodes if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
+    return {node.name: (node.end_lineno or 0) - node.lineno + 1 for node in found}
+
+
+# --- Python --------------------------------------------------------------------------------
+
+
+def test_every_package_lists_its_modules() -> None:
+    for package in [name for name, file in MODULES.items() if file.stem == "__init__"]:
+        assert sorted(listed(package)) == sorted(children(package)), package
+
+
+def test_a_module_imports_only_what_stands_above_it() -> None:
+    trees = {name: ast.parse(file.read_text()) for name, file in MODULES.items() if name != "glrt"}
+    found = {name: upward(name, tree) for name, tree in trees.items()}
+    assert {name: wrong for name, wrong in found.items() if wrong} == {}
+
+
+def test_an_import_against_the_order_is_seen_wherever_it_stands() -> None:
+    late = ast.parse("def f():\n    from glrt.rendering.renderer import Renderer\n")
+    assert upward("glrt.gpu.program", late) == {"glrt.rendering.renderer"}
+    assert upward("glrt.rendering.film", late) == {"glrt.rendering.renderer"}
+    assert upward("glrt.cli.render", late) == set()
+    assert upward("glrt.gpu.glsl", ast.parse("from glrt import errors, api")) == {"glrt.api"}
+    assert upward("glrt.rendering.film", ast.parse("import glrt")) == {"glrt"}
+    assert upward("glrt.rendering.film", ast.parse("from glrt import Scene")) == {"glrt"}
+    inner = ast.parse("from glrt.view.panels import panel")
+    assert upward("glrt.view.state.session", inner) == {"glrt.view.panels.panel"}
+    assert upward("glrt.view.window", inner) == set()
+
+
+def test_the_product_imports_no_test_and_no_benchmark() -> None:
+    trees = {name: ast.parse(file.read_text()) for name, file in MODULES.items()}
+    assert [
+        name for name, tree in trees.items() if uses(tree, "tests") or uses(tree, "bench")
+    ] == []
+
+
+def test_only_a_few_packages_know_opengl() -> None:
+    trees = {name: ast.parse(file.read_text()) for name, file in MODULES.items()}
+    know = {name.split(".")[1] for name, tree in trees.items() if uses(tree, "moderngl")}
+    assert know <= KNOW_OPENGL
+
+
+def test_libraries_that_are_slow_to_import_wait_until_they_are_used() -> None:
+    later = ast.FunctionDef | ast.If  # `if TYPE_CHECKING` is for mypy alone
+    for name, file in MODULES.items():
+        top = ast.Module(
+            [n for n in ast.parse(file.read_text()).body if not isinstance(n, later)], []
+        )
+        for node in ast.walk(top):
+            if isinstance(node, ast.ClassDef):
+                node.body = []
+        assert [library for library in SLOW_TO_IMPORT if uses(top, library)] == [], name
+
+
+def test_files_are_short() -> None:
+    shaders = [path for path in folder("shaders_glsl").rglob("*") if path.is_file()]
+    outside = [file for name in ("bench", "tools") for file in (ROOT / name).rglob("*.py")]
+    lengths = {str(f): len(f.read_text().splitlines()) for f in [*sources(), *outside, *shaders]}
+    assert {name: n for name, n in lengths.items() if n > MOST_LINES_OF_A_FILE} == {}
+
+
+def test_functions_fit_a_screen_and_most_are_shorter_than_ten_lines() -> None:
+    python = [python_functions(file) for file in sources()]
+    shaders = {name: functions(text) for name, text in glsl_files().items()}
+    assert shaders["warp.glsl"]["sample_disk"] == 6
+    assert shaders["sampler.glsl"]["make_sampler"] == 3
+    lengths = [found.values() for found in (*python, *shaders.values())]
+    assert max(chain.from_iterable(lengths)) <= MOST_LINES_OF_A_FUNCTION
+    assert median(chain.from_iterable(lengths)) < 10
+
+
+# --- GLSL ----------------------------------------------------------------------------------
+
+
+def test_only_entry_files_know_where_data_lies() -> None:
+    word = re.compile(r"\b(binding|buffer|image2D|layout|uniform|gl_\w+|#version)\b")
+    for name, text in glsl_files().items():
+        if name not in ENTRIES:
+            assert word.findall(text) == [], name
+
+
+def test_no_shader_fixes_a_binding() -> None:
+    assert not [name for name, text in glsl_files().items() if "binding" in text]
+
+
+def test_path_code_leaves_alone_functions_that_differ_between_drivers() -> None:
+    word = re.compile(
+        r"\b(pow|exp\w*|log\w*|acos|asin|atan|tan|mix|refract|reflect|normalize|inversesqrt"
+        r"|faceforward|smoothstep|isnan|isinf|fma)\s*\("
+    )
+    for name, text in {**path_files(), "trace.comp": glsl_files()["trace.comp"]}.items():
+        assert word.findall(text) == [], name
+
+
+def test_path_code_has_no_tolerances() -> None:
+    number = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][-+]?\d+)?")
+    found = {literal for text in path_files().values() for literal in number.findall(text)}
+    assert found == PATH_LITERALS
+    assert number.findall("t > 1e-4 ? .5 : 1.5e+3 + 2. - v2.x") == ["1e-4", ".5", "1.5e+3", "2."]
+
+
+def test_path_code_holds_no_preprocessor_switch() -> None:
+    for name, text in path_files().items():
+        assert re.findall(r"^\s*#", text, re.MULTILINE) == [], name
+
+
+def test_random_numbers_are_drawn_from_the_sampler_alone() -> None:
+    for name, text in path_files().items():
+        if name not in ("rng.glsl", "sobol.glsl", "sampler.glsl"):
+            assert re.findall(r"pcg_hash|unit_float|\bdimension\b", text) == [], name
+            assert set(re.findall(r"next_\dd\(([^)]*)\)", text)) <= {"rng"}, name
+
+
+def test_a_statement_draws_one_number() -> None:
+    for name, text in {**path_files(), "trace.comp": glsl_files()["trace.comp"]}.items():
+        for statement in re.split(r"[;{}]", text):
+            assert statement.count("next_") <= 1, f"{name}: {statement}"

@@ -1,0 +1,90 @@
+"""The test of pictures that docs/ci.md gives people for their CI works as it stands there."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PIL import Image as Pillow
+
+from glrt.gpu.context import ADVICE
+from glrt.resources import folder
+from tests.support.processes import glrt
+
+PAGE = (Path(__file__).parents[2] / "docs" / "ci.md").read_text()
+
+
+def block(language: str) -> str:
+    """The first block of a language on the page."""
+    found = re.search(rf"```{language}\n(.*?)```", PAGE, re.DOTALL)
+    assert found
+    return found[1]
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project that follows the page: a scene, its reference, and the test."""
+    here = tmp_path_factory.mktemp("project")
+    for name in ("scenes", "references"):
+        (here / name).mkdir()
+    text = (folder("scenes") / "cornell.toml").read_text()
+    (here / "scenes" / "room.toml").write_text(text)
+    (here / "test_pictures.py").write_text(block("python"))
+    done = glrt(*block("sh").split()[1:], cwd=here)
+    assert done.returncode == 0, done.stderr
+    return here
+
+
+def run_pytest(project: Path) -> tuple[int, str]:
+    """Exit code and output of pytest there."""
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_pictures.py"]
+    done = subprocess.run(command, cwd=project, capture_output=True, text=True, timeout=200)
+    return done.returncode, done.stdout
+
+
+def test_the_example_passes_on_a_right_picture(project: Path) -> None:
+    code, told = run_pytest(project)
+    assert code == 0, told
+    assert "1 passed" in told
+    assert not (project / "failed").exists()
+
+
+def test_the_example_fails_on_a_wrong_picture_and_shows_it(project: Path) -> None:
+    scene = project / "scenes" / "room.toml"
+    right = scene.read_text()
+    scene.write_text(right.replace("[7.6, 7.2, 6.5]", "[8.36, 7.92, 7.15]"))
+    try:
+        code, told = run_pytest(project)
+    finally:
+        scene.write_text(right)
+    assert code == 1, told
+    assert "different" in told
+    shown = sorted((project / "failed").iterdir())
+    assert [file.name for file in shown] == [
+        "room-difference.png",
+        "room-reference.png",
+        "room.png",
+    ]
+    for file in shown:
+        with Pillow.open(file) as picture:
+            assert min(picture.size) >= 64
+
+
+def test_the_number_of_threads_changes_no_bit(tmp_path: Path) -> None:
+    """As the page promises; the variable is that of llvmpipe."""
+    bits = []
+    for threads in ("0", "3"):
+        file = tmp_path / f"{threads}.npy"
+        size = "--width", "40", "--height", "24", "--samples", "5"
+        done = glrt("render", "lens", "-o", file, *size, cwd=None, LP_NUM_THREADS=threads)
+        assert done.returncode == 0, done.stderr
+        bits.append(file.read_bytes())
+    assert bits[0] == bits[1]
+
+
+def test_the_packages_named_are_those_that_the_advice_names() -> None:
+    named = re.findall(r"lib[\w-]+", ADVICE)
+    assert len(named) >= 4
+    for text in (block("yaml"), block("dockerfile")):
+        assert set(named) <= set(re.findall(r"lib[\w-]+", text))

@@ -1,0 +1,48 @@
+"""A share of the matrix of docs/anywhere.md: route by pipeline by scene."""
+
+import shutil
+from ctypes.util import find_library
+
+import numpy as np
+
+from tests.project.matrix import WAYS, Way, difference, drawn
+from tests.support.system_packages import needs_package
+
+SHARE = ["lens", "methods/glass"]
+
+
+def test_every_way_draws_the_same_bits() -> None:
+    """On software drivers; elsewhere far below the noise."""
+    needs_package(bool(find_library("EGL")), "libegl1")
+    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_package(bool(shutil.which("Xvfb")), "xvfb")
+    first = drawn(WAYS[0], SHARE)
+    for way in (Way("osmesa", "fragment"), Way("window", "fragment", "OpenGL 4.1")):
+        found = drawn(way, SHARE)
+        is_software = all("llvmpipe" in str(made["renderer"]) for made in (first, found))
+        for name in SHARE:
+            told = difference(name, found, first)
+            assert told == "=" if is_software else float(told) < 0.01
+
+
+def test_a_driver_that_rounds_elsewhere_draws_the_same_picture() -> None:
+    """Its noise too: paths part where a rounding decides, which is rare."""
+    needs_package(bool(find_library("EGL")), "libegl1")
+    first, *others = (drawn(way, SHARE) for way in (WAYS[0], *WAYS[-2:]))
+    are_others = all("zink" in str(found["renderer"]) for found in others)
+    needs_package(are_others, "mesa-vulkan-drivers, and zink in libgl1-mesa-dri")
+    for name in SHARE:
+        compute, fragment = (difference(name, found, first) for found in others)
+        assert 0 < float(compute) < 1e-4
+        assert compute == fragment
+        assert difference(name, others[1], others[0]) == "="
+
+
+def test_a_difference_is_told_by_its_size() -> None:
+    first = {f"a {seed}": np.full((2, 4, 5, 3), seed, np.float32) for seed in (0, 1)}
+    other = {"a 0": first["a 0"].copy()}
+    assert difference("a", other, first) == "="
+    other["a 0"][0, 0, 0] = 0.1
+    assert difference("a", other, first) == "2.2e-02"
+    other["a 0"][:] = -0.0
+    assert difference("a", other, first) == "0.0e+00"

@@ -1,0 +1,209 @@
+"""A renderer goes on by a kernel with the shapes written into it, and back: no bit tells."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+from glrt.errors import RenderError, UsageError
+from glrt.gpu.context import Context
+from glrt.gpu.struct_arrays import MOST_BAKED
+from glrt.image.image import Image
+from glrt.methods.light_layers import Layering
+from glrt.rendering import kernel_switch
+from glrt.rendering.pipelines import compiled
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import INTERACTIVE
+from glrt.scene.materials import Lambertian
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Sphere
+from glrt.settings import Cost
+from glrt.view.panels.objects import with_material
+from glrt.view.state.controls import replaced
+from tests.support.builders import MATTE, scene_of, sphere
+from tests.support.mixed_scene import everything
+from tests.support.renders import SAMPLERS, rendering, same
+
+SMALL: dict[str, Any] = {"width": 40, "height": 24, "bounces": 4}
+
+
+@contextmanager
+def counted(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Any]]:
+    """The kernels that were compiled and are not released."""
+    alive: list[Any] = []
+
+    def compiling(*arguments: Any) -> Any:
+        kernel = compiled(*arguments)
+        alive.append(kernel)
+        release = kernel.release
+
+        def forget() -> None:
+            alive.remove(kernel)
+            release()
+
+        monkeypatch.setattr(kernel, "release", forget)
+        return kernel
+
+    monkeypatch.setattr(kernel_switch, "compiled", compiling)
+    yield alive
+
+
+def moved(scene: Scene) -> Scene:
+    first, *others = (shape for shape in scene.objects if isinstance(shape, Sphere))
+    aside = replaced(first, center=(0.1, 0.2, 0.3))
+    objects = (aside, *(shape for shape in scene.objects if shape is not first))
+    assert others
+    return replaced(scene, objects=objects)
+
+
+def tier_of(image: Image) -> str:
+    assert image.recipe
+    return image.recipe.tier
+
+
+def seen(scene: Scene, **changes: Any) -> Scene:
+    return replaced(scene, camera=replaced(scene.camera, **changes))
+
+
+@pytest.mark.parametrize("sampler", SAMPLERS)
+@pytest.mark.parametrize(
+    ("pipeline", "layering"),
+    [("compute", "none"), ("compute", "groups"), ("compute", "lengths"), ("fragment", "none")],
+)
+def test_kernels_that_take_turns_give_the_bits_of_one(
+    context: Context, pipeline: Any, layering: Layering, sampler: str
+) -> None:
+    """Taken over within a block of samples."""
+    if not context.is_software:
+        pytest.skip("bits are promised on software drivers alone")
+    kind: Any = {"pipeline": pipeline, "layering": layering, "sampler": sampler, **SMALL}
+    with rendering(everything(), context, **kind) as plain:
+        expected = plain.render(37).image()
+    with rendering(everything(), context, **kind) as renderer:
+        renderer.render(5)
+        assert not renderer.is_baked
+        assert renderer.bake()
+        assert renderer.is_baked
+        image = renderer.render(37).image()
+        assert same(image, expected)
+        assert image.recipe == expected.recipe, "nobody can tell when it was"
+
+
+def test_a_recipe_tells_kernels_that_took_turns_where_a_driver_may_tell_them_apart(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Then no render gives the same bits, and none goes on from there."""
+    monkeypatch.setattr(Context, "is_software", False)
+    with rendering(everything(), context, sampler="sobol", **SMALL) as renderer:
+        renderer.render(16)
+        assert tier_of(renderer.image()) == "generic"
+        renderer.bake()
+        mixed = renderer.render(32).image()
+        assert tier_of(mixed) == "baked and generic"
+        with pytest.raises(UsageError, match="tier is baked and generic in the picture"):
+            Renderer(everything(), renderer.settings, context, "baked").resume(mixed)
+        renderer.restart()
+        assert tier_of(renderer.render(32).image()) == "baked"
+
+
+def test_a_frame_that_has_begun_is_begun_again(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first dispatch of a kernel writes to it."""
+    monkeypatch.setattr("glrt.rendering.renderer.INTERACTIVE", INTERACTIVE._replace(limit=1e-12))
+    with rendering(everything(), context, **SMALL) as renderer:
+        renderer.render(2)
+        renderer.advance(0.0, 9)
+        assert renderer.work > 2
+        renderer.bake()
+        assert renderer.work == 2
+        with rendering(everything(), context, **SMALL) as plain:
+            assert same(renderer.render(4).image(), plain.render(4).image())
+
+
+@pytest.mark.parametrize("edit", [moved, lambda scene: seen(scene, position=(0.3, 0.2, 3.0))])
+def test_a_change_of_what_is_written_in_compiles_nothing_and_frees_the_program(
+    context: Context, monkeypatch: pytest.MonkeyPatch, edit: Any
+) -> None:
+    with (
+        counted(monkeypatch) as alive,
+        rendering(everything(), context, **SMALL) as renderer,
+        rendering(edit(everything()), context, **SMALL) as plain,
+    ):
+        stays = alive[0]
+        renderer.render(2).bake()
+        assert alive[0] is stays
+        assert len(alive) == 3
+        assert renderer.update(edit(everything())) is Cost.RESTART
+        assert not renderer.is_baked
+        assert len(alive) == 2
+        assert alive[0] is stays
+        assert same(renderer.render(6).image(), plain.render(6).image())
+        assert renderer.bake()
+        assert same(renderer.render(9).image(), plain.render(9).image())
+    assert not alive, "a renderer that is released keeps no program"
+
+
+@pytest.mark.parametrize(
+    ("edit", "changes"),
+    [
+        (lambda scene: seen(scene, look_at=(0.2, 0.1, 0.0)), {}),
+        (lambda scene: with_material(scene, "white", color=(0.2, 0.9, 0.4)), {}),
+        (lambda scene: scene, {"seed": 3}),
+        (lambda scene: scene, {"width": 24, "height": 40}),
+        (lambda scene: scene, {"bounces": 2}),
+    ],
+    ids=["turned", "colour", "seed", "size", "bounces"],
+)
+def test_other_changes_leave_the_faster_kernel_its_turn(
+    context: Context, monkeypatch: pytest.MonkeyPatch, edit: Any, changes: dict[str, Any]
+) -> None:
+    """The camera may turn: only its place is in what is written in."""
+    after = edit(everything())
+    assert isinstance(after.materials["white"], Lambertian)
+    with rendering(everything(), context, **SMALL) as renderer:
+        renderer.render(2).bake()
+        monkeypatch.setattr(kernel_switch, "compiled", None)  # nothing is compiled
+        assert renderer.update(after, **changes) is Cost.RESTART
+        assert renderer.is_baked
+        monkeypatch.undo()
+        with rendering(after, context, **{**SMALL, **changes}) as plain:
+            assert same(renderer.render(5).image(), plain.render(5).image())
+
+
+def test_another_kernel_ends_the_turn(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    with counted(monkeypatch) as alive, rendering(everything(), context, **SMALL) as renderer:
+        renderer.render(2).bake()
+        assert renderer.update(method="naive") is Cost.RECOMPILE
+        assert not renderer.is_baked
+        assert len(alive) == 1
+
+
+def test_many_shapes_are_not_written_in_nor_twice(context: Context) -> None:
+    balls = [sphere([i, 0, -9], 0.4, "m") for i in range(MOST_BAKED + 1)]
+    many = scene_of(balls, {"m": MATTE}, background={"color": [1, 1, 1]})
+    with rendering(many, context, **SMALL) as renderer:
+        assert not renderer.bake()
+        assert not renderer.is_baked
+    with rendering(everything(), context, tier="baked", **SMALL) as renderer:
+        assert not renderer.bake()
+        assert renderer.is_baked
+
+
+def test_a_kernel_that_is_refused_changes_nothing(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise RenderError("not this one")
+
+    with rendering(everything(), context, **SMALL) as renderer:
+        renderer.render(3)
+        monkeypatch.setattr(kernel_switch, "compiled", refuse)
+        with pytest.raises(RenderError, match="not this one"):
+            renderer.bake()
+        monkeypatch.undo()
+        assert not renderer.is_baked
+        plain = Renderer(everything(), renderer.settings, context).render(5)
+        assert same(renderer.render(5).image(), plain.image())
+        plain.release()

@@ -1,0 +1,148 @@
+"""Scenes beyond a known limit are rendered with a word of caution; all others without."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from glrt.cli.main import main
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from glrt.scene.catalog import scene_names
+from glrt.scene.limits import cautions
+from glrt.scene.scene import Scene
+from glrt.settings import settings_for
+from tests.support.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
+from tests.support.renders import rendered
+
+MATERIALS = {"m": MATTE, "glass": glass(1.5), "lamp": lamp(1.0)}
+
+
+def told(scene: Scene, **settings: Any) -> list[str]:
+    return cautions(scene, settings_for(scene.render, **settings))
+
+
+def with_balls(*balls: dict[str, Any], **camera: Any) -> Scene:
+    return scene_of([plane([0, -9, 0], [0, 1, 0], "m"), *balls], MATERIALS, camera)
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_scenes_that_come_with_glrt_need_no_caution(name: str) -> None:
+    assert told(load(name)) == []
+
+
+@pytest.mark.parametrize(("radius", "warns"), [(1e3, False), (0.9e4, False), (2e4, True)])
+def test_huge_ball_close_to_the_camera_is_told(radius: float, warns: bool) -> None:
+    ground = {**sphere([0, -radius - 1, 0], radius, "m"), "name": "ground"}
+    found = told(with_balls(ground))
+    assert bool(found) == warns
+    if warns:
+        assert found[0].startswith("objects[1] 'ground': its radius is 2e+04 times")
+        assert "0.1 %" in found[0]
+        assert found[0].endswith("Use a plane or a smaller ball.")
+
+
+@pytest.mark.parametrize(("radius", "warns"), [(0.3, False), (1e-3, True)])
+def test_huge_ball_under_a_small_one_is_told(radius: float, warns: bool) -> None:
+    ground = sphere([0, -1600, -50], 1e3, "m")  # the camera is 600 above it
+    small = sphere([0, -600 + radius, -50], radius, "m")
+    far = sphere([0, 50, -50], 1e-3, "m")
+    assert bool(told(with_balls(ground, small, far))) == warns
+
+
+def test_camera_on_the_surface_of_a_ball_is_told() -> None:
+    text = told(with_balls(sphere([0, -2, 0], 2, "m")))[0]
+    assert "times the distance of the camera" in text
+    assert "to 100 % of that" in text
+
+
+@pytest.mark.parametrize(
+    ("center", "radius", "warns"),
+    [
+        ([1.5, 0, -5], 1.0, True),
+        ([2.0, 0, -5], 1.0, False),  # touching
+        ([3.0, 0, -5], 1.0, False),  # apart
+        ([0.2, 0, -5], 0.5, False),  # within
+        ([0.5, 0, -5], 0.5, False),  # within and touching
+        ([0.0, 0, -5], 1.0, False),  # the same
+    ],
+)
+def test_glass_that_crosses_glass_is_told(center: Any, radius: float, warns: bool) -> None:
+    first = sphere([0, 0, -5], 1, "glass")
+    found = told(with_balls(first, sphere(center, radius, "glass")))
+    assert len(found) == warns
+    assert all(text.startswith("objects[1] and objects[2] are glass") for text in found)
+    assert not told(with_balls(first, sphere(center, radius, "m")))
+
+
+AROUND = sphere([0, 0, 0.5], 2, "m")  # the camera is at the origin
+
+
+@pytest.mark.parametrize(
+    ("things", "warns"),
+    [
+        ([AROUND], True),
+        ([sphere([0, 0, 0.5], 2, "glass")], False),
+        ([sphere([0, 0, 0.5], 2, "lamp")], False),
+        ([sphere([0, 0, 2.5], 2, "m")], False),  # beside it
+        ([AROUND, sphere([0, 0, 5], 1, "lamp")], True),  # a lamp outside
+        ([AROUND, sphere([0, 0, 0.5], 4, "lamp")], True),  # around
+        ([AROUND, sphere([0, 1, 0], 0.2, "lamp")], False),  # inside
+        ([AROUND, sphere([0, 3, 0], 2, "lamp")], False),  # through the wall
+        ([AROUND, quad([-1, 1, -1], [2, 0, 0], [0, 0, 2], "lamp")], False),
+        ([AROUND, quad([-1, 4, -1], [2, 0, 0], [0, 0, 2], "lamp")], True),
+        ([AROUND, plane([0, 1, 0], [0, 3, 0], "lamp")], False),
+        ([AROUND, plane([0, 4, 0], [0, 3, 0], "lamp")], True),
+        ([AROUND, sphere([0, 1, 0], 0.2, "lamp"), sphere([0, 0, 0], 0.5, "m")], True),  # in two
+    ],
+)
+def test_a_camera_within_a_dark_ball_is_told(
+    context: Context, things: list[dict[str, Any]], warns: bool
+) -> None:
+    """And its picture is black, under a white sky; all others show something."""
+    scene = scene_of(things, MATERIALS, background={"color": [1, 1, 1]})
+    found = told(scene)
+    assert len(found) == warns
+    assert all("the camera is inside this ball, which is not glass" in text for text in found)
+    picture = rendered(scene, context, 64, width=16, height=16).radiance
+    assert picture.any() != warns
+
+
+@pytest.mark.parametrize(("fov", "height", "warns"), [(1e-3, 64, False), (1e-3, 512, True)])
+def test_pixels_narrower_than_a_rounding_are_told(fov: float, height: int, warns: bool) -> None:
+    found = told(with_balls(sphere([0, 0, -5], 1, "m"), fov=fov), height=height)
+    assert bool(found) == warns
+    if warns:
+        assert found[0].startswith("camera.fov 0.001 at 512 rows makes pixels of 3e-08 radians")
+
+
+SCENE = """
+[camera]
+position = [0.0, 0.0, 0.0]
+look_at = [0.0, 0.0, -1.0]
+[background]
+color = [1.0, 1.0, 1.0]
+[materials.white]
+type = "lambertian"
+color = [0.5, 0.5, 0.5]
+[[objects]]
+shape = "sphere"
+center = [0.0, -100001.0, 0.0]
+radius = 100000.0
+material = "white"
+"""
+
+
+def test_commands_tell_it_and_go_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE)
+    render = ["render", str(scene), "-o", str(tmp_path / "a.npy"), "--samples", "1"]
+    small = ["--width", "8", "--height", "8"]
+    assert main([*render, *small]) == 0
+    first, last = capsys.readouterr().err.splitlines()
+    assert first.startswith("glrt: caution: objects[0]: its radius is 1e+05 times")
+    assert last.startswith("Wrote")
+    assert main([*render, *small, "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+    assert main(["inspect", str(scene)]) == 0
+    assert "\ncaution: objects[0]" in capsys.readouterr().out

@@ -1,0 +1,1 @@
+"""Single GLSL functions against closed forms and float64."""

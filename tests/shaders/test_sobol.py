@@ -1,0 +1,216 @@
+"""Sobol's points: even in each block of 16 samples, independent between blocks and between draws.
+
+Statistical bounds lie at 5 standard deviations, which good numbers pass with a chance of
+1 - 6e-7 a figure; seeds are fixed.
+"""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from glrt.gpu.context import Context
+from glrt.scene.scene import Scene
+from tests.conftest import CallGlsl
+from tests.support.alarms import assert_fits, assert_near
+from tests.support.builders import lamp, plane, quad, room_of_planes, scene_of, sphere
+from tests.support.mixed_scene import everything
+from tests.support.numerics import BELOW_ONE, Array
+from tests.support.renders import METHODS, SAMPLERS, assert_agree, rendered, rendering, same
+
+BLOCK = 16
+
+
+def draws(
+    call_glsl: CallGlsl, pixel: Array, sample: Array, skipped: int, what: str = "next_2d(rng)"
+) -> Array:
+    """The pair of numbers that samples of pixels draw after so many others, (n, 2) float64."""
+    setup = f"""Sampler rng = sampler_at(ivec2(x % 64, x / 64), index, 7u);
+        for (int k = 0; k < {skipped}; ++k) next_2d(rng);"""
+    args = {"x": pixel, "index": sample}
+    found = call_glsl(what, "vec2", setup=setup, constants={"BLOCK": BLOCK}, **args)
+    return found.astype(np.float64)
+
+
+def blocks(call_glsl: CallGlsl, count: int, skipped: int) -> Array:
+    """The points of `count` blocks of as many pixels, (count, 16, 2)."""
+    pixel = np.repeat(np.arange(count), BLOCK)
+    sample = np.tile(np.arange(BLOCK), count) + 48
+    return draws(call_glsl, pixel, sample, skipped).reshape(count, BLOCK, 2)
+
+
+def is_net(points: Array) -> bool:
+    """Whether each rectangle of area 1 / n that halving makes holds one of the n points."""
+    levels = len(points).bit_length() - 1
+    for k in range(levels + 1):
+        x, y = np.floor(points * [2**k, 2 ** (levels - k)]).astype(int).T
+        if len(set(zip(x.tolist(), y.tolist(), strict=True))) < len(points):
+            return False
+    return True
+
+
+@pytest.mark.parametrize("skipped", range(6))
+def test_a_block_fills_the_square_evenly(call_glsl: CallGlsl, skipped: int) -> None:
+    for block in blocks(call_glsl, 50, skipped):
+        assert is_net(block)
+        for count in (2, 4, 8):  # its beginning, either axis
+            strata = np.sort(np.floor(block[:count] * count), axis=0)
+            assert np.array_equal(strata, np.repeat(np.arange(count)[:, None], 2, axis=1))
+    assert not is_net(np.random.default_rng(1).uniform(size=(16, 2)))
+
+
+def test_two_draws_in_turn_share_their_point(call_glsl: CallGlsl) -> None:
+    x = [blocks(call_glsl, 50, skipped)[..., 0] for skipped in range(3)]
+    nets = [[is_net(pair) for pair in np.stack(x[k : k + 2], axis=-1)] for k in range(2)]
+    assert all(nets[0])
+    assert sum(nets[1]) < 5  # by chance alone
+
+
+def test_numbers_are_below_one_down_to_the_last_bit(call_glsl: CallGlsl) -> None:
+    bits = np.array([0, 0xFFFFFFFF], np.uint32)
+    cells = "sobol_place(uvec2(bits & 15u), bits)"
+    found = call_glsl(cells, "vec2", bits=bits)
+    assert found.tolist() == [[0, 0], [1 - 2.0**-20] * 2]
+    assert found.max() <= BELOW_ONE
+
+
+def test_one_number_is_the_first_of_two(call_glsl: CallGlsl) -> None:
+    pixel, sample = np.arange(100), np.arange(100) % 32
+    one = draws(call_glsl, pixel, sample, 3, "vec2(next_1d(rng), 0.0)")[:, 0]
+    assert np.array_equal(one, draws(call_glsl, pixel, sample, 3)[:, 0])
+
+
+@pytest.mark.parametrize("place", [0, 5, 15])
+def test_each_point_is_uniform_over_pixels_and_blocks(call_glsl: CallGlsl, place: int) -> None:
+    n = 2**18
+    pixel, sample = np.arange(n) % 4096, BLOCK * (np.arange(n) // 4096) + place
+    for skipped in (0, 3):
+        cells = np.floor(draws(call_glsl, pixel, sample, skipped) * 16).astype(int)
+        counts = np.bincount(16 * cells[:, 0] + cells[:, 1], minlength=256)
+        assert_fits(counts, np.full(256, n / 256))
+
+
+def test_draws_of_one_sample_are_independent(call_glsl: CallGlsl) -> None:
+    """Over blocks: within one, two dimensions of a point are a net, which is what they are for."""
+    n = 2**17
+    pixel, sample = np.arange(n) % 4096, BLOCK * (np.arange(n) // 4096) + 5
+    numbers = np.concatenate([draws(call_glsl, pixel, sample, k) for k in range(4)], axis=1)
+    for a, b in combinations(range(8), 2):
+        cells = np.floor(numbers[:, [a, b]] * 16).astype(int)
+        counts = np.bincount(16 * cells[:, 0] + cells[:, 1], minlength=256)
+        assert_fits(counts, np.full(256, n / 256))
+
+
+def test_the_points_of_two_pairs_of_draws_are_shuffled_apart(call_glsl: CallGlsl) -> None:
+    """The halves in which they lie, as -1 and 1: the sum over a block of their products.
+
+    Owen's shuffle keeps two points in turn together, which lie in both halves: eight terms of 2 or
+    -2, and not 16 or -16 in every block.
+    """
+    signs = [np.where(blocks(call_glsl, 4096, k)[..., 0] < 0.5, -1, 1) for k in (0, 2)]
+    assert all((sign.sum(axis=1) == 0).all() for sign in signs)
+    square = np.square((signs[0] * signs[1]).sum(axis=1))
+    assert_near(square.mean(), 32, np.sqrt(1792 / 4096))  # 4 times the square of a sum of 8 signs
+
+
+@pytest.mark.parametrize("step", ["neighbour", "block"])
+def test_blocks_are_independent_of_their_neighbours(call_glsl: CallGlsl, step: str) -> None:
+    """The error of a block in the integral of x y, of neighbouring pixels and of blocks in turn."""
+    count, samples = 4096, np.tile(np.arange(BLOCK), 4096)
+    product = []
+    for k in range(2):
+        pixel = np.repeat(np.arange(count), BLOCK) + (k if step == "neighbour" else 0)
+        index = samples + (BLOCK * k if step == "block" else 0)
+        xy = draws(call_glsl, pixel, index, 1).prod(axis=1)
+        product.append(xy.reshape(count, BLOCK).mean(axis=1) - 0.25)
+    a, b = product
+    if step == "neighbour":
+        a, b = a[::2], b[::2]
+    assert_near(np.corrcoef(a, b)[0, 1], 0, 1 / np.sqrt(len(a)))
+    assert_near(a.mean(), 0, a.std() / np.sqrt(len(a)))
+    assert a.std() < 0.35 * np.sqrt(7 / 144 / BLOCK)  # of independent numbers
+
+
+# --- pictures ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_samples_may_come_in_portions_that_end_within_a_block(
+    context: Context, method: str
+) -> None:
+    pictures = []
+    for portions in ([40], [1] * 40, [16, 16, 8], [3, 8, 1, 4, 21, 3], [31, 9]):
+        settings = {"method": method, "sampler": "sobol", "width": 13, "height": 9, "bounces": 4}
+        with rendering(everything(), context, **settings) as renderer:
+            for samples in portions:
+                renderer.step(samples)
+            pictures.append(renderer.image())
+    assert (pictures[0].stderr > 0).any()
+    for picture in pictures[1:]:
+        assert same(picture, pictures[0])
+
+
+def test_the_error_needs_two_blocks(context: Context) -> None:
+    with rendering(everything(), context, sampler="sobol") as renderer:
+        assert np.isnan(renderer.render(31).image().stderr).all()
+        assert renderer.image().error is None
+        assert np.isfinite(renderer.render(32).image().stderr).all()
+
+
+def test_a_restart_gives_the_picture_anew(context: Context) -> None:
+    with rendering(everything(), context, sampler="sobol") as renderer:
+        first = renderer.render(40).image()
+        renderer.restart()
+        assert renderer.samples == 0
+        assert same(renderer.render(40).image(), first)
+
+
+def test_a_change_of_the_sampler_leaves_nothing_behind(context: Context) -> None:
+    alone = [rendered(everything(), context, 40, sampler=s) for s in ("independent", "sobol")]
+    with rendering(everything(), context, sampler="sobol") as renderer:
+        renderer.render(23).update(sampler="independent")
+        assert same(renderer.render(40).image(), alone[0])
+        renderer.update(sampler="sobol")
+        assert same(renderer.render(40).image(), alone[1])
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_furnace_is_exact_with_sobol_points_too(context: Context, method: str) -> None:
+    scene = scene_of(room_of_planes("glow"), {"glow": lamp(1.0, 0.5)}, {"fov": 90})
+    settings = {"roulette": False, "method": method, "sampler": "sobol"}
+    with rendering(scene, context, **settings) as renderer:
+        for bounces in (0, 1, 8):
+            renderer.update(bounces=bounces)
+            image = renderer.render(40).image()
+            assert (image.radiance == 2 - 2.0**-bounces).all()
+            assert (image.stderr == 0).all()
+
+
+def lit() -> Scene:
+    """A quad and a ball light a floor with a ball."""
+    objects = [
+        plane([0, -1, 0], [0, 1, 0], "white"),
+        sphere([0.1, -0.6, -3], 0.4, "white"),
+        quad([-0.7, 1.2, -3.5], [1.4, 0, 0], [0, 0, 1.2], "lamp"),
+        sphere([0.9, 0.0, -2.8], 0.25, "lamp"),
+    ]
+    white = {"type": "lambertian", "color": [0.8, 0.7, 0.6]}
+    return scene_of(objects, {"white": white, "lamp": lamp(4.0)}, render={"bounces": 5})
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_both_samplers_show_one_picture(context: Context, method: str) -> None:
+    samples = 1024 if method == "naive" else 256
+    settings = {"method": method, "width": 32, "height": 32}
+    independent = rendered(lit(), context, samples, seed=1, **settings)
+    even = rendered(lit(), context, samples, seed=2, sampler="sobol", **settings)
+    assert_agree(even, independent, within=0.02)
+
+
+def test_sobol_points_need_fewer_samples(context: Context) -> None:
+    """Measured: 0.6 of the error; the claimed error is that of repeated renders (test_error)."""
+    independent, even = (
+        rendered(lit(), context, 256, sampler=sampler, width=32, height=32).error or np.nan
+        for sampler in SAMPLERS
+    )
+    assert even < 0.8 * independent

@@ -1,0 +1,84 @@
+"""Scenes in a few words, for tests."""
+
+from dataclasses import fields
+from typing import Any
+
+from glrt.methods.features import NO_LAYERS, Needs
+from glrt.scene.scene import Scene
+from glrt.scene.toml import parse_scene
+
+EVERYTHING: dict[str, bool | int] = {
+    **{field.name.upper(): True for field in fields(Needs)},
+    "BLOCK": 1,
+    "MODEL": 0,
+    "CLUSTERS": 0,
+    **NO_LAYERS,
+}
+
+_FLAGS = [name for name, value in EVERYTHING.items() if value is True]
+_NOTHING = {**EVERYTHING, **dict.fromkeys(_FLAGS, False)}
+FEATURE_SETS: dict[str, dict[str, bool | int]] = {
+    "everything": EVERYTHING,
+    "nothing": _NOTHING,
+    **{f"only {name}": {**_NOTHING, name: True} for name in _FLAGS},
+    **{f"all but {name}": {**EVERYTHING, name: False} for name in _FLAGS},
+}
+
+MATTE = {"type": "lambertian", "color": [0.5, 0.5, 0.5]}
+
+
+def lamp(radiance: float = 1.0, albedo: float = 0.0, **more: Any) -> dict[str, Any]:
+    """A material that emits and reflects the same in all channels."""
+    return {"type": "light", "emission": [radiance] * 3, "color": [albedo] * 3, **more}
+
+
+def glass(ior: float = 1.5) -> dict[str, Any]:
+    """A dielectric."""
+    return {"type": "dielectric", "ior": ior}
+
+
+def sphere(center: Any, radius: float, material: str) -> dict[str, Any]:
+    """A sphere."""
+    return {"shape": "sphere", "center": list(center), "radius": radius, "material": material}
+
+
+def plane(point: Any, normal: Any, material: str) -> dict[str, Any]:
+    """A plane."""
+    return {"shape": "plane", "point": list(point), "normal": list(normal), "material": material}
+
+
+def quad(corner: Any, edge_u: Any, edge_v: Any, material: str) -> dict[str, Any]:
+    """A parallelogram."""
+    edges = {"corner": list(corner), "edge_u": list(edge_u), "edge_v": list(edge_v)}
+    return {"shape": "quad", "material": material, **edges}
+
+
+def room_of_planes(material: str, half: float = 1.0) -> list[dict[str, Any]]:
+    """Six planes that face inwards, around the origin."""
+    normals = [[s if i == axis else 0 for i in range(3)] for axis in range(3) for s in (-1, 1)]
+    return [plane([-half * c for c in n], n, material) for n in normals]
+
+
+def box_of_quads(material: str, half: float = 1.0) -> list[dict[str, Any]]:
+    """Six quads around the origin."""
+    faces = []
+    for axis in range(3):
+        u, v = [0.0] * 3, [0.0] * 3
+        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 2 * half
+        for side in (-half, half):
+            corner = [-half] * 3
+            corner[axis] = side
+            faces.append(quad(corner, u, v, material))
+    return faces
+
+
+def scene_of(
+    objects: list[dict[str, Any]],
+    materials: dict[str, dict[str, Any]],
+    camera: dict[str, Any] | None = None,
+    **tables: Any,
+) -> Scene:
+    """A scene from tables as in a file; the camera stands in the origin and looks along -z."""
+    eye = {"position": [0, 0, 0], "look_at": [0, 0, -1], **(camera or {})}
+    data = {"camera": eye, "materials": materials, "objects": objects, **tables}
+    return parse_scene(data, "test")

@@ -1,0 +1,1 @@
+"""Pictures whose right values are known."""

@@ -1,0 +1,121 @@
+"""The error over time: when it is looked at, and when it will be small enough."""
+
+import math
+
+import numpy as np
+import pytest
+
+from glrt.error.estimate import Band
+from glrt.gpu.context import Context
+from glrt.methods.light_layers import ONE
+from glrt.view.panels.plots import forecast
+from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
+from tests.support.mixed_scene import everything
+from tests.support.renders import rendering
+
+
+def seen(samples: int, seconds: float, error: float) -> Look:
+    return Look(samples, seconds, Band(error, 0.9 * error, 1.1 * error))
+
+
+def test_looks_come_with_growing_samples_and_pauses() -> None:
+    progress = Progress()
+    assert not progress.is_due(1, 1, 10.0)
+    assert progress.is_due(1, 2, 10.0)
+    progress.record(seen(100, 1.0, 0.5), 10.0)
+    assert not progress.is_due(1, 1000, 10.0 + PAUSE / 2)
+    assert not progress.is_due(1, int(100 * GROWTH) - 1, 10.0 + PAUSE)
+    assert progress.is_due(1, int(100 * GROWTH), 10.0 + PAUSE)
+
+
+def test_a_picture_that_is_done_is_looked_at_once_more() -> None:
+    progress = Progress()
+    assert progress.is_due(1, 100, 10.0)
+    progress.record(seen(100, 1.0, 0.5), 10.0)
+    assert not progress.is_due(1, 101, 20.0)
+    assert progress.is_due(1, 101, 20.0, is_done=True)
+    progress.record(seen(101, 1.0, 0.5), 20.0)
+    assert not progress.is_due(1, 101, 30.0, is_done=True)
+
+
+def test_another_picture_forgets_the_one_before() -> None:
+    progress = Progress()
+    progress.record(seen(100, 1.0, 0.5), 0.0)
+    assert progress.is_due(2, 2, 10.0)
+    assert progress.last is None
+    assert progress.remaining(0.1) is None
+
+
+def test_the_forecast_is_that_of_noise() -> None:
+    progress = Progress()
+    progress.record(seen(64, 2.0, 0.2), 0.0)
+    assert progress.remaining(0.1) == pytest.approx(6.0), "half the error takes four times as long"
+    assert progress.remaining(0.3) == 0
+
+
+@pytest.mark.parametrize(
+    ("target", "samples", "told"),
+    [
+        (0.3, 64, "30 % is reached"),
+        (0.1, 260, "10 % in about 6 s of rendering"),
+        (0.1, 259, "10 % in about 6 s of rendering: raise samples to 260"),
+        (0.019, 256, "1.9 % in about 4 minutes of rendering: raise samples to 7,100"),
+        (0.0001, 256, "0.01 % takes more samples than a picture holds"),
+    ],
+)
+def test_the_forecast_tells_when_the_samples_end_before(
+    target: float, samples: int, told: str
+) -> None:
+    progress = Progress()
+    assert forecast(progress, target, samples).endswith("at a time not known yet")
+    progress.record(seen(64, 2.0, 0.2), 0.0)
+    assert forecast(progress, target, samples) == told
+
+
+def test_the_line_has_slope_minus_one_half_and_ends_at_the_last_look() -> None:
+    progress = Progress()
+    for look in (seen(4, 1.0, 0.9), seen(64, 16.0, 0.2)):
+        progress.record(look, 0.0)
+    seconds, errors = progress.slope()
+    assert seconds == [1.0, 16.0]
+    assert errors == pytest.approx([0.8, 0.2])
+
+
+def test_a_plot_holds_all_looks_and_a_tick_of_each_axis() -> None:
+    progress = Progress()
+    assert progress.limits() == EMPTY
+    for look in (seen(40, 2.05, 0.1032), seen(41, 2.06, 0.1031)):
+        progress.record(look, 0.0)
+    first, last, least, most = progress.limits()
+    assert first < 2.05 < 2.06 < last
+    assert least < 0.1031 < 0.1032 < most
+    for low, high in ((first, last), (least, most)):
+        ticks = [share * 10.0**power for power in range(-4, 3) for share in (1, 2, 5)]
+        assert any(low <= tick <= high for tick in ticks)
+
+
+@pytest.mark.parametrize("error", [0.0, math.inf])
+def test_a_look_that_no_logarithm_has_a_place_for_is_left_out_of_the_plot(error: float) -> None:
+    progress = Progress()
+    for look in (seen(40, 1.0, error), seen(41, 2.0, error)):
+        progress.record(look, 0.0)
+    assert progress.limits() == EMPTY
+    for look in (seen(42, 3.0, 0.1), seen(43, 4.0, 0.05)):
+        progress.record(look, 0.0)
+    assert [look.samples for look in progress.drawn] == [42, 43]
+    assert progress.limits()[2] > 0
+
+
+def test_a_look_tells_what_the_picture_tells(context: Context) -> None:
+    weights = ((2.0, 2.0, 2.0),)
+    with rendering(everything(), context) as renderer:
+        renderer.render(1)
+        with context.gl:
+            assert look_at(renderer.film, (ONE,), 0.1) is None
+        image = renderer.render(8).image()
+        with context.gl:
+            look = look_at(renderer.film, weights, 0.5)
+    assert look is not None
+    assert (look.samples, look.seconds, look.nonfinite) == (8, 0.5, 0)
+    assert look.error == pytest.approx(image.error), "light that is twice as much is as sure"
+    assert look.mean == pytest.approx(2 * image.radiance.mean(dtype=np.float64))

@@ -1,0 +1,134 @@
+"""The kept picture at the seeds and samples of the next one: what is equal differs by nothing."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from glrt.gpu.context import Context
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene, with_lights
+from glrt.settings import settings_for
+from glrt.view.state.controls import replaced
+from glrt.view.state.reference_image import Kept
+from glrt.view.state.session import ANNOUNCED, State
+from tests.support.mixed_scene import everything
+
+SIZE: dict[str, int] = {"width": 16, "height": 12, "bounces": 3}
+Floats = NDArray[np.float32]
+
+
+@pytest.fixture
+def next_one(context: Context) -> Iterator[Renderer]:
+    """The picture that is compared with the kept one."""
+    scene = everything()
+    settings = settings_for(scene.render, **SIZE)
+    renderer = Renderer(scene, settings, context, layering="groups")
+    yield renderer.render(6)
+    renderer.release()
+
+
+@pytest.fixture
+def kept(next_one: Renderer) -> Iterator[Kept]:
+    """The picture as it was before any change."""
+    picture = Kept(State(next_one.scene, next_one.settings), 1.0, next_one.context)
+    yield picture
+    with next_one.context.gl:
+        picture.release()
+
+
+def repainted(scene: Scene) -> Scene:
+    materials = dict(scene.materials)
+    materials["brass"] = replaced(materials["brass"], color=(0.1, 0.8, 0.1))
+    return replaced(scene, materials=materials)
+
+
+def light(kept: Kept, other: Renderer) -> Floats:
+    with other.context.gl:
+        texture = kept.light(other)
+        assert texture
+        return np.frombuffer(texture.read(), np.float32).reshape(12, 16, 4)[..., :3]
+
+
+def catch_up(kept: Kept, other: Renderer) -> None:
+    for _ in range(ANNOUNCED + 10):  # frames
+        kept.catch_up(other, 0.05)
+
+
+def test_nothing_changed_and_nothing_differs(kept: Kept, next_one: Renderer) -> None:
+    catch_up(kept, next_one)
+    assert kept.samples(next_one) == next_one.samples
+    assert kept._renderer is None, "one film shows both"
+    assert (light(kept, next_one) == next_one.image().radiance).all()
+
+
+def test_lamps_that_were_changed_are_weighed_back(kept: Kept, next_one: Renderer) -> None:
+    before = next_one.image().radiance
+    next_one.update(with_lights(next_one.scene, {"lamp": 2.0}))
+    assert next_one.image().radiance.mean() > 1.3 * before.mean()
+    catch_up(kept, next_one)
+    assert kept._renderer is None
+    assert np.allclose(light(kept, next_one), before, rtol=1e-5, atol=1e-7)
+
+
+def test_another_material_differs_only_where_its_light_comes(
+    kept: Kept, next_one: Renderer
+) -> None:
+    before = next_one.image().radiance
+    next_one.update(repainted(next_one.scene))
+    next_one.render(6)
+    catch_up(kept, next_one)
+    assert (light(kept, next_one) == before).all(), "at the same seeds and samples"
+    after = next_one.image().radiance
+    assert 0.1 < (after == before).all(axis=2).mean() < 0.9
+
+
+def test_it_waits_for_equal_samples(kept: Kept, next_one: Renderer) -> None:
+    next_one.update(repainted(next_one.scene))
+    next_one.render(6)
+    kept.catch_up(next_one, 0.05)
+    assert "Compiling" in kept.busy
+    assert kept.light(next_one) is None
+    catch_up(kept, next_one)
+    assert kept.busy == ""
+    next_one.render(9)
+    assert kept.light(next_one) is None
+    catch_up(kept, next_one)
+    assert kept.samples(next_one) == 9
+    next_one.restart()
+    next_one.render(2)
+    assert kept.light(next_one) is None
+    catch_up(kept, next_one)
+    assert kept.samples(next_one) == 2
+
+
+def test_it_takes_the_seed_of_the_next_one(kept: Kept, next_one: Renderer) -> None:
+    next_one.update(repainted(next_one.scene), seed=3)
+    next_one.render(4)
+    catch_up(kept, next_one)
+    fresh = Renderer(kept.state.scene, kept.state.settings, next_one.context, seed=3)
+    assert (light(kept, next_one) == fresh.render(4).image().radiance).all()
+    fresh.release()
+    next_one.update(seed=4)
+    next_one.render(4)
+    catch_up(kept, next_one)
+    assert kept.samples(next_one) == 4
+    assert kept._renderer is not None
+    assert kept._renderer.settings.seed == 4
+
+
+def test_another_size_does_not_fit(kept: Kept, next_one: Renderer) -> None:
+    assert kept.fits(next_one)
+    next_one.update(width=17)
+    assert not kept.fits(next_one)
+
+
+def test_at_rest_it_gives_its_film_back(kept: Kept, next_one: Renderer) -> None:
+    next_one.update(repainted(next_one.scene))
+    next_one.render(2)
+    catch_up(kept, next_one)
+    assert kept._renderer is not None
+    kept.rest()
+    assert kept._renderer is None
+    assert kept.light(next_one) is None

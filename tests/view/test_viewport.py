@@ -1,0 +1,138 @@
+"""The mouse over the picture, in frames that are slower than the hand; no window is opened."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from imgui_bundle import ImVec2, imgui
+
+from glrt.resources import folder
+from glrt.view.app import SHOWN, App
+from glrt.view.panels import viewport
+from glrt.view.state.preferences import Preferences
+
+
+class Turned:
+    """Stands for the window: remembers how far the mouse turned the camera."""
+
+    def __init__(self) -> None:
+        self.preferences = Preferences()
+        self.turns: list[tuple[float, float]] = []
+        self.steps: list[tuple[float, float, float]] = []
+        self.awaited = None
+        self.is_deaf = False
+
+    def turn(self, across: float, down: float, about_camera: bool) -> None:
+        assert not about_camera
+        self.turns.append((across, down))
+
+    def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
+        self.steps.append((right, up, forward))
+
+
+@pytest.fixture
+def io() -> Iterator[imgui.IO]:
+    context = imgui.create_context()
+    io = imgui.get_io()
+    io.display_size = ImVec2(1000.0, 500.0)
+    io.delta_time = 0.1
+    io.backend_flags |= imgui.BackendFlags_.renderer_has_textures.value
+    io.set_ini_filename("")
+    yield io
+    imgui.destroy_context(context)
+
+
+def frame(app: Turned) -> None:
+    """A frame whose picture fills the window."""
+    imgui.new_frame()
+    imgui.set_next_window_pos(ImVec2(0.0, 0.0))
+    imgui.set_next_window_size(imgui.get_io().display_size)
+    imgui.begin("Picture")
+    imgui.set_cursor_screen_pos(ImVec2(0.0, 50.0))
+    imgui.invisible_button("picture", ImVec2(1000.0, 450.0), viewport._EVERY_BUTTON)
+    viewport._mouse(app)  # type: ignore[arg-type]
+    imgui.end()
+    imgui.render()
+
+
+def moved(app: Turned, io: imgui.IO, *events: tuple[float, float] | bool) -> None:
+    """A frame after these events: the mouse is at a place, or its left button goes down or up."""
+    for event in events:
+        if isinstance(event, bool):
+            io.add_mouse_button_event(0, event)
+        else:
+            io.add_mouse_pos_event(*event)
+    frame(app)
+
+
+def test_a_quick_move_and_a_click_within_a_frame_leave_the_camera_alone(io: imgui.IO) -> None:
+    app = Turned()
+    moved(app, io, (900.0, 490.0))
+    frame(app)
+    moved(app, io, (400.0, 300.0), True)
+    moved(app, io, False)
+    assert app.turns == []
+
+
+def test_a_drag_turns_from_where_the_button_went_down(io: imgui.IO) -> None:
+    app = Turned()
+    moved(app, io, (900.0, 490.0))
+    frame(app)
+    moved(app, io, (400.0, 300.0), True)
+    moved(app, io, (500.0, 350.0))
+    moved(app, io, False)
+    assert app.turns == [(0.1, 0.1)]
+
+
+@pytest.mark.parametrize("is_open", [False, True])
+def test_arrows_in_an_open_list_leave_the_camera_alone(io: imgui.IO, is_open: bool) -> None:
+    app: Any = Turned()
+    io.add_key_event(imgui.Key.down_arrow, True)
+    imgui.new_frame()
+    imgui.begin("Controls")
+    if is_open:
+        imgui.open_popup("list")
+    viewport.draw_keys(app)
+    imgui.end()
+    imgui.render()
+    assert app.steps == ([] if is_open else [(0.0, 0.0, -1.0)])
+
+
+def an_app(**known: Any) -> App:
+    """The window's state without a session and a picture."""
+    nothing: Any = None
+    parts = dict.fromkeys(("session", "show", "preferences_file", "pace", "pivot", "shaders"))
+    return App(**{**parts, "preferences": nothing, "source": "", **known})
+
+
+def test_a_file_that_is_there_is_not_what_a_window_saves_to_by_default(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("scene.toml", "picture.png", "picture-2.png"):
+        Path(name).touch()
+    assert (an_app().scene_path, an_app().save_path) == ("scene-2.toml", "picture-3.png")
+
+
+def test_a_scene_is_saved_to_the_file_that_it_came_from_and_to_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.toml").write_text((folder("scenes") / "cornell.toml").read_text())
+    app = an_app(source="mine.toml")
+    assert app.scene_path == "mine.toml"
+    monkeypatch.setattr(App, "_take", lambda *_: None)
+    app.open("lamps")
+    assert app.scene_path == "scene.toml"
+    app.open("mine.toml")
+    assert app.scene_path == "mine.toml"
+
+
+def test_a_message_goes_after_a_while_and_comes_back_when_it_is_told_again() -> None:
+    app = an_app()
+    assert app.recent_message(app.told + 1.0) == ""
+    for _ in range(2):
+        app.tell("Saved picture.png")
+        assert app.recent_message(app.told + 0.5 * SHOWN) == "Saved picture.png"
+        assert app.recent_message(app.told + 1.5 * SHOWN) == ""

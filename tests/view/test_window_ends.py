@@ -1,0 +1,119 @@
+"""How the window ends: closed, killed, without a display, or refused."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+
+from glrt.image.image import Image
+from tests.support.processes import glrt
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("seconds", [0.3, 0.8])
+def test_a_window_that_is_killed_while_it_starts_leaves_no_traceback(
+    display: str, tmp_path: Path, seconds: float
+) -> None:
+    command = [sys.executable, "-m", "glrt", "view", "cornell", "--width", "32", "--height", "32"]
+    environment = {**os.environ, "DISPLAY": display, "XDG_CONFIG_HOME": str(tmp_path)}
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=environment, stderr=pipe, text=True) as window:
+        time.sleep(seconds)
+        window.send_signal(signal.SIGTERM)
+        _, told = window.communicate(timeout=60)
+    assert window.returncode in (143, -signal.SIGTERM)
+    assert "Traceback" not in told
+
+
+def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path: Path) -> None:
+    loading = """
+        import os, signal, time
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(10)
+        except BaseException:
+            os.abort()  # as C++ does, whose code is left by an exception of Python
+    """
+    (tmp_path / "imgui_bundle.py").write_text(textwrap.dedent(loading))
+    search = os.pathsep.join([str(tmp_path), *sys.path])
+    ended = glrt("view", "cornell", PYTHONPATH=search)
+    assert (ended.returncode, ended.stdout) == (143, "")
+    assert "Traceback" not in ended.stderr
+
+
+@pytest.mark.parametrize(
+    ("moment", "code"),
+    [
+        *((name, 143) for name in ("compiling", "dragging", "choosing", "saving")),
+        ("saving_when_killed", -signal.SIGKILL),
+        ("closing", 0),
+    ],
+)
+def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, code: int) -> None:
+    dialog = tmp_path / "zenity"
+    dialog.write_text("#!/bin/sh\necho $$ > dialog.new\nmv dialog.new dialog.pid\nexec sleep 99\n")
+    dialog.chmod(0o755)
+    preferences = tmp_path / "config" / "glrt" / "view.json"
+    preferences.parent.mkdir(parents=True)
+    preferences.write_text('{"theme": "light"}')
+    environment = {
+        "DISPLAY": display,
+        "XDG_CONFIG_HOME": str(tmp_path / "config"),
+        "PATH": f"{tmp_path}:{os.environ['PATH']}",
+        "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
+    }
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.window.moments", moment],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env={**os.environ, **environment},
+        timeout=100,
+    )
+    assert (done.returncode, done.stderr) == (code, "")
+    picture = tmp_path / "picture.exr"
+    if moment == "saving":
+        assert Image.load(picture).recipe
+    if moment == "saving_when_killed":
+        return assert_gone(picture)
+    assert json.loads(preferences.read_text()) == {"theme": "light", "mode": "fly"}
+    assert list(tmp_path.rglob(".glrt-*")) == []
+    if moment == "choosing":
+        assert_gone(Path("/proc") / (tmp_path / "dialog.pid").read_text().strip())
+    return None
+
+
+def assert_gone(path: Path) -> None:
+    assert not path.exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is always a display")
+def test_without_a_display_the_advice_is_to_render() -> None:
+    done = glrt("view", "cornell", DISPLAY="", WAYLAND_DISPLAY="")
+    assert done.returncode == 3
+    assert "glrt render" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_without_the_extra_the_advice_is_to_install_it(tmp_path: Path) -> None:
+    code = (
+        "import sys; sys.modules['imgui_bundle'] = None; "
+        "from glrt.cli.main import main; sys.exit(main(['view', 'cornell']))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "pip install 'glrt[view]'" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_bad_scene_is_refused_before_a_window_opens() -> None:
+    done = glrt("view", "cornel", DISPLAY="")
+    assert done.returncode == 2
+    assert "cornell" in done.stderr
