@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.program import add_rounds, exit_code_of, machine, parser_of
-from glrt.analysis.shader_edits import Edit, edited
+from bench.shader_edits import Edit, edited
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
@@ -108,7 +108,7 @@ def measure_scene(
 def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer:
     """Of constants where there are few shapes; `KeyError` if an edit has no place."""
     settings = settings_for(scene.render, width=size, height=size, **way.settings)
-    return edited(*way.edits)(scene, settings, context, "baked")
+    return Renderer(scene, settings, context, "baked", variant=edited(*way.edits))
 
 
 def scene_of(name: str) -> Scene:

@@ -17,8 +17,8 @@ from bench.program import add_rounds, exit_code_of, machine, parser_of
 from glrt import files
 from glrt.cli.process import peak_bytes
 from glrt.gpu.context import Context, open_context
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.sources import load
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Method
 
@@ -37,8 +37,7 @@ class Variant:
 
 
 VARIANTS = (
-    Variant("one sample a dispatch", "storage", one_sample_a_dispatch=True),
-    Variant("storage blocks", "storage"),
+    Variant("one sample a dispatch", "generic", one_sample_a_dispatch=True),
     Variant("uniform blocks", "generic"),
     Variant("constants", "baked"),
 )

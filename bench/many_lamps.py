@@ -13,8 +13,8 @@ import numpy as np
 
 from bench.efficiency import Row, Way, measure_scene, table
 from bench.program import add_rounds, add_tables, exit_code_of, machine, parser_of
+from bench.shader_edits import Edit
 from bench.steps import BY_FLUX
-from glrt.analysis.shader_edits import Edit
 from glrt.analysis.stress.scenes import lamp, matte, plane, quad, scene_of, sphere
 from glrt.gpu.context import open_context
 from glrt.scene.scene import Scene
@@ -22,7 +22,7 @@ from glrt.scene.scene import Scene
 COUNTS = (16, 32, 64, 300, 2000, 10_000)
 PARTS_BY_FLUX = [
     Edit(
-        "light_choice.glsl",
+        "lights/choice.glsl",
         "    vec3 away",
         "    if (index >= CLUSTERS) return cluster.probability;\n    vec3 away",
     )

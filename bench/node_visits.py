@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.program import exit_code_of, machine, parser_of
+from bench.shader_edits import Edit, edited
 from bench.sphere_counts import crowd
-from glrt.analysis.shader_edits import Edit, edited
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
+from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 
@@ -61,7 +62,7 @@ def table(scenes: dict[str, Scene], context: Context) -> Iterator[str]:
 
 def _looks_at(depth: int, scene: Scene, context: Context, size: int, samples: int) -> Looks:
     """Of the rays after so many scattering events; a seed a sample."""
-    renderer = _counter(depth)(scene, context=context, width=size, height=size)
+    renderer = Renderer(scene, context=context, variant=_counter(depth), width=size, height=size)
     pictures = []
     for seed in range(samples):
         renderer.update(seed=seed)
@@ -70,19 +71,20 @@ def _looks_at(depth: int, scene: Scene, context: Context, size: int, samples: in
     return np.stack(pictures)
 
 
-def _counter(depth: int) -> type[Renderer]:
+def _counter(depth: int) -> Variant:
     """Renders how many nodes the ray of that depth looks at where others render radiance."""
-    search = "    Hit hit = closest_hit(path.ray);\n"
-    node = "        Node node = node_at(place);\n"
+    search = "    precise Hit hit = closest_hit(path.ray);\n"
+    node = "        precise Node node = node_at(place);\n"
+    hit = "struct Hit {"
     return edited(
-        Edit("shape.glsl", "struct Hit {", "int looks = 0;\nint looks_then = 0;\n\nstruct Hit {"),
-        Edit("bvh.glsl", node, f"{node}        looks += 1;\n"),
+        Edit("shapes/hit.glsl", hit, f"int looks = 0;\nint looks_then = 0;\n\n{hit}"),
+        Edit("shapes/sphere_tree.glsl", node, f"{node}        looks += 1;\n"),
         Edit(
-            "path.glsl",
+            "integrators/path.glsl",
             search,
             f"    looks = 0;\n{search}    if (path.depth == {depth}) looks_then = looks;\n",
         ),
-        Edit("samples.glsl", "path.radiance", "vec3(looks_then)"),
+        Edit("integrators/samples.glsl", ": path.radiance", ": vec3(looks_then)"),
     )
 
 

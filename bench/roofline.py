@@ -69,7 +69,7 @@ class Peak:
         """Compile it, and run it once."""
         self._gl = context.gl
         with self._gl:
-            self._kernel = Kernel(self._gl, Source("peak", parts={"peak": _CHAINS}))
+            self._kernel = Kernel(self._gl, Source("peak", texts={"peak": _CHAINS}))
             self._data = self._gl.buffer(bytes(16))
         self.operations_per_second()
 

@@ -18,10 +18,10 @@ import numpy as np
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.cli.process import peak_bytes
 from glrt.errors import SceneError
-from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, open_context
-from glrt.gpu.struct_arrays import MOST_BAKED
 from glrt.methods import features
+from glrt.rendering import pipelines
+from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene
@@ -102,7 +102,7 @@ def _renderer(
     """A renderer that uses a tree from so many spheres on, and constants up to so many shapes."""
     with (
         patch.object(features, "TREE_FROM", tree_from),
-        patch.object(struct_arrays, "MOST_BAKED", most_baked),
+        patch.object(pipelines, "MOST_BAKED", most_baked),
     ):
         return Renderer(scene, context=context, tier="baked", width=size, height=size)
 

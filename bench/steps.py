@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from bench.efficiency import Row, Way, measure, table
 from bench.program import add_rounds, add_tables, exit_code_of, machine, parser_of
-from glrt.analysis.shader_edits import Edit
+from bench.shader_edits import Edit
 from glrt.gpu.context import open_context
 
 SCENES = ("cornell", "room", "lamps", "metals")
@@ -20,22 +20,22 @@ INDEPENDENT, SOBOL = "independent", "sobol"
 
 def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
     """Survival is min(throughput / threshold, 1), from so many scatterings on."""
-    edits = [Edit("path.glsl", "4.0 * CHANCES", f"CHANCES / {threshold}")]
+    edits = [Edit("integrators/path.glsl", "4.0 * CHANCES", f"CHANCES / {threshold}")]
     if bounce:
         call = "if (ROULETTE && {}roulette_ends("
         late = call.format(f"path.depth >= {bounce} && ")
-        edits.append(Edit("path.glsl", call.format(""), late))
+        edits.append(Edit("integrators/path.glsl", call.format(""), late))
     return edits
 
 
 BEFORE = roulette("1.0", 3)
 BY_FLUX = [  # and one lamp costs a random number
-    Edit("light_choice.glsl", "max(dot(away, away), cluster.reach2)", "1.0"),
-    Edit("light.glsl", "if (CLUSTERS > 1) choice.x", "choice.x"),
+    Edit("lights/choice.glsl", "max(dot(away, away), cluster.reach2)", "1.0"),
+    Edit("lights/sampling.glsl", "if (CLUSTERS > 1) choice.x", "choice.x"),
 ]
 STRIPS = [  # points on quads by solid angle, as in `nee`
-    Edit("light.glsl", "if (WEIGHT_BOTH) {", "if (false) {"),
-    Edit("light.glsl", "!WEIGHT_BOTH", "true"),
+    Edit("lights/sampling.glsl", "if (QUADS_BY_AREA) {", "if (false) {"),
+    Edit("lights/sampling.glsl", "!QUADS_BY_AREA", "true"),
 ]
 STEPS = {
     "plain: independent numbers, lamps by flux, roulette below 1 from bounce 3": Way(

@@ -1,6 +1,6 @@
 // The film on a screen: exposed, tone-mapped, sRGB. Film row 0 is on top.
 
-#include "tonemap.glsl"
+#include "passes/tonemap.glsl"
 
 uniform sampler2D picture;
 uniform float exposure;  // EV
@@ -10,8 +10,8 @@ in vec2 place;
 out vec4 color;
 
 void main() {
-    vec2 size = vec2(textureSize(picture, 0));
+    precise vec2 size = vec2(textureSize(picture, 0));
     ivec2 texel = min(ivec2(place * size), ivec2(size) - 1);
-    vec3 radiance = texelFetch(picture, texel, 0).rgb;
+    precise vec3 radiance = texelFetch(picture, texel, 0).rgb;
     color = vec4(expose_and_encode(radiance, exposure, tonemap), 1.0);
 }

@@ -1,7 +1,7 @@
 // A number of each pixel as a colour: how unsure its light is, how many of its samples were
 // dropped, or how its light differs from another film's. Film row 0 is on top.
 
-#include "most_layers.glsl"
+#include "film/most_layers.glsl"
 
 const int SHOWS_ERROR = 0;
 const int SHOWS_DROPPED = 1;
@@ -14,7 +14,7 @@ const float DIM = 0.25;  // of the picture below the marks
 uniform sampler2D light;      // radiance as it is weighed
 uniform sampler2D mean;       // of the film, as in trace.comp
 uniform sampler2D variance;
-uniform sampler2D layers;     // as in mix.frag
+uniform sampler2D layers;     // as in weighting.frag
 uniform sampler2D other;      // radiance to compare with
 uniform int shows;
 uniform int layer_count;      // 0: the light is the mean times weights[0]
@@ -29,7 +29,7 @@ out vec4 color;
 
 // The twin of glrt.rendering.film.standard_error, squared. Negative below two observations.
 vec3 variance_of_mean(ivec2 texel) {
-    vec4 observed = texelFetch(variance, texel, 0);
+    precise vec4 observed = texelFetch(variance, texel, 0);
     if (observed.a < 2.0) return vec3(-1.0);
     return observed.rgb / (observed.a - 1.0);
 }
@@ -37,23 +37,23 @@ vec3 variance_of_mean(ivec2 texel) {
 // From two halves of the observations: the twin of glrt.rendering.weighting.mixed.
 vec3 variance_by_halves(ivec2 texel) {
     ivec2 size = textureSize(mean, 0);
-    vec3 apart = vec3(0.0);
-    vec2 counts = vec2(0.0);
+    precise vec3 apart = vec3(0.0);
+    precise vec2 counts = vec2(0.0);
     for (int i = 0; i < layer_count; i += 1) {
-        vec4 one = texelFetch(layers, size * ivec2(i, 0) + texel, 0);
-        vec4 two = texelFetch(layers, size * ivec2(i, 1) + texel, 0);
+        precise vec4 one = texelFetch(layers, size * ivec2(i, 0) + texel, 0);
+        precise vec4 two = texelFetch(layers, size * ivec2(i, 1) + texel, 0);
         apart += weights[i] * (one.rgb - two.rgb);
         counts = vec2(one.a, two.a);
     }
     if (counts.x * counts.y == 0.0) return vec3(-1.0);
-    float total = counts.x + counts.y;
+    precise float total = counts.x + counts.y;
     return apart * apart * (counts.x * counts.y / (total * total));
 }
 
 // A pixel's share in the relative error of the picture (glrt.error.estimate.relative_error).
 float relative_error(ivec2 texel) {
-    vec3 radiance = texelFetch(light, texel, 0).rgb;
-    vec3 squared = layer_count > 0 ? variance_by_halves(texel)
+    precise vec3 radiance = texelFetch(light, texel, 0).rgb;
+    precise vec3 squared = layer_count > 0 ? variance_by_halves(texel)
                                    : weights[0] * weights[0] * variance_of_mean(texel);
     if (squared.r < 0.0) return -1.0;
     return sqrt(dot(squared / (radiance * radiance + dark), vec3(1.0 / 3.0)));
@@ -63,7 +63,7 @@ float relative_error(ivec2 texel) {
 float most_dropped(ivec2 texel) {
     ivec2 last = textureSize(mean, 0) - 1;
     int reach = 1 + last.y / 400;
-    float most = 0.0;
+    precise float most = 0.0;
     for (int y = -reach; y <= reach; y += 1) {
         for (int x = -reach; x <= reach; x += 1) {
             most = max(most, texelFetch(mean, clamp(texel + ivec2(x, y), ivec2(0), last), 0).a);
@@ -74,13 +74,13 @@ float most_dropped(ivec2 texel) {
 
 // Of luminances, relative to the other's: negative where this film is darker.
 float relative_difference(ivec2 texel) {
-    float here = dot(texelFetch(light, texel, 0).rgb, LUMINANCE);
-    float there = dot(texelFetch(other, texel, 0).rgb, LUMINANCE);
+    precise float here = dot(texelFetch(light, texel, 0).rgb, LUMINANCE);
+    precise float there = dot(texelFetch(other, texel, 0).rgb, LUMINANCE);
     return (here - there) / sqrt(there * there + dark);
 }
 
 vec3 color_at(float share) {
-    float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
+    precise float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
     int below = min(int(at), COLORS - 2);
     return mix(colors[below], colors[below + 1], at - float(below));
 }
@@ -93,13 +93,13 @@ vec3 color_of(float number) {
 void main() {
     ivec2 size = textureSize(mean, 0);
     ivec2 texel = min(ivec2(place * vec2(size)), size - 1);
-    vec3 shown = UNKNOWN;
+    precise vec3 shown = UNKNOWN;
     if (shows == SHOWS_ERROR) {
-        float error = relative_error(texel);
+        precise float error = relative_error(texel);
         if (error >= 0.0) shown = color_of(error);
     } else if (shows == SHOWS_DROPPED) {
-        float count = most_dropped(texel);
-        float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
+        precise float count = most_dropped(texel);
+        precise float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
         shown = count > 0.0 ? color_of(count) : vec3(DIM * pow(min(luminance, 1.0), 1.0 / 2.2));
     } else {
         shown = color_of(relative_difference(texel));

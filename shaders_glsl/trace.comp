@@ -4,26 +4,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#include "scene.glsl"
-#include "blocks.glsl"
-#include "rng.glsl"
-#include "sobol.glsl"
-#include "sampler.glsl"
-#include "warp.glsl"
-#include "camera.glsl"
-#include "shape.glsl"
-#include "bvh.glsl"
-#include "material.glsl"
-#include "strips.glsl"
-#include "light_choice.glsl"
-#include "light.glsl"
-#include "most_layers.glsl"
-#include "layers.glsl"
-#include "ladder.glsl"
-#include "path.glsl"
-#include "film.glsl"
-#include "samples.glsl"
-#include "tiles.glsl"
+#include "trace.glsl"
+#include "passes/tiles.glsl"
 
 layout(rgba32f) uniform readonly image2D source_mean;      // a: dropped samples
 layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
@@ -38,9 +20,9 @@ layout(std430) buffer Lost { uint lost_samples; };
 
 Pixel load_pixel(ivec2 texel) {
     if (frame.first_sample == 0) return empty_pixel();  // whatever the source holds
-    vec4 mean = imageLoad(source_mean, texel);
-    vec4 variance = imageLoad(source_variance, texel);
-    vec4 block = vec4(0.0);
+    precise vec4 mean = imageLoad(source_mean, texel);
+    precise vec4 variance = imageLoad(source_variance, texel);
+    precise vec4 block = vec4(0.0);
     if (BLOCK > 1) block = imageLoad(source_block, texel);
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
@@ -51,10 +33,10 @@ ivec2 layer_place(ivec2 texel, int slice) {
 }
 
 Layers load_layers(ivec2 texel) {
-    Layers layers = empty_layers();
+    precise Layers layers = empty_layers();
     if (LAYERS == 0 || frame.first_sample == 0) return layers;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
-        vec4 mean = imageLoad(source_layers, layer_place(texel, i));
+        precise vec4 mean = imageLoad(source_layers, layer_place(texel, i));
         layers.means[i] = mean.rgb;
         layers.counts[i / DIVISOR] = mean.a;
     }
@@ -64,7 +46,7 @@ Layers load_layers(ivec2 texel) {
 void store_layers(ivec2 texel, Layers layers) {
     if (LAYERS == 0) return;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
-        vec4 mean = vec4(layers.means[i], layers.counts[i / DIVISOR]);
+        precise vec4 mean = vec4(layers.means[i], layers.counts[i / DIVISOR]);
         imageStore(target_layers, layer_place(texel, i), mean);
     }
 }
@@ -74,8 +56,8 @@ void main() {
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
-    Pixel pixel = load_pixel(texel);
-    Layers layers = load_layers(texel);
+    precise Pixel pixel = load_pixel(texel);
+    precise Layers layers = load_layers(texel);
     int lost = add_samples(pixel, layers, frame.origin + texel);
     if (HAS_TREE && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));

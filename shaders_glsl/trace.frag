@@ -1,25 +1,7 @@
 // The kernel of trace.comp for OpenGL 4.1, which has no compute shaders: a fragment is a pixel of
 // the tiles that trace.vert draws, and the target textures are those of a framebuffer.
 
-#include "scene.glsl"
-#include "blocks.glsl"
-#include "rng.glsl"
-#include "sobol.glsl"
-#include "sampler.glsl"
-#include "warp.glsl"
-#include "camera.glsl"
-#include "shape.glsl"
-#include "bvh.glsl"
-#include "material.glsl"
-#include "strips.glsl"
-#include "light_choice.glsl"
-#include "light.glsl"
-#include "most_layers.glsl"
-#include "layers.glsl"
-#include "ladder.glsl"
-#include "path.glsl"
-#include "film.glsl"
-#include "samples.glsl"
+#include "trace.glsl"
 
 uniform sampler2D source_mean;      // as in trace.comp
 uniform sampler2D source_variance;
@@ -30,16 +12,16 @@ layout(location = 2) out vec4 target_block;
 
 Pixel load_pixel(ivec2 texel) {
     if (frame.first_sample == 0) return empty_pixel();
-    vec4 mean = texelFetch(source_mean, texel, 0);
-    vec4 variance = texelFetch(source_variance, texel, 0);
-    vec4 block = vec4(0.0);
+    precise vec4 mean = texelFetch(source_mean, texel, 0);
+    precise vec4 variance = texelFetch(source_variance, texel, 0);
+    precise vec4 block = vec4(0.0);
     if (BLOCK > 1) block = texelFetch(source_block, texel, 0);
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    Pixel pixel = load_pixel(texel);
+    precise Pixel pixel = load_pixel(texel);
     add_samples(pixel, frame.origin + texel);
     target_mean = vec4(pixel.mean, pixel.dropped);
     target_variance = vec4(pixel.variance, pixel.observations);

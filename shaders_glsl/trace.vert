@@ -1,8 +1,8 @@
 // Tiles of a crop of the frame, each an instance of four vertices, for trace.frag.
 
-#include "scene.glsl"
-#include "blocks.glsl"
-#include "tiles.glsl"
+#include "structs/scene.glsl"
+#include "scene_arrays.glsl"
+#include "passes/tiles.glsl"
 
 uniform sampler2D source_mean;  // of the size of the picture
 

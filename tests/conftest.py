@@ -15,12 +15,10 @@ import pytest
 from bench.screens import screen
 from glrt.errors import ContextError
 from glrt.gpu.context import Context, open_context
-from glrt.gpu.evaluate import Probe, path_files
 from glrt.methods.features import needs_of
-from glrt.rendering.pack import scene_blocks
+from glrt.rendering.evaluation import evaluate
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
-from tests.support.builders import EVERYTHING
 from tests.support.system_packages import needs_package
 from tests.wgsl.device import Device, open_device
 
@@ -94,16 +92,11 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
         constants: dict[str, bool | int] | None = None,
         **inputs: Any,
     ) -> Array:
-        prelude: dict[str, bool | int] = dict(EVERYTHING)
+        prelude: dict[str, bool | int] = {}
         if scene:
             settings = settings_for(scene.render, sampler="independent")
             prelude = needs_of(scene, settings).constants()
         prelude |= constants or {}
-        probe = Probe(expression, returns, setup, functions, path_files(), prelude)
-        blocks = {name: ctx.buffer(data) for name, data in scene_blocks(scene).items()}
-        result = probe.run(ctx, inputs, blocks)
-        for buffer in blocks.values():
-            buffer.release()
-        return result
+        return evaluate(ctx, expression, inputs, returns, setup, functions, scene, prelude)
 
     return call

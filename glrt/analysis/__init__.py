@@ -2,7 +2,6 @@
 
 Modules, each importing only what stands above it:
 
-- shader_edits: renderers with edited shaders
 - reference: what a picture should be
 - variants: the ways to render a scene
 - plot: the style of charts

@@ -21,12 +21,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glrt import files
-from glrt.analysis.shader_edits import Edit, edited
 from glrt.error.estimate import DARK
 from glrt.errors import RenderError, SceneError
 from glrt.gpu.context import Context
+from glrt.gpu.glsl import read, shader_files
+from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
-from glrt.resources import folder
 from glrt.scene.materials import Dielectric, Lambertian, Light, Material, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.toml import scene_to_dict
@@ -134,16 +134,9 @@ def _gives_back(material: Material, emission: tuple[float, ...], level: float) -
     return all(emitted + albedo * level == level for emitted, albedo in pairs)
 
 
-# Wellons, "Prospecting for Hash Functions" (2018): the constants of least bias that he found.
-_OTHER_HASH = """uint pcg_hash(uint x) {
-    x = (x ^ (x >> 16u)) * 0x7FEB352Du;
-    x = (x ^ (x >> 15u)) * 0x846CA68Bu;
-    return x ^ (x >> 16u);
-}
-"""
-_HEAD = "uint pcg_hash(uint x) {"
-# Takes its random numbers from a hash by shifts and products, where others have PCG's.
-OtherNumbers = edited(Edit("rng.glsl", _HEAD, f"{_OTHER_HASH}\nuint unused(uint x) {{"))
+# Random numbers from a hash by shifts and products, where others have PCG's.
+_OTHER_HASH = read("sampling/other_hash.glsl")
+OTHER_NUMBERS = Variant(texts={"sampling/hash.glsl": _OTHER_HASH})
 
 
 def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:
@@ -152,7 +145,10 @@ def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer
     while True:
         try:
             wanted = settings_for(settings, method="mis", bounces=bounces, sampler=SAMPLER)
-            return [OtherNumbers(scene, wanted, context, "baked", seed=seed) for seed in SEEDS]
+            return [
+                Renderer(scene, wanted, context, "baked", variant=OTHER_NUMBERS, seed=seed)
+                for seed in SEEDS
+            ]
         except SceneError:
             if bounces <= settings.bounces:
                 raise
@@ -188,9 +184,9 @@ def _cache_folder() -> Path:
 
 def _key(scene: Scene, settings: Settings, error: float, seconds: float) -> str:
     """Names all that the halves depend on, the text of the kernel included."""
-    shaders = {file.name: file.read_text() for file in folder("shaders_glsl").iterdir()}
+    shaders = {file.name: file.read_text() for file in shader_files()}
     frame = [settings.width, settings.height, settings.crop, settings.bounces, BOUNCES]
-    numbers = [SEEDS, SAMPLER, _OTHER_HASH]
+    numbers = [SEEDS, SAMPLER]
     parts = [scene_to_dict(scene), frame, numbers, error, seconds, VERSION, shaders]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
 

@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """`glrt inspect`: what the kernel contains and leaves out."""
     from glrt.gpu.driver_checks import LLVMPIPE_ROUNDS
-    from glrt.methods.features import explain, has_tree
+    from glrt.methods.features import contents_of, explain
     from glrt.rendering.schedule import iterations_per_sample
     from glrt.scene.limits import cautions
 
@@ -41,8 +41,9 @@ def run(arguments: argparse.Namespace) -> int:
     if missing := omissions(scene, settings):
         print(f"\n{left_out(settings, missing)}")
     rounds = iterations_per_sample(scene, settings)
+    most = "about" if contents_of(scene).has_tree else "up to"
     print(
-        f"\nA sample takes {'about' if has_tree(scene) else 'up to'} {rounds:,} rounds of loops; "
+        f"\nA sample takes {most} {rounds:,} rounds of loops; "
         f"llvmpipe ends those of a dispatch after {LLVMPIPE_ROUNDS:,}."
     )
     for text in cautions(scene, settings):

@@ -11,11 +11,11 @@ from glrt.cli.options import is_automatic, settings_given
 from glrt.cli.process import since_start
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting, recipe_to_resume
 from glrt.image.sources import load_recipe, recipe_of
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
 from glrt.scene.scene import Scene, with_lights

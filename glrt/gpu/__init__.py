@@ -5,7 +5,6 @@ Modules, each importing only what stands above it:
 - context: routes to an OpenGL context: EGL, OSMesa, a hidden window
 - structs: GLSL structs read as numpy dtypes
 - glsl: shader files put together into what the driver gets
-- texels: arrays of structs as textures
 - struct_arrays: how a kernel reads an array: constants, uniform block or texture
 - program: a compiled program, its blocks and images bound by name
 - evaluate: single GLSL functions over arrays

@@ -95,7 +95,7 @@ def _count_rounds(gl: moderngl.Context) -> int:
 
 def _hashes_equal(gl: moderngl.Context) -> bool:
     inputs = np.arange(ROWS, dtype=np.uint32) * np.uint32(0x9E3779B9)
-    found = Probe("pcg_hash(x)", "uint", includes=["rng.glsl"]).run(gl, {"x": inputs})
+    found = Probe("pcg_hash(x)", "uint", includes=["sampling/hash.glsl"]).run(gl, {"x": inputs})
     return bool(found.tolist() == [pcg_hash(int(x)) for x in inputs])
 
 

@@ -33,6 +33,7 @@ class Probe:
     functions: str = ""
     includes: Sequence[str] = ()
     constants: Mapping[str, bool | int] | None = None
+    texts: Mapping[str, str] | None = None  # shader files that are written, by name
 
     def run(
         self,
@@ -77,17 +78,17 @@ class Probe:
                 f"    if (i >= out_.length() / {width}) return;",
                 *(_local(name, values) for name, values in arrays.items()),
                 self.setup,
-                f"    {self.returns} result_ = {self.expression};",
+                f"    {_precise(self.returns)}{self.returns} result_ = {self.expression};",
                 *(f"    out_[{width} * i + {k}] = {stored}({p});" for k, p in enumerate(parts)),
                 "}",
             ]
         )
-        return Source("probe", self.constants, parts={"probe": text})
+        return Source("probe", self.constants, texts={"probe": text, **(self.texts or {})})
 
 
 def path_files() -> list[str]:
     """The shader files that trace a path, in the order in which they build on each other."""
-    return re.findall(r'#include "(\w+\.glsl)"', read("trace.comp"))
+    return re.findall(r'#include "([\w/]+\.glsl)"', read("trace.glsl"))
 
 
 def _plain(values: Any) -> Array:
@@ -104,6 +105,11 @@ def _base(glsl_type: str) -> tuple[str, int]:
     return glsl_type, 1
 
 
+def _precise(kind: str) -> str:
+    """The qualifier of a local: integers and truths have no rounding."""
+    return "precise " if kind == "float" or kind[:3] in ("vec", "mat") else ""
+
+
 def _block(name: str, values: Array) -> str:
     scalar = _SCALARS[values.dtype.kind]
     return f"layout(std430) readonly buffer In_{name} {{ {scalar} in_{name}[]; }};"
@@ -112,8 +118,8 @@ def _block(name: str, values: Array) -> str:
 def _local(name: str, values: Array) -> str:
     scalar, row = _SCALARS[values.dtype.kind], "i" if len(values) > 1 else "0"
     if values.ndim == 1:
-        return f"    {scalar} {name} = in_{name}[{row}];"
+        return f"    {_precise(scalar)}{scalar} {name} = in_{name}[{row}];"
     width = values.shape[1]
     prefix = "" if scalar == "float" else scalar[0]
     parts = ", ".join(f"in_{name}[{width} * {row} + {k}]" for k in range(width))
-    return f"    {prefix}vec{width} {name} = {prefix}vec{width}({parts});"
+    return f"    {_precise(scalar)}{prefix}vec{width} {name} = {prefix}vec{width}({parts});"

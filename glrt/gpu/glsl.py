@@ -1,7 +1,8 @@
-"""Kernel source: included files, a prelude of constants, and driver messages led back to files.
+"""Shader text: files and what they include, behind a prelude of constants.
 
-A file is read once: what is rendered does not change while somebody edits a shader. `files_anew`
-is for those who ask for that.
+This is the one way in which a shader comes together; docs/explanation/kernel.md explains it. A file
+is read once: what is rendered does not change while somebody edits a shader. `files_anew` is for
+those who ask for that.
 """
 
 import re
@@ -16,8 +17,6 @@ from glrt.resources import folder
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".
 _LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
-_STRUCT = re.compile(r"^struct\s+(\w+)", re.MULTILINE)
-_FLOATS = ("float", "vec2", "vec3", "vec4", "mat3")
 _texts: dict[Path, str] = {}  # of files that have been read
 
 
@@ -29,10 +28,9 @@ class Line(NamedTuple):
 
 
 class Source:
-    """The text of a shader, assembled; every float local and inout parameter is `precise`.
+    """The text of a shader: its version, a constant for each feature, and the files.
 
-    Then constant folding, inlining and another entry point change no bit of what it computes:
-    the driver may neither fuse nor reorder its arithmetic.
+    A comment names the file wherever it changes.
     """
 
     def __init__(
@@ -40,17 +38,20 @@ class Source:
         entry: str,
         constants: Mapping[str, bool | int] | None = None,
         version: str = "430 core",
-        parts: Mapping[str, str] | None = None,
+        texts: Mapping[str, str] | None = None,
     ) -> None:
-        """Read `entry` and what it includes from `parts`, by name, or from the shader folder.
+        """Read `entry` and what it includes from `texts`, by name, or from the shader folder.
 
         RenderError if a file is not there.
         """
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
-        files = _Files(parts or {})
-        lines = [Line(line, "prelude") for line in head] + files.expand(entry, "the kernel")
-        texts = _precise("\n".join(line.text for line in lines)).split("\n")
-        self.lines = [Line(text, line.origin) for text, line in zip(texts, lines, strict=True)]
+        files = _Files(texts or {})
+        lines = [Line(line, "prelude") for line in head]
+        for line in files.expand(entry, "the kernel"):
+            if _file(line.origin) != _file(lines[-1].origin):
+                lines.append(Line(f"// {line.origin}", line.origin))
+            lines.append(line)
+        self.lines = lines
 
     @property
     def text(self) -> str:
@@ -69,6 +70,16 @@ class Source:
 def read(name: str) -> str:
     """The text of one shader file."""
     return _text_of(folder("shaders_glsl") / name)
+
+
+def expanded(name: str) -> str:
+    """The text of a shader file with those that it includes."""
+    return "\n".join(line.text for line in _Files({}).expand(name, name)) + "\n"
+
+
+def shader_files() -> list[Path]:
+    """Every shader file, sorted."""
+    return sorted(path for path in folder("shaders_glsl").rglob("*") if path.is_file())
 
 
 @contextmanager
@@ -90,11 +101,8 @@ def _text_of(path: Path) -> str:
     return _texts[path]
 
 
-def _precise(text: str) -> str:
-    """The text with `precise` before initialised float and struct locals, and inout parameters."""
-    kinds = "|".join([*_FLOATS, *_STRUCT.findall(text)])
-    text = re.sub(rf"^([ \t]+)({kinds})([ \t]+\w+[ \t]*=)", r"\1precise \2\3", text, flags=re.M)
-    return re.sub(rf"\binout ({kinds})\b", r"precise inout \1", text)
+def _file(origin: str) -> str:
+    return origin.rpartition(":")[0]
 
 
 def _declare(constant: tuple[str, bool | int]) -> str:
@@ -107,8 +115,8 @@ def _declare(constant: tuple[str, bool | int]) -> str:
 class _Files:
     """Shader files, each included once."""
 
-    def __init__(self, parts: Mapping[str, str]) -> None:
-        self._parts = parts
+    def __init__(self, texts: Mapping[str, str]) -> None:
+        self._texts = texts
         self._seen: set[str] = set()
 
     def expand(self, name: str, wanted_by: str) -> list[Line]:
@@ -124,8 +132,8 @@ class _Files:
         return lines
 
     def _text(self, name: str, wanted_by: str) -> str:
-        if name in self._parts:
-            return self._parts[name]
+        if name in self._texts:
+            return self._texts[name]
         try:
             return read(name)
         except OSError as error:

@@ -10,7 +10,7 @@ from glrt.gpu.glsl import Source, read
 from glrt.gpu.structs import read_constants
 from glrt.signals import postponed
 
-TILE = read_constants(read("tiles.glsl"))["TILE"]  # pixels along the edge of a tile
+TILE = read_constants(read("passes/tiles.glsl"))["TILE"]  # pixels along the edge of a tile
 
 Resource = moderngl.Buffer | moderngl.Texture
 Images = Mapping[str, moderngl.Texture]

@@ -1,72 +1,164 @@
-"""How the kernel reads the scene: `blocks.glsl` with each array declared the fastest way it can be.
+"""Arrays of structs, and how a kernel reads each: constants, a uniform block, or a texture.
 
-Three tiers, the same values: "baked" writes the shapes into the kernel's text, so that each edit
-of them compiles; "generic" reads uniform blocks, and textures for what is larger than those may be;
-"storage" reads storage blocks, as in the file. Figures stand in docs/speed.md.
+Written as GLSL for the arrays of one scene, in place of the include `scene_arrays.glsl`: the only
+shader text that is not a file. Constants are fastest, and each change of them compiles; uniform
+blocks are limited in size; what is larger lies in textures. Figures: docs/results/speed.md.
+
+Textures hold unsigned integers: one of floats may lose what looks like a denormal number. Texels
+are read at their middle, by coordinates from 0 to 1, and not by number: for numbers llvmpipe looks
+up the size of a level lane by lane, which takes longer than reading.
 """
 
-from collections.abc import Mapping
-from typing import Any, Literal
+from collections.abc import Collection, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
 
+import moderngl
 import numpy as np
 
-from glrt.gpu.glsl import read
-from glrt.gpu.texels import accessor
-
 Array = np.ndarray[Any, Any]
-Tier = Literal["storage", "generic", "baked"]
+Arrays = Mapping[str, Array]  # rows, by the name of their struct
 
-BAKED = ("Spheres", "Planes", "Quads")  # not materials: a colour is to change without compiling
-MOST_BAKED = 32  # shapes
-UNIFORM_BYTES = 16_384  # every OpenGL grants a uniform block this much
+FILE = "scene_arrays.glsl"
+MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit: quads 1.05 times as fast as in a texture
 LEAST_ROWS = 32
 
+_BITS = 9
+ROWS = 1 << _BITS  # structs along a texture: with 7 texels each within the 16,384 that 4.1 grants
+_TEXEL = 16  # bytes of RGBA32UI
+_CASTS = {"f": "uintBitsToFloat({})", "i": "int({})", "u": "{}"}
 
-def tier_for(arrays: Mapping[str, Array], wanted: Tier) -> Tier:
-    """The tier that a scene gets: not baked if it has more than MOST_BAKED shapes."""
-    shapes = sum(len(arrays[name]) for name in BAKED)
-    return "generic" if wanted == "baked" and shapes > MOST_BAKED else wanted
+
+def block_of(struct: str) -> str:
+    """The name of the uniform block or texture that holds the rows of a struct."""
+    return f"{struct}Rows"
 
 
-def blocks_text(
-    arrays: Mapping[str, Array],
-    tier: Tier = "generic",
-    has_storage: bool = True,
-    uniform_bytes: int = UNIFORM_BYTES,
+def scene_arrays(
+    arrays: Arrays, numbered: Sequence[str], constant: Collection[str], uniform_bytes: int
 ) -> str:
-    """The text of `blocks.glsl` for these arrays, keyed by block name.
+    """GLSL that declares the arrays and the functions by which the kernel reads them.
 
-    Uniform blocks are at most `uniform_bytes` large; what is larger lies in textures. These
-    stand in for storage blocks too where there are none, as in OpenGL 4.1.
+    For each struct `sphere_at(index)` and, where the struct Frame counts it, `sphere_count()`.
+    Structs that are `numbered` share one numbering, in this order: `first_sphere()` is the number
+    of the first, and `up_to_sphere(number)` is true for this kind and those before it. Those that
+    are `constant` are written into the text. Uniform blocks are at most `uniform_bytes` large.
     """
-    text = read("blocks.glsl")
-    for block, rows in arrays.items():
-        struct = block.removesuffix("s")
-        name = struct.lower()
-        storage = f"layout(std430) readonly buffer {block} {{ {struct} {name}s[]; }};"
-        if storage not in text:
-            raise KeyError(f"blocks.glsl does not declare `{storage}`")
-        if tier == "baked" and block in BAKED:
-            text = text.replace(storage, _constants(struct, f"{name}s", rows))
-            text = text.replace(f"frame.{name}_count", str(len(rows)))
-        elif is_uniform(rows, tier, uniform_bytes):
-            uniform = f"layout(std140) uniform {block} {{ {struct} {name}s[{_capacity(rows)}]; }};"
-            text = text.replace(storage, uniform)
-        elif tier != "storage" or not has_storage:
-            getter = f"{struct} {name}_at(int index) {{ return {name}s[index]; }}"
-            text = text.replace(storage, "").replace(getter, accessor(struct, block, rows))
-    return text
+    parts = ["layout(std140) uniform FrameBlock { Frame frame; };"]
+    for struct, rows in arrays.items():
+        if struct in constant:
+            parts += [_constants(struct, rows), _count(struct, str(len(rows)))]
+        else:
+            in_block = is_uniform(rows, uniform_bytes)
+            parts.append(_uniform(struct, rows) if in_block else _texture(struct, rows))
+            if struct in (*numbered, *COUNTED):
+                parts.append(_count(struct, f"frame.{struct.lower()}_count"))
+    return "\n".join([*parts, *_numbering(arrays, numbered)]) + "\n"
 
 
-def padded(rows: Array, tier: Tier, uniform_bytes: int = UNIFORM_BYTES) -> bytes:
-    """The content of a block's buffer: as large as the uniform block, and never empty."""
-    least = _capacity(rows) if is_uniform(rows, tier, uniform_bytes) else 1
-    return rows.tobytes().ljust(least * rows.itemsize, b"\0")
+COUNTED = ("Node", "Light")  # by the struct Frame, beside those that are numbered
 
 
-def is_uniform(rows: Array, tier: Tier, uniform_bytes: int = UNIFORM_BYTES) -> bool:
-    """Whether an array that is not baked lies in a uniform block."""
-    return tier != "storage" and _capacity(rows) * rows.itemsize <= uniform_bytes
+def upload(
+    gl: moderngl.Context, arrays: Arrays, constant: Collection[str], uniform_bytes: int
+) -> dict[str, moderngl.Buffer | moderngl.Texture]:
+    """The arrays as `scene_arrays` declares them, by the names of their blocks and textures."""
+    return {
+        block_of(struct): gl.buffer(uniform_content(rows))
+        if is_uniform(rows, uniform_bytes)
+        else texture_of(gl, rows)
+        for struct, rows in arrays.items()
+        if struct not in constant
+    }
+
+
+def uniform_bytes(gl: moderngl.Context) -> int:
+    """How large a uniform block may be."""
+    return min(MOST_UNIFORM_BYTES, int(gl.info["GL_MAX_UNIFORM_BLOCK_SIZE"]))
+
+
+def is_uniform(rows: Array, uniform_bytes: int) -> bool:
+    """Whether an array that is not constant lies in a uniform block."""
+    return _capacity(rows) * rows.itemsize <= uniform_bytes
+
+
+def uniform_content(rows: Array) -> bytes:
+    """The content of a uniform block, as large as the block is declared."""
+    return rows.tobytes().ljust(_capacity(rows) * rows.itemsize, b"\0")
+
+
+def texture_of(gl: moderngl.Context, rows: Array) -> moderngl.Texture:
+    """The texture of an array."""
+    size, content = texels(rows.tobytes() or bytes(rows.itemsize), rows.itemsize)
+    texture = gl.texture(size, 4, content, dtype="u4")
+    texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated
+    return texture
+
+
+def texels(data: bytes, itemsize: int) -> tuple[tuple[int, int], bytes]:
+    """Width and height of the texture for an array of structs, and its content."""
+    width, height = ROWS * itemsize // _TEXEL, _height(len(data) // itemsize)
+    return (width, height), data.ljust(width * height * _TEXEL, b"\0")
+
+
+def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
+    first = "int first_{}() {{ return {}; }}".format
+    counts = [f"{struct.lower()}_count()" for struct in numbered]
+    lines = [
+        first(struct.lower(), " + ".join(counts[:place]) or "0")
+        for place, struct in enumerate(numbered)
+    ]
+    last = [struct for struct in numbered if len(arrays[struct])][-1:]
+    for struct, after in pairwise([*numbered, ""]):
+        limit = f"number < first_{after.lower()}()" if after and struct not in last else "true"
+        lines.append(f"bool up_to_{struct.lower()}(int number) {{ return {limit}; }}")
+    return lines
+
+
+def _count(struct: str, value: str) -> str:
+    return f"int {struct.lower()}_count() {{ return {value}; }}"
+
+
+def _getter(struct: str) -> str:
+    name = struct.lower()
+    return f"{struct} {name}_at(int index) {{ return {name}_rows[index]; }}"
+
+
+def _constants(struct: str, rows: Array) -> str:
+    values = rows if len(rows) else np.zeros(1, rows.dtype)  # an array cannot be empty
+    listed = ",\n    ".join(_constructor(struct, row) for row in values)
+    kind, name = f"{struct}[{len(values)}]", f"{struct.lower()}_rows[{len(values)}]"
+    return f"const {struct} {name} = {kind}(\n    {listed});\n{_getter(struct)}"
+
+
+def _uniform(struct: str, rows: Array) -> str:
+    name = f"{struct.lower()}_rows[{_capacity(rows)}]"
+    block = f"layout(std140) uniform {block_of(struct)} {{ {struct} {name}; }};"
+    return f"{block}\n{_getter(struct)}"
+
+
+def _texture(struct: str, rows: Array) -> str:
+    """Another count of rows is another text only where the texture is twice as high."""
+    texels_each = rows.itemsize // _TEXEL
+    block = block_of(struct)
+    fetches = [
+        f"    uvec4 row{k} = textureLod({block}, (place + vec2({k}.5, 0.5)) * texel, 0.0);"
+        for k in range(texels_each)
+    ]
+    fields = [_field(field[0], field[1]) for field in (rows.dtype.fields or {}).values()]
+    width, height = ROWS * texels_each, _height(len(rows))
+    return "\n".join(
+        [
+            f"uniform usampler2D {block};",
+            f"{struct} {struct.lower()}_at(int index) {{",
+            f"    precise vec2 texel = vec2(1.0 / {width}.0, 1.0 / {height}.0);",
+            f"    ivec2 row = ivec2({texels_each} * (index & {ROWS - 1}), index >> {_BITS});",
+            "    precise vec2 place = vec2(row);",
+            *fetches,
+            f"    return {struct}({', '.join(fields)});",
+            "}",
+        ]
+    )
 
 
 def _capacity(rows: Array) -> int:
@@ -77,11 +169,18 @@ def _capacity(rows: Array) -> int:
     return max(LEAST_ROWS, 1 << (len(rows) - 1).bit_length())
 
 
-def _constants(struct: str, name: str, rows: Array) -> str:
-    values = rows if len(rows) else np.zeros(1, rows.dtype)  # an array cannot be empty
-    listed = ",\n    ".join(_constructor(struct, row) for row in values)
-    kind = f"{struct}[{len(values)}]"
-    return f"const {struct} {name}[{len(values)}] = {kind}(\n    {listed});"
+def _height(count: int) -> int:
+    """Of the texture for so many structs: a power of two."""
+    return 1 << (max(count - 1, 0) >> _BITS).bit_length()
+
+
+def _field(dtype: np.dtype[Any], offset: int) -> str:
+    base, count = dtype.base, dtype.itemsize // 4
+    start = offset % _TEXEL // 4
+    words = f"row{offset // _TEXEL}.{'xyzw'[start : start + count]}"
+    if base.kind == "i" and count > 1:
+        return f"ivec{count}({words})"
+    return _CASTS[base.kind].format(words)
 
 
 def _constructor(struct: str, row: Any) -> str:

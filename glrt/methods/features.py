@@ -2,46 +2,107 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from glrt.scene.materials import Material, Metal
+from glrt.methods.table import CLASSIC, METHODS
+from glrt.scene.materials import TYPES, Material, Metal
 from glrt.scene.scene import Scene
+from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
 from glrt.text import counted
 
-TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/speed.md)
-LADDER = {"phong": 1, "blinn": 2, "whitted": 3, "cook": 4}  # the numbers of ladder.glsl
+TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/results/speed.md)
 MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
+SAMPLED = ("sphere", "quad")  # the kinds of lamps that are sampled; others are found by scattering
 NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0}
 
 
 @dataclass(frozen=True)
-class Needs:
-    """The features compiled into a kernel; each is a constant of its prelude, in upper case."""
+class Contents:
+    """What is in a scene, counted once for all that ask."""
 
-    has_sphere: bool
-    has_plane: bool
-    has_quad: bool
+    shapes: dict[str, int]  # how many of each kind
+    materials: dict[str, Material]  # those that are used, in the order of the scene file
+    lamps: dict[str, int]  # how many of each kind of shape emit
+
+    @property
+    def sampled_lamps(self) -> int:
+        """How many lamps can be sampled."""
+        return sum(self.lamps[kind] for kind in SAMPLED)
+
+    @property
+    def has_tree(self) -> bool:
+        """Whether rays are to find spheres by a tree."""
+        return self.shapes["sphere"] >= TREE_FROM
+
+    @property
+    def has_many_lights(self) -> bool:
+        """Whether there are more lamps than are weighed one by one."""
+        return self.sampled_lamps > MOST_NEAR
+
+    @property
+    def clusters(self) -> int:
+        """How many clusters of lamps are weighed at each point; of few lamps each is one."""
+        return min(self.sampled_lamps, MOST_NEAR)
+
+
+def contents_of(scene: Scene) -> Contents:
+    """Count what is in a scene."""
+    shapes = dict.fromkeys(KINDS, 0)
+    lamps = dict.fromkeys(KINDS, 0)
+    for shape in scene.objects:
+        shapes[shape.shape] += 1
+        lamps[shape.shape] += is_light(scene.materials[shape.material])
+    return Contents(shapes, used_materials(scene), lamps)
+
+
+@dataclass(frozen=True)
+class Needs:
+    """The features compiled into a kernel; each is a constant of its prelude, in upper case.
+
+    `shapes` and `materials` become HAS_SPHERE and so on, one for each kind and type there is, but
+    for matte surfaces, which are always there, and metal, of which there are two sorts.
+    """
+
+    shapes: frozenset[str]
+    materials: frozenset[str]
     has_tree: bool
     has_mirror: bool
     has_rough_metal: bool
-    has_dielectric: bool
     has_lens: bool
     has_background: bool
     has_sphere_light: bool
     has_quad_light: bool
     sample_lights: bool
     weight_both: bool
+    quads_by_area: bool  # points on lamps even in area, not in solid angle
     roulette: bool
-    model: int  # of the ladder; 0: paths are traced
+    model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
     clusters: int  # lamps to weigh at each point, or of many clusters of them
     block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
 
     def constants(self) -> dict[str, bool | int]:
         """The prelude: what the compiler may take for granted."""
-        values = {field.name.upper(): getattr(self, field.name) for field in fields(self)}
-        return {**values, **NO_LAYERS}
+        kinds = {f"HAS_{kind.upper()}": kind in self.shapes for kind in KINDS}
+        own = [name for name in TYPES if name not in _FINER]
+        types = {f"HAS_{name.upper()}": name in self.materials for name in own}
+        plain = [field.name for field in fields(self) if field.name not in ("shapes", "materials")]
+        values = {name.upper(): getattr(self, name) for name in plain}
+        return {**kinds, **types, **values, **NO_LAYERS, "COUNT_RAYS": False}
+
+
+def everything() -> dict[str, bool | int]:
+    """The constants of a kernel with every feature, for functions that are tried alone.
+
+    Paths are traced; lamps are chosen as in the scene that the caller names, or not at all.
+    """
+    plain: Any = {field.name: True for field in fields(Needs)}
+    sets = {"shapes": frozenset(KINDS), "materials": frozenset(TYPES)}
+    return Needs(**{**plain, **sets, "model": 0, "clusters": 0, "block": 1}).constants()
+
+
+_FINER = ("lambertian", "light", "metal")
 
 
 class Feature(NamedTuple):
@@ -52,66 +113,43 @@ class Feature(NamedTuple):
     reason: str
 
 
-def needs_of(scene: Scene, settings: Settings) -> Needs:
+def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None) -> Needs:
     """The features that this scene, rendered with these settings, makes use of."""
-    shapes = {shape.shape for shape in scene.objects}
-    used = list(used_materials(scene).values())
-    lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
-    method = settings.method
-    chooses = method in ("nee", "mis", "cook")
-    is_lit = method != "naive" and bool(lamps & {"sphere", "quad"})
-    follows = method not in ("phong", "blinn")  # mirrors and glass
-    metals = [m for m in used if m.type == "metal"]
+    found = contents or contents_of(scene)
+    traits = METHODS[settings.method]
+    is_lit = traits.uses_lamps and found.sampled_lamps > 0
+    metals = [m for m in found.materials.values() if m.type == "metal"]
+    types = {m.type for m in found.materials.values()} - (set() if traits.follows else _FOLLOWED)
     return Needs(
-        has_sphere="sphere" in shapes,
-        has_plane="plane" in shapes,
-        has_quad="quad" in shapes,
-        has_tree=has_tree(scene),
-        has_mirror=follows and any(m.alpha == 0 or method == "whitted" for m in metals),
-        has_rough_metal=method != "whitted" and any(m.alpha > 0 for m in metals),
-        has_dielectric=follows and any(m.type == "dielectric" for m in used),
-        has_lens=method not in ("phong", "blinn", "whitted") and scene.camera.defocus_angle > 0,
+        shapes=frozenset(kind for kind, count in found.shapes.items() if count),
+        materials=frozenset(types),
+        has_tree=found.has_tree,
+        has_mirror=traits.follows
+        and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
+        has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
+        has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
-        has_sphere_light=is_lit and "sphere" in lamps,
-        has_quad_light=is_lit and "quad" in lamps,
-        sample_lights=is_lit and method in ("nee", "mis"),
-        weight_both=is_lit and method == "mis",
-        roulette=settings.roulette and follows,
-        model=_number_of(method, metals),
-        many_lights=chooses and has_many_lights(scene),
-        clusters=clusters_of(scene) if chooses else 0,
+        has_sphere_light=is_lit and found.lamps["sphere"] > 0,
+        has_quad_light=is_lit and found.lamps["quad"] > 0,
+        sample_lights=is_lit and traits.samples_lights,
+        weight_both=is_lit and traits.weights_both,
+        quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
+        roulette=settings.roulette and traits.follows,
+        model=_number_of(settings.method, metals),
+        many_lights=traits.chooses_lights and found.has_many_lights,
+        clusters=found.clusters if traits.chooses_lights else 0,
         block=settings.block,
     )
 
 
-def has_tree(scene: Scene) -> bool:
-    """Whether rays are to find spheres by a tree."""
-    return sum(shape.shape == "sphere" for shape in scene.objects) >= TREE_FROM
+_FOLLOWED = {"dielectric"}  # nothing is seen of it but by following light through it
 
 
 def _number_of(method: str, metals: Sequence[Metal]) -> int:
     """Of the model; without highlights, the two that differ in their form are one."""
     if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
-        return LADDER["phong"]
-    return LADDER.get(method, 0)
-
-
-def has_many_lights(scene: Scene) -> bool:
-    """Whether there are more lamps than are weighed one by one."""
-    return sampled_lamps(scene) > MOST_NEAR
-
-
-def sampled_lamps(scene: Scene) -> int:
-    """How many lamps can be sampled: all but planes."""
-    return sum(
-        shape.shape != "plane" and is_light(scene.materials[shape.material])
-        for shape in scene.objects
-    )
-
-
-def clusters_of(scene: Scene) -> int:
-    """How many clusters of lamps are weighed at each point; of few lamps each is one."""
-    return min(sampled_lamps(scene), MOST_NEAR)
+        return METHODS["phong"].model
+    return METHODS[method].model
 
 
 def is_light(material: Material) -> bool:
@@ -127,26 +165,26 @@ def used_materials(scene: Scene) -> dict[str, Material]:
 
 def explain(scene: Scene, settings: Settings) -> list[Feature]:
     """Every feature of the kernel: in or out, and what in the scene decides that."""
-    needs = needs_of(scene, settings)
-    used = used_materials(scene)
+    found = contents_of(scene)
+    needs = needs_of(scene, settings, found)
+    used = found.materials
 
     def made_of(kind: str, **limits: bool) -> list[str]:
         return [name for name, m in used.items() if m.type == kind and _matches(m, limits)]
 
     def shapes(kind: str) -> str:
-        return counted(sum(1 for shape in scene.objects if shape.shape == kind), kind)
+        return counted(found.shapes[kind], kind)
 
     lens, method = scene.camera.defocus_angle, settings.method
     mirrors, rough = made_of("metal", rough=False), made_of("metal", rough=True)
-    lamps = _lamps(scene)
+    glass = _made_of(made_of("dielectric"), "dielectric")
+    lamps = _lamps(found)
     return [
-        Feature("spheres", needs.has_sphere, shapes("sphere")),
+        *(Feature(f"{kind}s", kind in needs.shapes, shapes(kind)) for kind in KINDS),
         Feature("tree", needs.has_tree, f"{shapes('sphere')}; it pays from {TREE_FROM} on"),
-        Feature("planes", needs.has_plane, shapes("plane")),
-        Feature("quads", needs.has_quad, shapes("quad")),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
-        Feature("glass", needs.has_dielectric, _made_of(made_of("dielectric"), "dielectric")),
+        Feature("glass", "dielectric" in needs.materials, glass),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         Feature("background", needs.has_background, _background(scene)),
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
@@ -176,7 +214,7 @@ def _background(scene: Scene) -> str:
 
 
 def _model(settings: Settings) -> str:
-    traces = settings.method not in LADDER
+    traces = settings.method not in CLASSIC
     return f"method {settings.method}{' traces paths' if traces else ', which leaves light out'}"
 
 
@@ -186,7 +224,6 @@ def _roulette(settings: Settings) -> str:
     return "turned on; for paths whose throughput is below 1/4"
 
 
-def _lamps(scene: Scene) -> str:
-    lit = [s.shape for s in scene.objects if is_light(scene.materials[s.material])]
-    kinds = [counted(lit.count(kind), f"{kind} lamp") for kind in ("sphere", "quad", "plane")]
-    return ", ".join(text for text in kinds if not text.startswith("no ")) or "no lamp"
+def _lamps(found: Contents) -> str:
+    named = (counted(count, f"{kind} lamp") for kind, count in found.lamps.items() if count)
+    return ", ".join(named) or "no lamp"

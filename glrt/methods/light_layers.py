@@ -21,7 +21,7 @@ Layering = Literal["none", "groups", "lengths"]
 Weight = tuple[float, float, float]  # a factor for each channel
 Weights = tuple[Weight, ...]  # one for each layer; one alone weighs the whole picture
 
-MOST_LAYERS = read_constants(read("most_layers.glsl"))["MOST_LAYERS"]
+MOST_LAYERS = read_constants(read("film/most_layers.glsl"))["MOST_LAYERS"]
 ONE: Weight = (1.0, 1.0, 1.0)
 NONE: Weight = (0.0, 0.0, 0.0)
 

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from glrt.methods.features import LADDER, is_light, used_materials
+from glrt.methods.features import is_light, used_materials
+from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -12,7 +13,7 @@ def omissions(scene: Scene, settings: Settings) -> list[str]:
 
     What a limit of bounces cuts off is not among it.
     """
-    return list(_omissions(scene, settings.method)) if settings.method in LADDER else []
+    return list(_omissions(scene, settings.method)) if settings.method in CLASSIC else []
 
 
 def _omissions(scene: Scene, method: str) -> Iterator[str]:
@@ -20,7 +21,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
     materials = used_materials(scene).values()
     kinds = {material.type for material in materials}
     metals = [material for material in materials if material.type == "metal"]
-    is_local = method in ("phong", "blinn")
+    is_local = not METHODS[method].follows
     lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
     reflects = bool(kinds & {"lambertian", "metal"}) or any(
         material.type == "light" and any(material.color) for material in materials
@@ -43,7 +44,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "plane lamps light nothing"
     if any(map(any, scene.background_colors)) and len(scene.objects) > 1:
         yield "nothing hides the sky"
-    if method != "cook" and scene.camera.defocus_angle > 0:
+    if not METHODS[method].has_lens and scene.camera.defocus_angle > 0:
         yield "everything is in focus"
 
 

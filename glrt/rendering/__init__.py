@@ -2,9 +2,13 @@
 
 Modules, each importing only what stands above it:
 
+- kernel_structs: structs and constants that host and kernel share
+- pack_shapes: shapes as rows, a packer for each kind
+- pack_materials: materials as rows, a packer for each type
 - pack_lights: lamps as rows of the kernel's blocks
 - pack: a scene as arrays for the kernel
 - pipelines: compute or fragment shader
+- evaluation: functions of the path tracer over arrays
 - schedule: how much work a dispatch takes
 - upload: a scene in the driver's memory
 - kernel_switch: a generic kernel and a faster one by turns

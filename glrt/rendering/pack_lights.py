@@ -5,23 +5,48 @@ place into clusters, and these into parts, which are weighed; within a part a ta
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import accumulate, chain
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
-from glrt.gpu.glsl import read
-from glrt.gpu.structs import read_constants
-from glrt.methods.features import MOST_NEAR, is_light
+from glrt.methods.features import MOST_NEAR, SAMPLED, is_light
+from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Shape, Sphere
+from glrt.scene.shapes import KINDS, Quad, Shape, Sphere
 
 Array = np.ndarray[Any, Any]
 
-_CONSTANTS = read_constants(read("scene.glsl"))
-PARTS, SEVERAL = _CONSTANTS["PARTS"], _CONSTANTS["SEVERAL"]
+PARTS, SEVERAL = CONSTANTS["PARTS"], CONSTANTS["SEVERAL"]
+
+
+class Body(NamedTuple):
+    """What the choice among lamps knows of one."""
+
+    area: float  # of its bright sides
+    center: Array  # (3,), float64
+    reach2: float  # mean squared distance of its points from the center
+
+
+def sphere_body(lamp: Sphere) -> Body:
+    """It shines outwards."""
+    return Body(4 * math.pi * lamp.radius**2, np.array(lamp.center, np.float64), lamp.radius**2)
+
+
+def quad_body(lamp: Quad) -> Body:
+    """It shines on both sides."""
+    u, v = np.array(lamp.edge_u, np.float64), np.array(lamp.edge_v, np.float64)
+    center = np.array(lamp.corner, np.float64) + (u + v) / 2
+    return Body(2 * float(np.linalg.norm(np.cross(u, v))), center, float(u @ u + v @ v) / 12)
+
+
+# The kinds of lamps that are sampled; others are found by scattering alone.
+LAMPS: dict[type, Callable[[Any], Body]] = {Sphere: sphere_body, Quad: quad_body}
+
+if {KINDS[kind] for kind in SAMPLED} != set(LAMPS):
+    raise TypeError(f"lamps of kinds {SAMPLED} are sampled, and {list(LAMPS)} have a body")
 
 
 class Lamps(NamedTuple):
@@ -35,15 +60,15 @@ class Lamps(NamedTuple):
 
 
 def lamps_of(scene: Scene, shapes: Sequence[Shape]) -> Lamps:
-    """The lamps among the shapes, all but planes, whose number is their place in the list."""
+    """The lamps among the shapes that can be sampled; their number is their place in the list."""
     found = [
         number
         for number, shape in enumerate(shapes)
-        if not isinstance(shape, Plane) and is_light(scene.materials[shape.material])
+        if type(shape) in LAMPS and is_light(scene.materials[shape.material])
     ]
-    places = [_center(shapes[number]) for number in found]
-    center = np.array([place for place, _ in places], np.float64).reshape(-1, 3)
-    reach2 = np.array([reach for _, reach in places], np.float64)
+    bodies = [LAMPS[type(shapes[number])](shapes[number]) for number in found]
+    center = np.array([body.center for body in bodies], np.float64).reshape(-1, 3)
+    reach2 = np.array([body.reach2 for body in bodies], np.float64)
     probability = light_probabilities([power(scene, shapes[number]) for number in found])
     clusters = [
         [cluster[part] for part in grouped(center[cluster], probability[cluster], PARTS)]
@@ -102,19 +127,4 @@ def _fill(row: Any, lamps: Lamps, members: slice, eye: Array) -> None:
 
 def power(scene: Scene, shape: Shape) -> float:
     """Flux of a lamp, up to a factor common to all: area of its bright sides times radiance."""
-    if isinstance(shape, Sphere):
-        area = 4 * math.pi * shape.radius**2
-    else:
-        assert not isinstance(shape, Plane)
-        normal = np.cross(np.array(shape.edge_u), np.array(shape.edge_v))
-        area = 2 * float(np.linalg.norm(normal))
-    return area * sum(scene.emission(shape.material))
-
-
-def _center(lamp: Shape) -> tuple[Array, float]:
-    """The centre of a lamp, and the mean squared distance of its points from there."""
-    if isinstance(lamp, Sphere):
-        return np.array(lamp.center, np.float64), lamp.radius**2
-    assert not isinstance(lamp, Plane)
-    u, v = np.array(lamp.edge_u, np.float64), np.array(lamp.edge_v, np.float64)
-    return np.array(lamp.corner, np.float64) + (u + v) / 2, float(u @ u + v @ v) / 12
+    return LAMPS[type(shape)](shape).area * sum(scene.emission(shape.material))

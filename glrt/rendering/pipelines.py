@@ -1,21 +1,42 @@
-"""The two ways to run the path text: a compute shader, or a fragment shader for OpenGL 4.1."""
+"""The two ways to run the path tracer: a compute shader, or a fragment shader for OpenGL 4.1."""
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Literal, NamedTuple
 
 import moderngl
-import numpy as np
 
 from glrt.errors import ContextError
+from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel, Resource
-from glrt.gpu.struct_arrays import BAKED, Tier, blocks_text, is_uniform, padded
-from glrt.gpu.texels import texels
+from glrt.gpu.struct_arrays import Arrays, scene_arrays, uniform_bytes
+from glrt.rendering.pack_shapes import NUMBERED
 
-Arrays = Mapping[str, np.ndarray[Any, Any]]
-MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit: quads 1.05 times as fast as in a texture
 Resolved = Literal["compute", "fragment"]
+
+# "baked" writes the shapes into the kernel's text, so that each edit of them compiles; "generic"
+# reads them. Materials are never written: a colour is to change without compiling.
+Tier = Literal["generic", "baked"]
+MOST_BAKED = 32  # shapes
+
+
+class Variant(NamedTuple):
+    """A kernel that is not glrt's own, for experiments: constants and whole files replaced."""
+
+    constants: Mapping[str, bool | int] = {}
+    texts: Mapping[str, str] = {}  # by the name of the shader file
+
+
+PLAIN = Variant()
+
+
+class KernelOptions(NamedTuple):
+    """How a scene is to reach the kernel."""
+
+    pipeline: Resolved
+    tier: Tier
+    variant: Variant = PLAIN
 
 
 def resolve(wanted: Pipeline, context: Context) -> Resolved:
@@ -30,48 +51,36 @@ def resolve(wanted: Pipeline, context: Context) -> Resolved:
     return wanted
 
 
+def tier_for(arrays: Arrays, wanted: Tier) -> Tier:
+    """The tier that a scene gets: not baked if it has more than MOST_BAKED shapes."""
+    shapes = sum(len(arrays[struct]) for struct in NUMBERED)
+    return "generic" if wanted == "baked" and shapes > MOST_BAKED else wanted
+
+
+def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
+    """The shader file that is written for a scene."""
+    return scene_arrays(arrays, NUMBERED, _constant(tier), uniform_bytes(gl))
+
+
+def upload(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:
+    """The arrays as that file declares them, by the names of its blocks and textures."""
+    return dict(struct_arrays.upload(gl, arrays, _constant(tier), uniform_bytes(gl)))
+
+
+def _constant(tier: Tier) -> tuple[str, ...]:
+    return NUMBERED if tier == "baked" else ()
+
+
 def sources(
-    pipeline: Resolved, constants: Mapping[str, bool | int], parts: Mapping[str, str]
+    pipeline: Resolved, constants: Mapping[str, bool | int], texts: Mapping[str, str]
 ) -> list[Source]:
-    """The shaders of a kernel; `parts` are texts that stand in for shader files."""
+    """The shaders of a kernel; `texts` stand for shader files, by name."""
     if pipeline == "compute":
-        return [Source("trace.comp", constants, parts=parts)]
+        return [Source("trace.comp", constants, texts=texts)]
     entries = "trace.vert", "trace.frag"
-    return [Source(entry, constants, "410 core", parts) for entry in entries]
-
-
-def scene_text(gl: moderngl.Context, pipeline: Resolved, arrays: Arrays, tier: Tier) -> str:
-    """How the kernel reads the arrays: in place of `blocks.glsl`."""
-    return blocks_text(arrays, tier, pipeline == "compute", _uniform_bytes(gl))
+    return [Source(entry, constants, "410 core", texts) for entry in entries]
 
 
 def compiled(gl: moderngl.Context, shaders: list[Source]) -> Kernel | FragmentKernel:
     """The kernel; RenderError tells the driver's message by shader file and line."""
     return Kernel(gl, *shaders) if len(shaders) == 1 else FragmentKernel(gl, *shaders)
-
-
-def upload(
-    gl: moderngl.Context, pipeline: Resolved, arrays: Arrays, tier: Tier
-) -> dict[str, Resource]:
-    """The arrays as the kernel reads them: buffers, or textures where blocks are too small."""
-    in_textures = pipeline == "fragment" or tier != "storage"
-    return {
-        name: texture_of(gl, rows)
-        if in_textures and not is_uniform(rows, tier, _uniform_bytes(gl))
-        else gl.buffer(padded(rows, tier, _uniform_bytes(gl)))
-        for name, rows in arrays.items()
-        if not (tier == "baked" and name in BAKED)
-    }
-
-
-def _uniform_bytes(gl: moderngl.Context) -> int:
-    """How large a uniform block may be."""
-    return min(MOST_UNIFORM_BYTES, int(gl.info["GL_MAX_UNIFORM_BLOCK_SIZE"]))
-
-
-def texture_of(gl: moderngl.Context, rows: np.ndarray[Any, Any]) -> moderngl.Texture:
-    """An array of structs as glrt.gpu.texels reads it."""
-    size, content = texels(padded(rows, "storage"), rows.itemsize)
-    texture = gl.texture(size, 4, content, dtype="u4")
-    texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated
-    return texture

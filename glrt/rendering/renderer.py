@@ -11,17 +11,15 @@ import numpy as np
 
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe, traced
 from glrt.image.resume import fitting
 from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_for
 from glrt.rendering.display import displayed
 from glrt.rendering.film import Film
-from glrt.rendering.pipelines import resolve
+from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.schedule import HEADLESS, INTERACTIVE, Rhythm
 from glrt.rendering.tracer import Tracer
-from glrt.rendering.upload import Way
 from glrt.rendering.weighting import Mixer, mixed
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, SettingOptions, Settings, settings_for
@@ -44,6 +42,7 @@ class Renderer:
         tier: Tier = "generic",
         pipeline: Pipeline = "auto",
         layering: Layering = "none",
+        variant: Variant = PLAIN,
         **overrides: Unpack[SettingOptions],
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
@@ -51,6 +50,7 @@ class Renderer:
         `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
         "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
         The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
+        A `variant` of the kernel serves experiments.
         `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
@@ -66,8 +66,8 @@ class Renderer:
             self.pipeline = resolve("compute" if layering != "none" else pipeline, self.context)
             self.plan = plan_for(scene, self.settings, layering)
             with self.context.gl:
-                way = Way(self.pipeline, tier, self._parts())
-                self._tracer = Tracer(self.context, self.plan, way)
+                options = KernelOptions(self.pipeline, tier, variant)
+                self._tracer = Tracer(self.context, self.plan, options)
             refused.pop_all()
         self._mixer = Mixer(self.context.gl)
 
@@ -232,10 +232,6 @@ class Renderer:
             pipeline=self.pipeline,
             traced=traced(self.plan, weights),
         )
-
-    def _parts(self) -> dict[str, str]:
-        """Texts that stand in for shader files."""
-        return {}
 
     def _work(self, remaining: int, rhythm: Rhythm, seconds: float = math.inf) -> None:
         with self.context.gl:

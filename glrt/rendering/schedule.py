@@ -13,18 +13,21 @@ from typing import NamedTuple
 from glrt.errors import SceneError
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.features import clusters_of, has_many_lights, has_tree, is_light
-from glrt.rendering.pack_lights import PARTS
+from glrt.methods.features import Contents, contents_of
+from glrt.methods.table import METHODS
+from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings
 
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
 TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
+PARTS = CONSTANTS["PARTS"]  # of a cluster of lamps
 GROWTH = 4  # of the work from one dispatch to the next, at most
 MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/speed.md)
 # Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
-HIGHLIGHT_ROUNDS = 2 * (read_constants(read("ladder.glsl"))["MOST_EXPONENT"].bit_length() + 1)
+_EXPONENT = read_constants(read("integrators/classic.glsl"))["MOST_EXPONENT"]
+HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)
 _GOLDEN = 0.618
 
 
@@ -53,26 +56,28 @@ def iterations_per_sample(
     that loop takes a round less. Of many, the parts of a cluster are weighed so too, and their
     sum for the density of the lamp that is sampled, and of the one that is met.
     """
-    kinds = len({shape.shape for shape in scene.objects})
+    found = contents_of(scene)
+    kinds = sum(1 for count in found.shapes.values() if count)
     search = len(scene.objects) + kinds
-    if has_tree(scene):
-        spheres = sum(shape.shape == "sphere" for shape in scene.objects)
+    if found.has_tree:
+        spheres = found.shapes["sphere"]
         search += round(tree_rounds * math.log2(spheres)) - spheres
-    if settings.method in ("phong", "blinn", "whitted"):
-        return 1 + _rounds_of_shading(scene, settings, search)
-    rays, choice = (1, 0) if settings.method == "naive" else (2, _rounds_of_choice(scene))
+    traits = METHODS[settings.method]
+    if traits.model and not traits.chooses_lights:
+        return 1 + _rounds_of_shading(found, settings, search)
+    rays, choice = (2, _rounds_of_choice(found)) if traits.uses_lamps else (1, 0)
     return 1 + (settings.bounces + 1) * (1 + rays * search + choice)
 
 
-def _rounds_of_choice(scene: Scene) -> int:
-    parts = 4 * PARTS + 2 if has_many_lights(scene) else 0
-    return 2 * clusters_of(scene) + parts
+def _rounds_of_choice(found: Contents) -> int:
+    parts = 4 * PARTS + 2 if found.has_many_lights else 0
+    return 2 * found.clusters + parts
 
 
-def _rounds_of_shading(scene: Scene, settings: RenderSettings, search: int) -> int:
+def _rounds_of_shading(found: Contents, settings: RenderSettings, search: int) -> int:
     """Segments over mirrors and glass, then all lamps, each with a shadow ray or a highlight."""
-    lamps = sum(1 for shape in scene.objects if is_light(scene.materials[shape.material]))
-    if settings.method == "whitted":
+    lamps = sum(found.lamps.values())
+    if METHODS[settings.method].follows:
         return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
     return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
 

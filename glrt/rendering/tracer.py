@@ -6,11 +6,11 @@ from contextlib import ExitStack
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.film_state import Gathered
 from glrt.methods.light_layers import Plan
 from glrt.rendering.film import Array, Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, Turns
+from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import (
     Portion,
     Rhythm,
@@ -19,7 +19,7 @@ from glrt.rendering.schedule import (
     most_samples,
     whole_frame,
 )
-from glrt.rendering.upload import Uploaded, Way
+from glrt.rendering.upload import Uploaded
 from glrt.settings import Cost
 
 
@@ -27,21 +27,21 @@ class Tracer:
     """Adds the samples of a plan to a film, a dispatch at a time."""
 
     def __init__(
-        self, context: Context, plan: Plan, way: Way, before: "Tracer | None" = None
+        self, context: Context, plan: Plan, options: KernelOptions, before: "Tracer | None" = None
     ) -> None:
         """Make what the plan needs; film and kernel are those of `before` where they serve it.
 
         Raises SceneError for a scene beyond the driver, and RenderError. Then nothing is held, and
         `before` has lost no more than the frame that it had begun.
         """
-        self._context, self._plan, self._way, gl = context, plan, way, context.gl
+        self._context, self._plan, self._options, gl = context, plan, options, context.gl
         self._rounds, self.most_samples = _limits(context, plan)
         self._tiers: set[Tier] = set()  # of the kernels that added samples
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
             self.uploaded: Uploaded = Uploaded(
-                context, plan, way, before.uploaded if before else None
+                context, plan, options, before.uploaded if before else None
             )
             refused.callback(self.uploaded.release)
             if before and before.film.extent == extent:
@@ -49,7 +49,7 @@ class Tracer:
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if before and self.uploaded.is_read_alike(before.uploaded):
+            if before and self.uploaded.has_kernel_of(before.uploaded):
                 self.turns: Turns = before.turns
             else:
                 if before:
@@ -62,7 +62,7 @@ class Tracer:
 
         As the constructor raises, with this as it was.
         """
-        after = Tracer(self._context, plan, self._way, self)
+        after = Tracer(self._context, plan, self._options, self)
         self.uploaded.release()
         if after.film is not self.film:
             self.film.release()

@@ -87,7 +87,7 @@ class Mixer:
     def _compile(self) -> moderngl.Program:
         vertex, fragment = (
             Source("display.vert", version=_VERSION),
-            Source("mix.frag", version=_VERSION),
+            Source("weighting.frag", version=_VERSION),
         )
         self._program = drawing(self._gl, vertex, fragment)
         self._quad = self._gl.vertex_array(self._program, [])

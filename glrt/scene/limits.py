@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Shape, Sphere
+from glrt.scene.shapes import Plane, Shape, Sphere
 from glrt.settings import Settings
 from glrt.text import number, quoted
 
@@ -111,17 +111,15 @@ def _walled_in(scene: Scene) -> str:
 
 
 def _reaches_into(ball: Sphere, lamp: Shape) -> bool:
-    """Whether some of a lamp's surface may lie in a ball, or on it; a quad is taken for a ball."""
+    """Whether some of a lamp's surface may lie in a ball, or on it."""
     middle = np.array(ball.center)
     if isinstance(lamp, Plane):
         normal = np.array(lamp.normal) / np.linalg.norm(lamp.normal)
         return bool(abs((middle - lamp.point) @ normal) < ball.radius)
-    if isinstance(lamp, Quad):
-        u, v = np.array(lamp.edge_u), np.array(lamp.edge_v)
-        reach = max(np.linalg.norm(u + v), np.linalg.norm(u - v)) / 2
-        return bool(np.linalg.norm(lamp.corner + (u + v) / 2 - middle) < ball.radius + reach)
-    apart = float(np.linalg.norm(middle - lamp.center))
-    return abs(apart - lamp.radius) <= ball.radius
+    apart = float(np.linalg.norm(np.subtract(lamp.middle, middle)))
+    if isinstance(lamp, Sphere):
+        return abs(apart - lamp.radius) <= ball.radius
+    return apart < ball.radius + lamp.reach
 
 
 def _balls(scene: Scene) -> list[int]:

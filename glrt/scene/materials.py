@@ -1,6 +1,10 @@
-"""What surfaces are made of: a frozen model for each type of material."""
+"""What surfaces are made of: a frozen model for each type of material.
 
-from typing import Annotated, Literal
+What the kernel knows of a type stands in shaders_glsl/bsdfs/ and glrt/rendering/pack_materials.py.
+docs/extending.md says how a type is added.
+"""
+
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import Field
 
@@ -57,3 +61,7 @@ class Light(Tagged):
 
 
 Material = Annotated[Lambertian | Metal | Dielectric | Light, Field(discriminator="type")]
+
+TYPES: dict[str, Any] = {  # the model of each type
+    model.model_fields["type"].default: model for model in get_args(get_args(Material)[0])
+}

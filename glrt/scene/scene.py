@@ -13,7 +13,7 @@ from glrt.errors import SceneError
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Dielectric, Light, Material
-from glrt.scene.shapes import Quad, Shape
+from glrt.scene.shapes import Shape
 from glrt.scene.values import BLACK, LARGEST, Intensity, Name, Radiance
 from glrt.settings import Cost, Editable, Frozen, RenderSettings
 from glrt.text import number, quoted, unknown
@@ -132,8 +132,8 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             missing.add(item.material)  # named once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
-        if isinstance(material, Dielectric) and isinstance(item, Quad):
-            yield ("objects", index), _GLASS_ADVICE
+        if isinstance(material, Dielectric) and not item.has_inside:
+            yield ("objects", index), _GLASS_ADVICE.format(item.shape)
 
 
 def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
@@ -153,7 +153,7 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
-_GLASS_ADVICE = "a quad has no inside, so it cannot be dielectric; use a sphere or a plane"
+_GLASS_ADVICE = "a {} has no inside, so it cannot be dielectric; use a sphere or a plane"
 _SKY_ADVICE = (
     "must not be 'background', the light group of the sky; give the lamp a group of its own, so "
     "that each can be dimmed without the other"

@@ -1,34 +1,123 @@
-"""What there is to see: a frozen model for each kind of shape."""
+"""What there is to see: a frozen model for each kind of shape, with its geometry for the host.
 
-from typing import Annotated, Literal, Self
+What the kernel knows of a shape stands in shaders_glsl/shapes/ and glrt/rendering/pack_shapes.py.
+docs/extending.md says how a kind is added.
+"""
 
+import math
+from abc import abstractmethod
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
+
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from glrt.scene.values import Direction, Length, Name, Tagged, Vector, are_parallel
 
+Array = NDArray[np.float64]
 
-class _Object(Tagged):
+
+class Object(Tagged):
+    """What every shape has: a name, a material, and answers about its geometry."""
+
     name: Name | None = Field(None, description="what to call the object in messages, one line")
     material: Name = Field(description="name of one of the materials")
 
+    has_inside: ClassVar[bool]  # whether it can be of glass
+    anchor: ClassVar[str]  # the field that holds a point of it: moving the shape moves that
+    extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
 
-class Sphere(_Object):
+    @property
+    @abstractmethod
+    def middle(self) -> Vector:
+        """The point that it is moved by and scaled about."""
+
+    @property
+    @abstractmethod
+    def reach(self) -> float:
+        """The radius of a ball about the middle that holds it; 1 where none does."""
+
+    @property
+    @abstractmethod
+    def row(self) -> list[float]:
+        """Its numbers, as `distances` takes them."""
+
+    @staticmethod
+    @abstractmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
+
+
+class Sphere(Object):
     """A sphere."""
 
     shape: Literal["sphere"] = Field("sphere", description="the kind of shape")
     center: Vector = Field(description="its middle, x y z in scene units")
     radius: Length = Field(description="its radius in scene units, above 0")
 
+    has_inside = True
+    anchor = "center"
+    extents = ("radius",)
 
-class Plane(_Object):
+    @property
+    def middle(self) -> Vector:
+        """Its centre."""
+        return self.center
+
+    @property
+    def reach(self) -> float:
+        """Its radius."""
+        return self.radius
+
+    @property
+    def row(self) -> list[float]:
+        """Centre and radius."""
+        return [*self.center, self.radius]
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """To the near side; from inside to the far side."""
+        to_center = rows[:, :3] - origin
+        along = to_center @ direction
+        aside = to_center - along[:, None] * direction
+        rest = np.sqrt(rows[:, 3] ** 2 - np.square(aside).sum(axis=1))  # NaN beside the sphere
+        near, far = along - rest, along + rest
+        return np.where(near > 0, near, np.where(far > 0, far, math.inf))
+
+
+class Plane(Object):
     """An infinite plane; of a dielectric, the half-space behind the normal is inside."""
 
     shape: Literal["plane"] = Field("plane", description="the kind of shape")
     point: Vector = Field(description="any point on it, x y z in scene units")
     normal: Direction = Field(description="a direction across it, of any length but zero")
 
+    has_inside = True
+    anchor = "point"
+    extents = ()
 
-class Quad(_Object):
+    @property
+    def middle(self) -> Vector:
+        """The point that it is given by."""
+        return self.point
+
+    @property
+    def reach(self) -> float:
+        """No ball holds a plane."""
+        return 1.0
+
+    @property
+    def row(self) -> list[float]:
+        """Point and normal."""
+        return [*self.point, *self.normal]
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """From either side."""
+        return to_planes(rows[:, :3], rows[:, 3:], origin, direction)
+
+
+class Quad(Object):
     """A parallelogram whose normal lies along edge_u x edge_v."""
 
     shape: Literal["quad"] = Field("quad", description="the kind of shape")
@@ -36,11 +125,54 @@ class Quad(_Object):
     edge_u: Direction = Field(description="from the corner to its neighbour, in scene units")
     edge_v: Direction = Field(description="from the corner to the other neighbour, in scene units")
 
+    has_inside = False
+    anchor = "corner"
+    extents = ("edge_u", "edge_v")
+
     @model_validator(mode="after")
     def _has_an_area(self) -> Self:
         if are_parallel(self.edge_u, self.edge_v):
             raise ValueError("edge_u and edge_v are parallel, so the quad is flat; turn one")
         return self
 
+    @property
+    def middle(self) -> Vector:
+        """Where its diagonals cross."""
+        x, y, z = np.array(self.corner) + np.add(self.edge_u, self.edge_v) / 2
+        return (float(x), float(y), float(z))
+
+    @property
+    def reach(self) -> float:
+        """Half of the longer diagonal."""
+        diagonals = np.add(self.edge_u, self.edge_v), np.subtract(self.edge_u, self.edge_v)
+        return float(max(np.linalg.norm(diagonal) for diagonal in diagonals)) / 2
+
+    @property
+    def row(self) -> list[float]:
+        """Corner and edges."""
+        return [*self.corner, *self.edge_u, *self.edge_v]
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """From either side."""
+        corner, u, v = rows[:, :3], rows[:, 3:6], rows[:, 6:]
+        normal = np.cross(u, v)
+        distance = to_planes(corner, normal, origin, direction)
+        offset = origin + distance[:, None] * direction - corner
+        square = np.square(normal).sum(axis=1)
+        a = (np.cross(offset, v) * normal).sum(axis=1) / square
+        b = (np.cross(u, offset) * normal).sum(axis=1) / square
+        return np.where((a >= 0) & (a <= 1) & (b >= 0) & (b <= 1), distance, math.inf)
+
+
+def to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
+    """(n,): how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
+    distances: Array = ((points - origin) * normals).sum(axis=1) / (normals @ direction)
+    return np.where(distances > 0, distances, math.inf)
+
 
 Shape = Annotated[Sphere | Plane | Quad, Field(discriminator="shape")]
+
+KINDS: dict[str, Any] = {  # the model of each kind, in the order of the kernel's numbering
+    kind.model_fields["shape"].default: kind for kind in get_args(get_args(Shape)[0])
+}

@@ -12,9 +12,9 @@ from pydantic_core import ErrorDetails
 
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
-from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
+from glrt.scene.materials import TYPES
 from glrt.scene.scene import MisfitError, Place, Scene
-from glrt.scene.shapes import Plane, Quad, Sphere
+from glrt.scene.shapes import KINDS
 from glrt.scene.values import SMALLEST
 from glrt.settings import RenderSettings
 from glrt.text import nearest, number, shortened, unknown
@@ -26,15 +26,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "render": RenderSettings,
     "background": Background,
 }
-_KINDS: dict[str, dict[str, type[BaseModel]]] = {
-    "materials": {
-        "lambertian": Lambertian,
-        "metal": Metal,
-        "dielectric": Dielectric,
-        "light": Light,
-    },
-    "objects": {"sphere": Sphere, "plane": Plane, "quad": Quad},
-}
+_KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
 
 def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
@@ -104,7 +96,10 @@ def _model(location: Place) -> type[BaseModel]:
     table = str(location[0])
     if len(location) == 1:
         return Scene
-    return _KINDS[table][str(location[2])] if table in _KINDS else _TABLES[table]
+    if table not in _KINDS:
+        return _TABLES[table]
+    model: type[BaseModel] = _KINDS[table][str(location[2])]
+    return model
 
 
 def _keys(detail: ErrorDetails) -> tuple[str, ...]:

@@ -30,7 +30,7 @@ from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session, State
 from glrt.view.viewport import orbit
 from glrt.view.viewport.overlay import Show
-from glrt.view.viewport.pick import Picked, middle, pick, reach
+from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 
 Rectangle = tuple[float, float, float, float]  # left, top, width, height
@@ -195,8 +195,8 @@ class App:
         """Look at the selected object so that it fills the frame."""
         if shape := self.selected_shape:
             with self.telling():
-                self.place(orbit.framed(self.camera, middle(shape), reach(shape)))
-                self.pivot = middle(shape)
+                self.place(orbit.framed(self.camera, shape.middle, shape.reach))
+                self.pivot = shape.middle
 
     def focus_on(self, point: Vector) -> None:
         """Make a point sharp; one behind the camera is left alone."""

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from glrt.gpu.context import Pipeline
+from glrt.gpu.glsl import shader_files
 from glrt.rendering.false_colors import FalseColors
 from glrt.rendering.stopping import Interruption
-from glrt.resources import folder
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.view.app import App
@@ -110,7 +110,7 @@ class Window:
             source=source,
             pace=Pace(self._rate),
             pivot=scene.camera.look_at,
-            shaders=Watch(folder("shaders_glsl").iterdir()),
+            shaders=Watch(shader_files()),
         )
         self.app.complain(problem)
 

@@ -11,8 +11,9 @@ from glrt.accel.light_clusters import grouped, light_probabilities
 from glrt.gpu.context import Context
 from glrt.methods import features
 from glrt.methods.features import MOST_NEAR
-from glrt.rendering.pack import pack_scene, shapes_of
+from glrt.rendering.pack import pack_scene
 from glrt.rendering.pack_lights import PARTS, power
+from glrt.rendering.pack_shapes import in_order
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.shaders.test_light import LAMPS
@@ -53,17 +54,17 @@ def weights(rows: Array, origin: Array) -> Array:
 def chances(scene: Scene, origin: Array) -> Array:
     """Of each lamp at a point: its cluster's and its part's by flux and nearness, then by flux."""
     rows = pack_scene(scene)
-    clusters, parts = rows["Clusters"][:MOST_NEAR], parts_of(rows)
+    clusters, parts = rows["Cluster"][:MOST_NEAR], parts_of(rows)
     chance = weights(clusters, origin)[:, None] / weights(clusters, origin).sum()
     chance = chance * weights(parts, origin) / weights(parts, origin).sum(axis=1, keepdims=True)
-    place = (rows["Lights"]["alias"] >> 16) - MOST_NEAR
-    each: Array = chance.ravel()[place] * rows["Lights"]["share"]
+    place = (rows["Light"]["alias"] >> 16) - MOST_NEAR
+    each: Array = chance.ravel()[place] * rows["Light"]["share"]
     return each
 
 
 def parts_of(rows: dict[str, Array]) -> Array:
     """Of each cluster, (MOST_NEAR, PARTS) rows."""
-    return rows["Clusters"][MOST_NEAR:].reshape(MOST_NEAR, PARTS)
+    return rows["Cluster"][MOST_NEAR:].reshape(MOST_NEAR, PARTS)
 
 
 # --- groups ----------------------------------------------------------------------------------
@@ -96,20 +97,20 @@ def test_lamps_in_one_place_are_grouped_somehow() -> None:
 def test_the_order_of_lamps_that_are_few_stays_that_of_the_scene() -> None:
     rows = pack_scene(mixed(MOST_NEAR))
     spheres = MOST_NEAR // 2
-    assert rows["Lights"]["shape"].tolist() == list(range(MOST_NEAR))
-    assert rows["Clusters"]["shape"].tolist() == list(range(MOST_NEAR))
-    assert rows["Spheres"]["light"].tolist() == list(range(spheres))
+    assert rows["Light"]["shape"].tolist() == list(range(MOST_NEAR))
+    assert rows["Cluster"]["shape"].tolist() == list(range(MOST_NEAR))
+    assert rows["Sphere"]["light"].tolist() == list(range(spheres))
 
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_clusters_and_their_parts_hold_all_lamps_with_their_flux(count: int) -> None:
     """The parts of a cluster, one after the other, have its lamps; what is left has no weight."""
     scene = mixed(count)
-    rows, shapes = pack_scene(scene), shapes_of(scene).in_order()
-    flux = light_probabilities([power(scene, shapes[n]) for n in rows["Lights"]["shape"]])
-    assert sorted(rows["Lights"]["shape"]) == list(range(count))
+    rows, shapes = pack_scene(scene), in_order(scene)
+    flux = light_probabilities([power(scene, shapes[n]) for n in rows["Light"]["shape"]])
+    assert sorted(rows["Light"]["shape"]) == list(range(count))
     end = 0
-    for cluster, parts in zip(rows["Clusters"], parts_of(rows), strict=False):
+    for cluster, parts in zip(rows["Cluster"], parts_of(rows), strict=False):
         held = parts[parts["count"] > 0]
         assert (cluster["first"], held["first"][0]) == (end, end)
         assert np.all(np.diff(held["first"]) == held["count"][:-1])
@@ -127,10 +128,10 @@ def test_clusters_and_their_parts_hold_all_lamps_with_their_flux(count: int) -> 
 def test_tables_choose_by_flux_within_a_part(count: int) -> None:
     """And stay within it."""
     rows = pack_scene(mixed(count))
-    for number, part in enumerate(rows["Clusters"]):
+    for number, part in enumerate(rows["Cluster"]):
         if number < MOST_NEAR or not part["count"]:
             continue
-        members = rows["Lights"][part["first"] :][: part["count"]]
+        members = rows["Light"][part["first"] :][: part["count"]]
         assert np.all(members["alias"] >> 16 == number)
         keep, alias = members["keep"].astype(np.float64), members["alias"] % 2**16 - part["first"]
         chosen = (keep + np.bincount(alias, 1 - keep, len(keep))) / len(keep)
@@ -145,10 +146,10 @@ def test_the_reach_of_a_cluster_is_the_mean_squared_distance_of_its_light(count:
     rows = pack_scene(scene_of([sphere(place, 0.3, "lamp") for place in places], LAMPS))
     surface = random.normal(size=(4096, 3))
     surface *= 0.3 / np.linalg.norm(surface, axis=1, keepdims=True)
-    for cluster in rows["Clusters"][: MOST_NEAR + PARTS]:
+    for cluster in rows["Cluster"][: MOST_NEAR + PARTS]:
         if not cluster["count"]:
             continue
-        shapes = rows["Lights"]["shape"][cluster["first"] :][: cluster["count"]]
+        shapes = rows["Light"]["shape"][cluster["first"] :][: cluster["count"]]
         points = (places[shapes][:, None] + surface).reshape(-1, 3)
         assert_allclose(points.mean(axis=0), cluster["center"], atol=0.02)
         reach2 = ((points - cluster["center"]) ** 2).sum(axis=1).mean()
@@ -159,8 +160,8 @@ def test_a_moved_camera_does_not_group_lamps_anew() -> None:
     scene = mixed(100)
     camera = scene.camera.model_copy(update={"position": (0.3, 7.1, -2.9)})
     rows, moved = pack_scene(scene), pack_scene(scene.model_copy(update={"camera": camera}))
-    assert np.all(rows["Lights"]["shape"] == moved["Lights"]["shape"])
-    shift = (rows["Clusters"]["center"] - moved["Clusters"]["center"])[:MOST_NEAR]
+    assert np.all(rows["Light"]["shape"] == moved["Light"]["shape"])
+    shift = (rows["Cluster"]["center"] - moved["Cluster"]["center"])[:MOST_NEAR]
     assert_allclose(shift, np.tile(camera.position, (MOST_NEAR, 1)), atol=1e-5)
 
 

@@ -59,7 +59,7 @@ def test_a_table_for_any_probabilities_stands_for_them() -> None:
 
 
 def test_lamps_are_weighed_by_flux() -> None:
-    lights = pack_scene(MANY)["Clusters"]
+    lights = pack_scene(MANY)["Cluster"]
     flux = np.array([4 * np.pi * 30, np.pi * 2, np.pi / 4 * 2, 2 * 4 * 2, 0])  # area x radiance
     assert_allclose(lights["probability"], 0.1 + 0.5 * flux / flux.sum(), rtol=1e-6)
 
@@ -75,7 +75,7 @@ CHOSEN = (
 
 def weights(scene: Scene, origin: Array) -> Array:
     """Of each lamp at each point, (n, lamps) float64: flux over squared distance."""
-    lights = pack_scene(scene)["Clusters"]
+    lights = pack_scene(scene)["Cluster"]
     away = lights["center"].astype(np.float64) - origin[:, None]
     nearness: Array = 1 / np.maximum((away**2).sum(axis=-1), lights["reach2"])
     return lights["probability"] * nearness

@@ -42,7 +42,7 @@ NEAR = 1.0
 def rays(kind: str) -> dict[str, Any]:
     """Origins, directions, and the sphere that each ray leaves, with its side."""
     rng = np.random.default_rng(9)
-    spheres = pack_scene(CROWD)["Spheres"]
+    spheres = pack_scene(CROWD)["Sphere"]
     chosen = rng.integers(0, len(spheres), COUNT)
     center, radius = spheres["center"][chosen], spheres["radius"][chosen][:, None]
     direction = unit(rng.normal(size=(COUNT, 3)))
@@ -149,10 +149,10 @@ def test_boxes_are_wider_than_their_spheres_by_many_roundings(far: float) -> Non
     """And not by many cells of the grid, of which there are 2^15 or more along its longest side."""
     scene = scene_of(balls(300, 5), MATERIALS, {"position": [0, far, 0], "look_at": [1, far, 0]})
     arrays = pack_scene(scene)
-    spheres = arrays["Spheres"]
+    spheres = arrays["Sphere"]
     center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
     rounding = 2.0**-24 * (np.abs(center).max(axis=1, keepdims=True) + radius)
-    numbers, rest, lower, upper = unpacked(arrays["Nodes"])
+    numbers, rest, lower, upper = unpacked(arrays["Node"])
     assert sorted(numbers) == list(range(300))
     for place in np.flatnonzero(rest):
         items = numbers[place + 1 : place + 1 + rest[place]]
@@ -195,7 +195,7 @@ def test_a_ray_is_as_uncertain_as_the_corner_of_the_grid(call_glsl: CallGlsl) ->
 
 
 def test_of_equal_spheres_the_first_is_hit(call_glsl: CallGlsl) -> None:
-    spheres = pack_scene(CROWD)["Spheres"]
+    spheres = pack_scene(CROWD)["Sphere"]
     given = {**rays("to rims"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
     shapes = found(call_glsl, True, **given)[:, 1].astype(int)
     hit = spheres[shapes[shapes >= 0]]
@@ -209,7 +209,7 @@ def test_of_equal_spheres_the_first_is_hit(call_glsl: CallGlsl) -> None:
 def test_a_ray_finds_by_the_tree_what_float64_says(call_glsl: CallGlsl) -> None:
     given = {**rays("anywhere"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
     distance, shape, _ = found(call_glsl, True, **given).T
-    spheres = pack_scene(CROWD)["Spheres"]
+    spheres = pack_scene(CROWD)["Sphere"]
     to_center = spheres["center"][None].astype(float) - given["o"][:, None]
     along = np.einsum("rsk,rk->rs", to_center, given["d"])
     rest = np.square(spheres["radius"].astype(float)) - np.square(to_center).sum(axis=2) + along**2

@@ -18,7 +18,7 @@ from glrt.analysis.reference import Reference
 from glrt.cli.main import main
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.features import LADDER
+from glrt.methods.table import CLASSIC
 from glrt.resources import folder
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -171,7 +171,7 @@ def test_noise_is_no_bias(context: Context) -> None:
         background={"color": [1, 1, 1]},
     )
     verdict = verdict_on(scene, 0.05, context)
-    for method in LADDER:
+    for method in CLASSIC:
         bias = candidate(verdict, method).bias
         assert bias.squared == pytest.approx(0, abs=4 * bias.stderr + 1e-12)
         assert bias.most < 0.01

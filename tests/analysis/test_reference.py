@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from glrt.analysis import reference
-from glrt.analysis.reference import OtherNumbers, Reference, closed_form, reference_for
+from glrt.analysis.reference import OTHER_NUMBERS, Reference, closed_form, reference_for
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
+from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, settings_for
@@ -164,10 +165,10 @@ def test_a_reference_takes_no_more_samples_than_a_picture_holds() -> None:
 # --- random numbers ------------------------------------------------------------------------
 
 
-def noise_of(kind: type[Renderer], context: Context, seed: int, sampler: str) -> Any:
+def noise_of(variant: Variant, context: Context, seed: int, sampler: str) -> Any:
     """A picture of 16 samples less its mean over seeds, in deviations: (64, 64)."""
     settings = small(LIT, width=64, height=64, method="naive", sampler=sampler)
-    renderer = kind(LIT, settings, context, seed=seed)
+    renderer = Renderer(LIT, settings, context, variant=variant, seed=seed)
     image = renderer.render(16).image()
     truth = Renderer(LIT, settings_for(settings, method="nee", seed=99), context)
     noise = image.radiance[..., 0] - truth.render(1024).image().radiance[..., 0].astype(float)
@@ -190,8 +191,8 @@ def test_references_share_no_noise_with_pictures_of_the_same_seed(
 ) -> None:
     """Pixels and means of blocks; two renderers of pictures share all of it."""
     for seed in (0, reference.SEEDS[0]):
-        picture = noise_of(Renderer, context, seed, sampler)
-        other = noise_of(OtherNumbers, context, seed, sampler)
+        picture = noise_of(PLAIN, context, seed, sampler)
+        other = noise_of(OTHER_NUMBERS, context, seed, sampler)
         for block in (1, 4):
             value, deviation = correlations(picture, other, block)
             assert_near(value, 0, deviation)
@@ -201,8 +202,9 @@ def test_references_share_no_noise_with_pictures_of_the_same_seed(
 def test_references_show_the_same_picture(context: Context) -> None:
     """Another family of numbers, the same mean."""
     pictures = []
-    for kind in (Renderer, OtherNumbers):
-        renderer = kind(LIT, small(LIT, width=32, height=32), context)
+    for variant in (PLAIN, OTHER_NUMBERS):
+        settings = small(LIT, width=32, height=32)
+        renderer = Renderer(LIT, settings, context, variant=variant)
         pictures.append(renderer.render(1024).image())
         renderer.release()
     assert not np.array_equal(pictures[0].radiance, pictures[1].radiance)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from bench.efficiency import Row, Way, renderer_of, scene_of
+from bench.shader_edits import Edit, edited
 from bench.steps import BY_FLUX, STARTS, TABLES, by_start, main, roulette
 from glrt.accel import light_clusters
-from glrt.analysis.shader_edits import Edit, edited
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from tests.support.renders import assert_agree, same
@@ -51,7 +51,7 @@ def test_edits_do_what_they_are_named_for(
 
 def test_an_edit_without_its_place_is_an_error() -> None:
     with pytest.raises(KeyError, match="does not hold `gone`"):
-        edited(Edit("path.glsl", "gone", "here"))
+        edited(Edit("integrators/path.glsl", "gone", "here"))
 
 
 def test_starts_of_roulette_stand_beside_each_other() -> None:

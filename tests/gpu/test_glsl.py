@@ -10,24 +10,24 @@ import pytest
 from glrt.errors import RenderError
 from glrt.gpu import glsl
 from glrt.gpu.evaluate import path_files
-from glrt.gpu.glsl import Source, files_anew, read
+from glrt.gpu.glsl import Source, files_anew, read, shader_files
 from glrt.gpu.program import FragmentKernel, Kernel
-from glrt.gpu.struct_arrays import blocks_text
-from glrt.image.sources import load
-from glrt.rendering.pack import pack_scene
-from glrt.rendering.pipelines import sources
+from glrt.gpu.struct_arrays import FILE
+from glrt.rendering.pipelines import Tier, sources
 from glrt.resources import folder
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
+from tests.support.kernel_text import written_for
 
 INCLUDES = path_files()
+FILES = [name for name in INCLUDES if name != FILE]
 TONEMAP_ENTRY = """
 layout(local_size_x = 1) in;
-#include "tonemap.glsl"
+#include "passes/tonemap.glsl"
 layout(std430) buffer Data { vec4 data; };
 void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
-OLD_BLOCKS = {"blocks.glsl": blocks_text(pack_scene(load("cornell")), has_storage=False)}
+WRITTEN = written_for()
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
 
@@ -53,7 +53,7 @@ def plant(file: Path, line: str) -> int:
 
 
 def test_the_version_stands_first_and_the_prelude_follows() -> None:
-    lines = Source("trace.comp", {"HAS_LENS": False, "BLOCK": 16}).text.splitlines()
+    lines = Source("trace.comp", {"HAS_LENS": False, "BLOCK": 16}, texts=WRITTEN).text.splitlines()
     assert lines[:3] == [
         "#version 430 core",
         "const bool HAS_LENS = false;",
@@ -65,25 +65,29 @@ def test_a_file_is_included_once_where_it_is_first_named(shaders: Path) -> None:
     (shaders / "a.glsl").write_text('#include "b.glsl"\nint a;\n')
     (shaders / "b.glsl").write_text('#include "a.glsl"\nint b;\n')
     entry = '#include "a.glsl"\n#include "b.glsl"\nint entry;'
-    source = Source("entry.comp", parts={"entry.comp": entry})
-    assert [line.text for line in source.lines[1:]] == ["int b;", "int a;", "int entry;"]
-    origins = ["prelude", "b.glsl:2", "a.glsl:2", "entry.comp:3"]
-    assert [line.origin for line in source.lines] == origins
+    source = Source("entry.comp", texts={"entry.comp": entry})
+    lines = ["// b.glsl:2", "int b;", "// a.glsl:2", "int a;", "// entry.comp:3", "int entry;"]
+    assert [line.text for line in source.lines[1:]] == lines
+    origins = ["b.glsl:2", "a.glsl:2", "entry.comp:3"]
+    assert [line.origin for line in source.lines] == [
+        "prelude",
+        *(o for o in origins for _ in "ab"),
+    ]
 
 
 def test_no_include_is_left_for_the_driver() -> None:
-    assert "#include" not in Source("trace.comp", EVERYTHING).text
+    assert "#include" not in Source("trace.comp", EVERYTHING, texts=WRITTEN).text
 
 
 def test_a_missing_include_names_the_file_and_the_line_that_asks(shaders: Path) -> None:
     (shaders / "a.glsl").write_text('// one\n#include "lost.glsl"\n')
     with pytest.raises(RenderError, match=r"a\.glsl:2: .*'lost\.glsl': No such file"):
-        Source("entry.comp", parts={"entry.comp": '#include "a.glsl"\n'})
+        Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'})
 
 
 def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
     def text() -> str:
-        return Source("entry.comp", parts={"entry.comp": '#include "a.glsl"\n'}).lines[-1].text
+        return Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).lines[-1].text
 
     file = shaders / "a.glsl"
     file.write_text("int a;\n")
@@ -101,14 +105,14 @@ def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
 # --- the driver's messages -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", INCLUDES)
+@pytest.mark.parametrize("name", FILES)
 def test_an_error_in_an_included_file_is_told_by_file_and_line(
     ctx: moderngl.Context, shaders: Path, name: str
 ) -> None:
     (shaders / name).write_text("int first() { return 1; }\n\nint second() { return 2; }\n")
     number = plant(shaders / name, "float broken() { return undeclared; }")
     source = Source(
-        "entry.comp", EVERYTHING, parts={"entry.comp": f'#include "{name}"\nvoid main() {{}}'}
+        "entry.comp", EVERYTHING, texts={"entry.comp": f'#include "{name}"\nvoid main() {{}}'}
     )
     with pytest.raises(RenderError, match=rf"{re.escape(name)}:{number}: .*undeclared"):
         Kernel(ctx, source)
@@ -117,24 +121,26 @@ def test_an_error_in_an_included_file_is_told_by_file_and_line(
 def test_an_error_deep_in_the_kernel_is_told_by_file_and_line(
     ctx: moderngl.Context, shaders: Path
 ) -> None:
-    number = plant(shaders / "light.glsl", "float broken() { return undeclared; }")
-    with pytest.raises(RenderError, match=rf"light\.glsl:{number}: .*undeclared") as caught:
-        Kernel(ctx, Source("trace.comp", EVERYTHING))
+    number = plant(shaders / "lights/sampling.glsl", "float broken() { return undeclared; }")
+    with pytest.raises(
+        RenderError, match=rf"lights/sampling\.glsl:{number}: .*undeclared"
+    ) as caught:
+        Kernel(ctx, Source("trace.comp", EVERYTHING, texts=WRITTEN))
     assert "\n" not in str(caught.value)
 
 
 def test_an_error_in_the_entry_text_is_told_under_its_name(ctx: moderngl.Context) -> None:
     text = "layout(local_size_x = 1) in;\nvoid main() {\n    undeclared = 1;\n}\n"
     with pytest.raises(RenderError, match=r"entry\.comp:3: .*undeclared"):
-        Kernel(ctx, Source("entry.comp", parts={"entry.comp": text}))
+        Kernel(ctx, Source("entry.comp", texts={"entry.comp": text}))
 
 
 @pytest.mark.parametrize(
     ("told", "led_back"),
     [
-        ("0:3(14): error: `x' undeclared", "e.comp:2: error: `x' undeclared"),
-        ("0(3) : error C1503: undefined", "e.comp:2: error C1503: undefined"),
-        ("ERROR: 0:3: 'x' : undeclared", "ERROR: e.comp:2: 'x' : undeclared"),
+        ("0:3(14): error: `x' undeclared", "e.comp:1: error: `x' undeclared"),
+        ("0(3) : error C1503: undefined", "e.comp:1: error C1503: undefined"),
+        ("ERROR: 0:3: 'x' : undeclared", "ERROR: e.comp:1: 'x' : undeclared"),
         ("0:1(1): error: version", "prelude: error: version"),
         ("0:99(1): error: x", "line 99: error: x"),
         ("0:0(0): error: x", "line 0: error: x"),
@@ -143,13 +149,13 @@ def test_an_error_in_the_entry_text_is_told_under_its_name(ctx: moderngl.Context
     ids=["Mesa", "NVIDIA", "glslang", "prelude", "past the end", "nowhere", "no place"],
 )
 def test_messages_of_all_drivers_are_led_back_to_files(told: str, led_back: str) -> None:
-    source = Source("e.comp", parts={"e.comp": "one\ntwo\nthree"})
+    source = Source("e.comp", texts={"e.comp": "one\ntwo\nthree"})
     assert source.explain(told) == led_back
 
 
 def test_each_line_of_a_message_is_led_back() -> None:
-    source = Source("e.comp", parts={"e.comp": "one\ntwo\nthree"})
-    told = "0:2(1): error: a\n0:4(1): warning: b\n"
+    source = Source("e.comp", texts={"e.comp": "one\ntwo\nthree"})
+    told = "0:3(1): error: a\n0:5(1): warning: b\n"
     assert source.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
 
 
@@ -178,12 +184,29 @@ def imprecise(glsl: str) -> list[str]:
     return found + parameter.findall(glsl)
 
 
-def test_every_float_that_the_kernel_assigns_is_precise() -> None:
-    text = Source("trace.comp", EVERYTHING).text
+@pytest.mark.parametrize("way", [("generic", 1 << 16), ("generic", 0), ("baked", 1 << 16)])
+def test_every_float_that_the_kernel_assigns_is_precise(way: tuple[Tier, int]) -> None:
+    text = Source("trace.comp", EVERYTHING, texts=written_for("cornell", *way)).text
     bodies = function_bodies(text)
     assert text.count("return") == sum(body.count("return") for body in bodies)  # none is missed
     assert text.count("precise ") > 80
     assert imprecise(text) == []
+    assert computed_returns(text) == []
+
+
+def computed_returns(glsl: str) -> list[str]:
+    """What functions of floats return that is a sum or product, and so no precise variable."""
+    head = r"^(?:float|vec\d|mat\d) \w+\([^;{}]*\)\s*(\{[^\n]*\}$|\{.*?^\})"
+    text = re.sub(r"[ ]*//[^\n]*", "", glsl)
+    bodies = [match[1] for match in re.finditer(head, text, re.MULTILINE | re.DOTALL)]
+    values = [value for body in bodies for value in re.findall(r"return ([^;]+);", body)]
+    return [value for value in values if re.search(r"[\w)\]] [-+*/] [-\w(]", value)]
+
+
+def test_a_returned_product_is_found() -> None:
+    assert computed_returns("float f(float x) {\n    return x * x;\n}\n") == ["x * x"]
+    assert computed_returns("float f(float x) { return x - 1.0; }\n") == ["x - 1.0"]
+    assert computed_returns("float f(float x) {\n    return g(x);\n}\n") == []
 
 
 def test_the_search_for_what_is_not_precise_finds_every_way_to_declare_it() -> None:
@@ -212,13 +235,18 @@ Ray f(vec3 parameter, inout float other) {
 
 
 def test_every_shader_file_is_compiled_by_a_test_here() -> None:
-    files = {path.name for path in folder("shaders_glsl").iterdir()}
-    reached = {*INCLUDES, *re.findall(r'#include "(\w+\.glsl)"', TONEMAP_ENTRY)}
-    assert files == reached | {
+    root = folder("shaders_glsl")
+    files = {str(path.relative_to(root)) for path in shader_files()}
+    by_structs = re.findall(r'#include "([^"]+)"', read("structs/scene.glsl"))
+    assert files == {*FILES, *by_structs} | {
+        "trace.glsl",
         "trace.comp",
+        "passes/tiles.glsl",
+        "passes/tonemap.glsl",
+        "sampling/other_hash.glsl",
         "trace.vert",
         "trace.frag",
-        "mix.frag",
+        "weighting.frag",
         "false_colors.frag",
         *DISPLAY_STAGES,
     }
@@ -227,15 +255,17 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
 @pytest.mark.parametrize("features", FEATURE_SETS)
 def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: str) -> None:
     assert ctx.version_code >= 430
-    assert warnings((COMPUTE, Source("trace.comp", FEATURE_SETS[features]).text)) == []
+    assert (
+        warnings((COMPUTE, Source("trace.comp", FEATURE_SETS[features], texts=WRITTEN).text)) == []
+    )
 
 
 def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert ctx.version_code >= 430
-    assert warnings((COMPUTE, Source("tonemap", parts={"tonemap": TONEMAP_ENTRY}).text)) == []
+    assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
 
 
-@pytest.mark.parametrize("name", ["display.frag", "mix.frag", "false_colors.frag"])
+@pytest.mark.parametrize("name", ["display.frag", "weighting.frag", "false_colors.frag"])
 def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
     assert ctx.version_code >= 430
     stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(name).text)]
@@ -245,46 +275,53 @@ def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str
 def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert ctx.version_code >= 430
     for layers in ({"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}):
-        text = Source("trace.comp", {**EVERYTHING, **layers}).text
+        text = Source("trace.comp", {**EVERYTHING, **layers}, texts=WRITTEN).text
         assert imprecise(text) == []
         assert warnings((COMPUTE, text)) == []
 
 
 def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:
-    number = plant(shaders / "warp.glsl", "float odd() { float x; return x; }")
-    text = (shaders / "path.glsl").read_text()
+    number = plant(shaders / "sampling/warp.glsl", "float odd() { float x; return x; }")
+    text = (shaders / "integrators/path.glsl").read_text()
     use = "return Path(ray, vec3(1.0)"
     assert text.count(use) == 1
-    (shaders / "path.glsl").write_text(text.replace(use, use.replace("vec3(1.0)", "vec3(odd())")))
-    source = Source("trace.comp", EVERYTHING)
+    (shaders / "integrators/path.glsl").write_text(
+        text.replace(use, use.replace("vec3(1.0)", "vec3(odd())"))
+    )
+    source = Source("trace.comp", EVERYTHING, texts=WRITTEN)
     Kernel(ctx, source).release()
     for _ in ("for the first time", "again, though the driver may have it in its cache"):
         told = [source.explain(line) for line in warnings((COMPUTE, source.text))]
         assert told
-        assert all(f"warp.glsl:{number}:" in line and "initialized" in line for line in told)
+        assert all(
+            f"sampling/warp.glsl:{number}:" in line and "initialized" in line for line in told
+        )
 
 
 @pytest.mark.parametrize("features", FEATURE_SETS)
 def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) -> None:
-    vertex, fragment = sources("fragment", FEATURE_SETS[features], OLD_BLOCKS)
+    vertex, fragment = sources("fragment", FEATURE_SETS[features], WRITTEN)
     FragmentKernel(ctx, vertex, fragment).release()
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 
 def test_glsl_4_10_refuses_what_came_later(ctx: moderngl.Context) -> None:
     for late in ("buffer Later { float later[]; };", "layout(binding = 1) uniform L { float l; };"):
-        parts = {"blocks.glsl": OLD_BLOCKS["blocks.glsl"] + late}
+        parts = {FILE: WRITTEN[FILE] + late}
         with pytest.raises(RenderError, match="refuses a shader"):
             FragmentKernel(ctx, *sources("fragment", EVERYTHING, parts))
 
 
-def test_both_kernels_include_the_same_path_text() -> None:
-    by_fragment = re.findall(r'#include "(\w+\.glsl)"', read("trace.frag"))
-    assert [name for name in INCLUDES if name != "tiles.glsl"] == by_fragment
+def test_both_kernels_include_the_same_path_tracer() -> None:
+    for entry in ("trace.comp", "trace.frag"):
+        assert read(entry).count('#include "trace.glsl"') == 1
+    assert FILE in INCLUDES
+    assert not (folder("shaders_glsl") / FILE).exists()
 
 
-def test_the_path_text_is_what_the_kernel_includes() -> None:
-    assert [f'#include "{name}"' for name in INCLUDES] == [
-        line for line in read("trace.comp").splitlines() if line.startswith("#include")
-    ]
-    assert "blocks.glsl" in INCLUDES
+def test_the_kernel_takes_another_hash(ctx: moderngl.Context) -> None:
+    texts = {**WRITTEN, "sampling/hash.glsl": read("sampling/other_hash.glsl")}
+    source = Source("trace.comp", EVERYTHING, texts=texts)
+    assert "0x7FEB352Du" in source.text
+    assert "747796405u" not in source.text
+    Kernel(ctx, source).release()

@@ -18,40 +18,55 @@ from glrt.methods.features import MOST_NEAR, TREE_FROM, Needs, needs_of
 from glrt.resources import folder
 from glrt.settings import settings_for
 from tests.support.builders import EVERYTHING, MATTE, glass, lamp, plane, quad, scene_of, sphere
+from tests.support.kernel_text import written_for
 
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
 # Of each feature: its file, an expression that it computes, and that expression with the probe.
 PROBES = {
-    "HAS_SPHERE": ("shape.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
-    "HAS_PLANE": ("shape.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
-    "HAS_QUAD": ("shape.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
-    "HAS_TREE": ("bvh.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
-    "HAS_MIRROR": ("material.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
-    "HAS_ROUGH_METAL": ("material.glsl", "2.0 * PI * u.x", "{} * u.x"),
-    "HAS_DIELECTRIC": ("material.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
-    "HAS_LENS": ("camera.glsl", "camera.tan_lens * offset", "{} * offset"),
-    "HAS_BACKGROUND": ("path.glsl", "0.5 * (direction.y + 1.0)", "{} * (direction.y + 1.0)"),
-    "HAS_SPHERE_LIGHT": ("light.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
-    "HAS_QUAD_LIGHT": ("light.glsl", "length(to_point)", "length({} * to_point)"),
-    "SAMPLE_LIGHTS": ("path.glsl", "weight * light.radiance", "{} * weight * light.radiance"),
-    "WEIGHT_BOTH": ("path.glsl", "p_b / p_a", "{} * p_b / p_a"),
-    "MANY_LIGHTS": ("light_choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
-    "ROULETTE": ("path.glsl", "throughput /= survival", "throughput /= {} + survival"),
+    "HAS_SPHERE": ("shapes/sphere.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
+    "HAS_PLANE": ("shapes/plane.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
+    "HAS_QUAD": ("shapes/quad.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
+    "HAS_TREE": ("shapes/sphere_tree.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
+    "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
+    "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
+    "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
+    "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
+    "HAS_BACKGROUND": (
+        "integrators/path.glsl",
+        "0.5 * (direction.y + 1.0)",
+        "{} * (direction.y + 1.0)",
+    ),
+    "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
+    "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "length(to_point)", "length({} * to_point)"),
+    "SAMPLE_LIGHTS": (
+        "integrators/path.glsl",
+        "weight * light.radiance",
+        "{} * weight * light.radiance",
+    ),
+    "WEIGHT_BOTH": ("integrators/path.glsl", "p_b / p_a", "{} * p_b / p_a"),
+    "QUADS_BY_AREA": ("lights/sampling.glsl", "quad.width * quad.height", "{} * quad.width"),
+    "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
+    "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
 }
-ALWAYS = ("film.glsl", "1.0 / count", "{} / count")
+ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
     "HAS_TREE": {"HAS_SPHERE"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
+    "QUADS_BY_AREA": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
 }
 
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
-    "HAS_QUAD": {"HAS_QUAD_LIGHT"},
-    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"},
+    "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
+    "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
+    "WEIGHT_BOTH": {"QUADS_BY_AREA"},
+    "QUADS_BY_AREA": {"WEIGHT_BOTH"},
+    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
+    | {"QUADS_BY_AREA"},
 }
 
 
@@ -117,9 +132,9 @@ def probed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         text = (copy / file).read_text()
         assert text.count(expression) == 1, f"{expression} in {file}"
         (copy / file).write_text(text.replace(expression, probed.format(f"probe_{name}")))
-    scene = (copy / "scene.glsl").read_text()
+    scene = (copy / "structs/scene.glsl").read_text()
     uniforms = "".join(f"uniform float probe_{name};\n" for name in [*PROBES, "ALWAYS"])
-    (copy / "scene.glsl").write_text(uniforms + scene)
+    (copy / "structs/scene.glsl").write_text(uniforms + scene)
     monkeypatch.setattr(glsl, "folder", lambda name: tmp_path / name)
 
 
@@ -138,7 +153,9 @@ def test_a_scene_asks_for_the_features_that_it_uses(name: str) -> None:
 def test_a_feature_is_compiled_in_exactly_if_the_scene_uses_it(
     ctx: moderngl.Context, name: str
 ) -> None:
-    kernel = Kernel(ctx, Source("trace.comp", needs_with(SETS[name]).constants()))
+    kernel = Kernel(
+        ctx, Source("trace.comp", needs_with(SETS[name]).constants(), texts=written_for())
+    )
     found = {member for member in kernel.names if member.startswith("probe_")}
     kernel.release()
     assert found == {"probe_ALWAYS", *(f"probe_{flag}" for flag in SETS[name])}

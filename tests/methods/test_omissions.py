@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from glrt.methods.features import LADDER
 from glrt.methods.omissions import omissions
+from glrt.methods.table import CLASSIC
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
 from tests.support.processes import glrt
@@ -21,7 +21,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
 BALL = sphere([0, 0, -3], 1, "matte")
 LAMP = sphere([0, 3, -3], 1, "lamp")
 SKY = {"background": {"color": [1, 1, 1]}}
-LOCAL, FOLLOWING, ALL = {"phong", "blinn"}, {"whitted", "cook"}, set(LADDER)
+LOCAL, FOLLOWING, ALL = {"phong", "blinn"}, {"whitted", "cook"}, set(CLASSIC)
 INDIRECT = "no indirect light"
 
 
@@ -52,7 +52,7 @@ def test_an_omission_is_told_of_the_methods_that_make_it(
     objects: list[dict[str, Any]], more: dict[str, Any], text: str, methods: set[str]
 ) -> None:
     scene = scene_of(objects, MATERIALS, **more)
-    every = {method: settings_for(scene.render, method=method) for method in (*METHODS, *LADDER)}
+    every = {method: settings_for(scene.render, method=method) for method in (*METHODS, *CLASSIC)}
     found = {method for method, settings in every.items() if text in omissions(scene, settings)}
     assert found == methods
 
@@ -61,7 +61,7 @@ def test_a_lens_is_told_of_the_methods_without_one() -> None:
     scene = scene_of([BALL], MATERIALS, {"defocus_angle": 1.0}, **SKY)
     told = {
         method
-        for method in LADDER
+        for method in CLASSIC
         if "everything is in focus" in omissions(scene, settings_for(scene.render, method=method))
     }
     assert told == ALL - {"cook"}

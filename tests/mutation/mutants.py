@@ -30,18 +30,18 @@ def _edit(file: str, old: str, new: str) -> tuple[Edit, ...]:
 MUTANTS = [
     Mutant(
         "the cosine is missing in Lambert's law",
-        _edit("material.glsl", "color * (wi.z / PI)", "color * (1.0 / PI)"),
+        _edit("bsdfs/matte.glsl", "color * (wi.z / PI)", "color * (1.0 / PI)"),
         "truths/test_direct_light.py::test_light_of_a_ball_falls_with_the_square_of_its_distance",
     ),
     Mutant(
         "light is counted twice: by sampling and by scattering",
-        _edit("path.glsl", "power_heuristic(pdf, light_pdf) : 0.0", "1.0 : 1.0"),
+        _edit("integrators/path.glsl", "power_heuristic(pdf, light_pdf) : 0.0", "1.0 : 1.0"),
         "truths/test_furnace.py::test_light_sampling_counts_a_wall_once",
     ),
     Mutant(
         "the index of refraction is inverted",
         _edit(
-            "material.glsl",
+            "bsdfs/material.glsl",
             "outside ? 1.0 / material.ior : material.ior",
             "outside ? material.ior : 1.0 / material.ior",
         ),
@@ -49,13 +49,13 @@ MUTANTS = [
     ),
     Mutant(
         "survivors of roulette are not weighed",
-        _edit("path.glsl", "    throughput /= survival;\n", ""),
+        _edit("integrators/path.glsl", "    throughput /= survival;\n", ""),
         "truths/test_furnace.py::test_roulette_raises_the_variance_and_leaves_the_mean",
     ),
     Mutant(
         "seeds are hashed from index + frame",
         _edit(
-            "sampler.glsl",
+            "sampling/sampler.glsl",
             "return pcg_hash(uint(pixel.x) + pcg_hash(uint(pixel.y) + frame));",
             "return pcg_hash(uint(pixel.y * 128 + pixel.x) + uint(sample_index) + seed);",
         ),
@@ -64,7 +64,7 @@ MUTANTS = [
     Mutant(
         "the running mean is a mix of two weights",
         _edit(
-            "film.glsl",
+            "film/pixel.glsl",
             "vec3 next = mean + (step + dither);",
             "vec3 next = mean * (1.0 - weight) + x * weight;",
         ),
@@ -72,13 +72,13 @@ MUTANTS = [
     ),
     Mutant(
         "all steps of the running mean are rounded the same way",
-        _edit("film.glsl", "mean + (step + dither)", "mean + step"),
+        _edit("film/pixel.glsl", "mean + (step + dither)", "mean + step"),
         "rendering/test_accumulation.py::test_film_keeps_its_digits_over_a_million_samples",
     ),
     Mutant(
         "hits nearer than a fixed epsilon are ignored",
         _edit(
-            "shape.glsl",
+            "shapes/sphere.glsl",
             "t > 0.0 && t < hit.distance && i != ignored",
             "t > 1e-3 && t < hit.distance && i != ignored",
         ),
@@ -86,13 +86,13 @@ MUTANTS = [
     ),
     Mutant(
         "one bounce too many",
-        _edit("path.glsl", "path.depth == frame.bounces", "path.depth > frame.bounces"),
+        _edit("integrators/path.glsl", "path.depth == frame.bounces", "path.depth > frame.bounces"),
         "truths/test_furnace.py::test_partial_sums_are_exact_at_every_pixel",
     ),
     Mutant(
         "the density of a sphere lamp is per area, not per solid angle",
         _edit(
-            "light.glsl",
+            "lights/sampling.glsl",
             "lamps) / (2.0 * PI * one_minus_cos)",
             "lamps) / (4.0 * PI * sphere.radius * sphere.radius)",
         ),
@@ -100,13 +100,13 @@ MUTANTS = [
     ),
     Mutant(
         "Fresnel's root is taken of a negative number",
-        _edit("material.glsl", "    if (cos2_t <= 0.0) return 1.0;\n", ""),
+        _edit("bsdfs/dielectric.glsl", "    if (cos2_t <= 0.0) return 1.0;\n", ""),
         "shaders/test_dielectric.py::test_beyond_the_critical_angle_everything_is_reflected",
     ),
     Mutant(
         "the density of GGX lacks the Jacobian of reflection",
         _edit(
-            "material.glsl",
+            "bsdfs/metal.glsl",
             "ggx_d(alpha, h) / (2.0 * ggx_shadow(alpha, wo))",
             "ggx_d(alpha, h) * (2.0 * dot(wo, h)) / ggx_shadow(alpha, wo)",
         ),
@@ -115,7 +115,7 @@ MUTANTS = [
     Mutant(
         "the lens has half its angle",
         _edit(
-            "camera.glsl",
+            "integrators/camera.glsl",
             "vec3 offset = disk.x * camera.right + disk.y * camera.up;",
             "vec3 offset = 0.5 * (disk.x * camera.right + disk.y * camera.up);",
         ),
@@ -125,7 +125,7 @@ MUTANTS = [
         "roulette ends paths before their light is gathered",
         (
             Edit(
-                "shaders_glsl/path.glsl",
+                "shaders_glsl/integrators/path.glsl",
                 "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
                 "    vec3 arrived = path.throughput;\n"
                 "    if (ROULETTE && path.depth > 0 && roulette_ends(path.throughput, rng)) {\n"
@@ -133,12 +133,12 @@ MUTANTS = [
                 "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
             ),
             Edit(
-                "shaders_glsl/path.glsl",
+                "shaders_glsl/integrators/path.glsl",
                 "    if (ROULETTE && roulette_ends(path.throughput, rng)) return false;\n",
                 "",
             ),
             Edit(
-                "shaders_glsl/path.glsl",
+                "shaders_glsl/integrators/path.glsl",
                 "path.throughput * direct_light(",
                 "arrived * direct_light(",
             ),
@@ -148,7 +148,7 @@ MUTANTS = [
     Mutant(
         "the background is counted twice after a bounce",
         _edit(
-            "path.glsl",
+            "integrators/path.glsl",
             "path.throughput * background(path.ray.direction)",
             "path.throughput * background(path.ray.direction) * (path.depth > 0 ? 2.0 : 1.0)",
         ),
@@ -156,13 +156,13 @@ MUTANTS = [
     ),
     Mutant(
         "the cosine of a quad lamp is missing",
-        _edit("light.glsl", "(distance / cos_light)", "distance"),
+        _edit("lights/sampling.glsl", "(distance / cos_light)", "distance"),
         "truths/test_direct_light.py::test_rectangle_lights_the_point_below_its_corner",
     ),
     Mutant(
         "samples are counted from 1",
         _edit(
-            "film.glsl",
+            "film/pixel.glsl",
             "float(index + 1) - pixel.dropped",
             "float(index + 2) - pixel.dropped",
         ),
@@ -171,14 +171,16 @@ MUTANTS = [
     Mutant(
         "lamps are never in the shade",
         _edit(
-            "path.glsl", "occluded(light.ray, light.distance, light.shape)", "light.distance < 0.0"
+            "integrators/path.glsl",
+            "occluded(light.ray, light.distance, light.shape)",
+            "light.distance < 0.0",
         ),
         "truths/test_truths.py::test_ball_before_a_lamp_takes_its_share_of_the_light",
     ),
     Mutant(
         "the sphere's discriminant is b^2 - c",
         _edit(
-            "shape.glsl",
+            "shapes/sphere.glsl",
             "r2 - dot(beside, beside)",
             "along * along - (dot(to_center, to_center) - r2)",
         ),
@@ -187,7 +189,7 @@ MUTANTS = [
     Mutant(
         "points stay where the distance leaves them, beside their sphere",
         _edit(
-            "shape.glsl",
+            "shapes/sphere.glsl",
             "vec3 position = sphere.center + sphere.radius * normal;",
             "vec3 position = p;",
         ),
@@ -195,18 +197,18 @@ MUTANTS = [
     ),
     Mutant(
         "the cone of a sphere lamp is 1 - sqrt(1 - s2)",
-        _edit("light.glsl", "s2 / (1.0 + sqrt(1.0 - s2))", "1.0 - sqrt(1.0 - s2)"),
+        _edit("lights/sampling.glsl", "s2 / (1.0 + sqrt(1.0 - s2))", "1.0 - sqrt(1.0 - s2)"),
         "shaders/test_light.py::test_the_cone_of_a_sphere_keeps_its_digits_up_to_a_million_radii",
     ),
     Mutant(
         "refraction does not scale radiance",
-        _edit("material.glsl", "float scale = eta * eta;", "float scale = 1.0;"),
+        _edit("bsdfs/dielectric.glsl", "float scale = eta * eta;", "float scale = 1.0;"),
         "truths/test_furnace.py::test_camera_in_glass_sees_the_square_of_the_index",
     ),
     Mutant(
         "sampled light is weighed by the density of scattering",
         _edit(
-            "path.glsl",
+            "integrators/path.glsl",
             "power_heuristic(light.pdf, pdf_material(vertex, wi))",
             "power_heuristic(pdf_material(vertex, wi), light.pdf)",
         ),
@@ -214,18 +216,22 @@ MUTANTS = [
     ),
     Mutant(
         "a uniform number can be 1",
-        _edit("rng.glsl", "float(x >> 8u) * 5.9604644775390625e-8", "float(x) / 4294967295.0"),
+        _edit(
+            "sampling/uniform.glsl",
+            "float(x >> 8u) * 5.9604644775390625e-8",
+            "float(x) / 4294967295.0",
+        ),
         "shaders/test_rng.py::test_a_unit_float_lies_in_the_unit_interval_and_is_never_one",
     ),
     Mutant(
         "matte surfaces scatter evenly instead of by the cosine",
-        _edit("warp.glsl", "float z = sqrt(1.0 - u.x);", "float z = 1.0 - u.x;"),
+        _edit("sampling/warp.glsl", "float z = sqrt(1.0 - u.x);", "float z = 1.0 - u.x;"),
         "shaders/test_warp.py::test_the_hemisphere_is_filled_by_the_cosine",
     ),
     Mutant(
         "directions reflected in glass are not made unit vectors",
         _edit(
-            "material.glsl",
+            "bsdfs/dielectric.glsl",
             "normalized(incoming + 2.0 * cos_i * n)",
             "incoming + 2.0 * cos_i * n",
         ),
@@ -235,7 +241,7 @@ MUTANTS = [
         "boxes of the tree leave no room for rounding",
         (
             Edit(
-                "shaders_glsl/bvh.glsl",
+                "shaders_glsl/shapes/sphere_tree.glsl",
                 "const float SLACK = 3.814697265625e-6;",
                 "const float SLACK = 0.0;",
             ),
@@ -245,28 +251,34 @@ MUTANTS = [
     ),
     Mutant(
         "of equal spheres the tree takes the one that it meets first",
-        _edit("bvh.glsl", "t == hit.distance && shape < hit.shape", "false"),
+        _edit("shapes/sphere_tree.glsl", "t == hit.distance && shape < hit.shape", "false"),
         "accel/test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
         "a ray that misses a box of the tree leaves out the node behind it, too",
-        _edit("bvh.glsl", "? 1 : 1 + below;", "? 1 : 2 + below;"),
+        _edit("shapes/sphere_tree.glsl", "? 1 : 1 + below;", "? 1 : 2 + below;"),
         "accel/test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
         "strips of a lamp are chosen by their width, not by their angle",
-        _edit("strips.glsl", "sample_strip(view.x, quad.width, view.z, u.x)", "u.x"),
+        _edit(
+            "lights/quad_solid_angle.glsl", "sample_strip(view.x, quad.width, view.z, u.x)", "u.x"
+        ),
         "shaders/test_quad_solid_angle.py::test_samples_are_even_over_strips_and_along_them",
     ),
     Mutant(
         "a strip seen under more than a right angle takes its complement",
-        _edit("strips.glsl", "2.0 * half_angle : PI - 2.0 * half_angle", "2.0 * half_angle : 0.0"),
+        _edit(
+            "lights/quad_solid_angle.glsl",
+            "2.0 * half_angle : PI - 2.0 * half_angle",
+            "2.0 * half_angle : 0.0",
+        ),
         "shaders/test_quad_solid_angle.py::test_densities_sum_up_to_the_solid_angle",
     ),
     Mutant(
         "few lamps are chosen evenly, and weighed as if by flux over squared distance",
         _edit(
-            "light_choice.glsl",
+            "lights/choice.glsl",
             "sum += cluster_weight(i - 1, ray);",
             "sum += total / float(CLUSTERS);",
         ),
@@ -275,7 +287,7 @@ MUTANTS = [
     Mutant(
         "the table of lamps takes every alias",
         _edit(
-            "light_choice.glsl",
+            "lights/choice.glsl",
             "rest < light.keep ? part.first + index : light.alias & 0xFFFF",
             "light.alias & 0xFFFF",
         ),
@@ -283,18 +295,18 @@ MUTANTS = [
     ),
     Mutant(
         "among many lamps the density of one is that of its part of a cluster",
-        _edit("light_choice.glsl", "chance * light.share", "chance"),
+        _edit("lights/choice.glsl", "chance * light.share", "chance"),
         "accel/test_clusters.py::test_densities_are_the_chances_of_clusters_and_of_lamps_in_them",
     ),
     Mutant(
         "light beyond the last layer is lost",
-        _edit("layers.glsl", "i == min(layer, LAYERS - 1)", "i == layer"),
+        _edit("film/layers.glsl", "i == min(layer, LAYERS - 1)", "i == layer"),
         "methods/test_path_lengths.py::test_the_light_of_each_length_adds_up",
     ),
     Mutant(
         "the display adds the halves of a layer as if both had as many samples",
         _edit(
-            "mix.frag",
+            "weighting.frag",
             "one.rgb * (one.a / count) + other.rgb * (other.a / count)",
             "0.5 * (one.rgb + other.rgb)",
         ),
@@ -319,19 +331,27 @@ MUTANTS = [
     Mutant(
         "all draws of a block take their points in one order",
         _edit(
-            "sampler.glsl", "owen_scramble(self.point, pcg_hash(self.block ^ first))", "self.point"
+            "sampling/sampler.glsl",
+            "owen_scramble(self.point, pcg_hash(self.block ^ first))",
+            "self.point",
         ),
         "shaders/test_sobol.py::test_the_points_of_two_pairs_of_draws_are_shuffled_apart",
     ),
     Mutant(
         "the last two of four dimensions are the first two again",
-        _edit("sampler.glsl", "bool last = (self.dimension & 1u) == 0u;", "bool last = false;"),
+        _edit(
+            "sampling/sampler.glsl",
+            "bool last = (self.dimension & 1u) == 0u;",
+            "bool last = false;",
+        ),
         "shaders/test_sobol.py::test_two_draws_in_turn_share_their_point",
     ),
     Mutant(
         "blocks of a pixel share their scramble",
         _edit(
-            "sampler.glsl", "pixel_seed(pixel, index / BLOCK, ~seed)", "pixel_seed(pixel, 0, ~seed)"
+            "sampling/sampler.glsl",
+            "pixel_seed(pixel, index / BLOCK, ~seed)",
+            "pixel_seed(pixel, 0, ~seed)",
         ),
         "shaders/test_sobol.py::test_blocks_are_independent_of_their_neighbours",
     ),

@@ -15,10 +15,10 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple, get_args
 
 from glrt.gpu.context import Choice, Context, open_context
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.methods.light_layers import Layering
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.scene.catalog import scene_names
 from glrt.scene.scene import Scene

@@ -9,19 +9,24 @@ from typing import Any
 import pytest
 
 from glrt.gpu.glsl import Source, read
-from glrt.gpu.struct_arrays import Tier, blocks_text
-from glrt.image.sources import load
-from glrt.rendering.pack import pack_scene
-from glrt.rendering.pipelines import Resolved, sources
+from glrt.gpu.struct_arrays import MOST_UNIFORM_BYTES
+from glrt.rendering.pipelines import Resolved, Tier, sources
 from tests.support.builders import EVERYTHING, FEATURE_SETS
+from tests.support.kernel_text import written_for
 from tests.support.system_packages import needs_package
 
-TIERS: tuple[Tier, ...] = "storage", "generic", "baked"
+WAYS: dict[str, tuple[Tier, int]] = {
+    "uniform blocks": ("generic", MOST_UNIFORM_BYTES),
+    "textures": ("generic", 0),
+    "constants": ("baked", MOST_UNIFORM_BYTES),
+}
 PIPELINES: tuple[Resolved, ...] = "compute", "fragment"
+WARP = "sampling/warp.glsl"
 ES = "320 es"  # knows no implicit conversion
 PRECISIONS = " ".join(
     f"precision highp {kind};" for kind in ("float", "int", "image2D", "sampler2D", "usampler2D")
 )
+DRAWN = ("display.frag", "weighting.frag", "false_colors.frag")
 LAYERINGS: list[dict[str, Any]] = [{"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}]
 
 
@@ -42,40 +47,38 @@ def objections(shader: Source) -> Iterator[str]:
     assert done.returncode == 0 or done.stdout.count("ERROR")
 
 
-def scene_blocks(scene: str, tier: Tier, pipeline: Resolved) -> dict[str, str]:
-    arrays = pack_scene(load(scene))
-    return {"blocks.glsl": blocks_text(arrays, tier, pipeline == "compute")}
-
-
-def in_es(constants: dict[str, bool | int], parts: dict[str, str] | None = None) -> Source:
+def in_es(constants: dict[str, bool | int], texts: dict[str, str] | None = None) -> Source:
     """The compute kernel as OpenGL ES would have it."""
     main = f"{PRECISIONS}\n{read('trace.comp')}"
-    return Source("trace.comp", constants, ES, {"trace.comp": main, **(parts or {})})
+    given = {"trace.comp": main, **written_for(), **(texts or {})}
+    return Source("trace.comp", constants, ES, given)
 
 
 @pytest.mark.parametrize("features", FEATURE_SETS)
 def test_every_kernel_is_within_the_standard(features: str) -> None:
-    blocks = scene_blocks("cornell", "generic", "fragment")
-    shaders = sources("compute", FEATURE_SETS[features], {})
-    shaders += sources("fragment", FEATURE_SETS[features], blocks)
+    shaders = sources("compute", FEATURE_SETS[features], written_for())
+    shaders += sources("fragment", FEATURE_SETS[features], written_for())
     assert [line for shader in shaders for line in objections(shader)] == []
 
 
 @pytest.mark.parametrize("pipeline", PIPELINES)
-@pytest.mark.parametrize("tier", TIERS)
+@pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("scene", ["cornell", "weekend"])
-def test_every_way_to_read_a_scene_is(scene: str, tier: Tier, pipeline: Resolved) -> None:
-    blocks = scene_blocks(scene, tier, pipeline)
-    shaders = sources(pipeline, EVERYTHING, blocks)
+def test_every_way_to_read_a_scene_is(scene: str, way: str, pipeline: Resolved) -> None:
+    shaders = sources(pipeline, EVERYTHING, written_for(scene, *WAYS[way]))
     assert [line for shader in shaders for line in objections(shader)] == []
 
 
 @pytest.mark.parametrize("layers", LAYERINGS, ids=["groups", "lengths"])
 def test_layers_are(layers: dict[str, Any]) -> None:
-    assert list(objections(Source("trace.comp", {**EVERYTHING, **layers}))) == []
+    assert (
+        list(objections(Source("trace.comp", {**EVERYTHING, **layers}, texts=written_for()))) == []
+    )
 
 
-@pytest.mark.parametrize("name", ["display.vert", "display.frag", "mix.frag", "false_colors.frag"])
+@pytest.mark.parametrize(
+    "name", ["display.vert", "display.frag", "weighting.frag", "false_colors.frag"]
+)
 def test_the_display_is(name: str) -> None:
     assert list(objections(Source(name))) == []
 
@@ -87,11 +90,11 @@ def test_no_kernel_converts_integers_silently(features: str) -> None:
 
 def test_a_field_that_some_compilers_take_for_a_method_is_seen() -> None:
     line = "struct Strip { float length; }; float f(Strip s) { return s.length / 2.0; }"
-    found = list(objections(Source("trace.comp", EVERYTHING, parts={"warp.glsl": line})))
-    assert "warp.glsl:1: 'length'" in found[0]
+    found = list(objections(Source("trace.comp", EVERYTHING, texts={WARP: line, **written_for()})))
+    assert f"{WARP}:1: 'length'" in found[0]
 
 
 def test_a_silent_conversion_is_seen() -> None:
-    found = list(objections(in_es(EVERYTHING, {"warp.glsl": "float one() { return 1; }"})))
-    assert "warp.glsl:1:" in found[0]
+    found = list(objections(in_es(EVERYTHING, {WARP: "float one() { return 1; }"})))
+    assert f"{WARP}:1:" in found[0]
     assert "conver" in found[0]

@@ -8,11 +8,10 @@ import pytest
 
 from glrt.errors import RenderError, UsageError
 from glrt.gpu.context import Context
-from glrt.gpu.struct_arrays import MOST_BAKED
 from glrt.image.image import Image
 from glrt.methods.light_layers import Layering
 from glrt.rendering import kernel_switch
-from glrt.rendering.pipelines import compiled
+from glrt.rendering.pipelines import MOST_BAKED, compiled
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.materials import Lambertian

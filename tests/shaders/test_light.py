@@ -169,9 +169,9 @@ def test_a_quad_lamp_shines_from_both_sides_and_not_along_itself(call_glsl: Call
 
 def test_every_lamp_and_its_light_know_each_other() -> None:
     rows = pack_scene(MANY)
-    none = {"light": np.full(len(rows["Planes"]), -1)}  # planes are no lamps to be sampled
-    own = np.concatenate([part["light"] for part in (rows["Spheres"], none, rows["Quads"])])
-    shapes = rows["Lights"]["shape"]
+    none = {"light": np.full(len(rows["Plane"]), -1)}  # planes are no lamps to be sampled
+    own = np.concatenate([part["light"] for part in (rows["Sphere"], none, rows["Quad"])])
+    shapes = rows["Light"]["shape"]
     assert shapes.tolist() == [0, 1, 3, 5, 6]  # 2 is matte, 4 the infinite plane
     assert own[shapes].tolist() == [0, 1, 2, 3, 4]
     assert np.all(np.delete(own, shapes) == -1)
@@ -179,12 +179,12 @@ def test_every_lamp_and_its_light_know_each_other() -> None:
 
 def exact_density(rows: dict[str, Array], shape: int, direction: Array, distance: float) -> Array:
     """Per solid angle at the origin, without the choice of a lamp, float64."""
-    flat = shape - len(rows["Spheres"]) - len(rows["Planes"])
+    flat = shape - len(rows["Sphere"]) - len(rows["Plane"])
     if flat < 0:
-        ball = rows["Spheres"][shape]
+        ball = rows["Sphere"][shape]
         sine2 = ball["radius"] ** 2 / (ball["center"].astype(np.float64) ** 2).sum()
         return np.full(len(direction), 1 / (2 * np.pi * (1 - np.sqrt(1 - sine2))))
-    quad_row = rows["Quads"][flat]
+    quad_row = rows["Quad"][flat]
     cosine = np.abs(direction @ quad_row["normal"].astype(np.float64))
     density: Array = distance**2 / (quad_row["width"] * quad_row["height"] * cosine)
     return density
@@ -195,7 +195,7 @@ def test_a_density_contains_the_choice_and_is_0_for_the_lamp_just_left(
 ) -> None:
     rows = pack_scene(MANY)
     direction = directions(200)[:200]
-    for index, row in enumerate(rows["Lights"]):
+    for index, row in enumerate(rows["Light"]):
         left, free = (
             call_glsl(
                 f"pdf_light({index}, Ray(vec3(0.0), direction, {shape}, false), 2.5, 1.0)",
@@ -205,7 +205,7 @@ def test_a_density_contains_the_choice_and_is_0_for_the_lamp_just_left(
             for shape in (row["shape"], 4)
         )
         assert np.all(left == 0)
-        own = rows["Clusters"][index]
+        own = rows["Cluster"][index]
         chance = own["probability"] / max((own["center"] ** 2).sum(), own["reach2"])
         exact = chance * exact_density(rows, row["shape"], direction, 2.5)
         assert_allclose(free, exact, rtol=1e-5)

@@ -60,7 +60,7 @@ class Seen:
 
     @staticmethod
     def _row(scene: Scene) -> tuple[Any, Any]:
-        row = pack_scene(scene)["Quads"][0]
+        row = pack_scene(scene)["Quad"][0]
         return row.dtype.names, [row[name] for name in row.dtype.names]
 
     @property
@@ -255,7 +255,7 @@ def test_a_lamp_just_below_its_ceiling_lights_it_up_to_the_rim(
 def test_directions_follow_the_edges() -> None:
     """The longer edge is the one along which strips run; the normal is the scene file's."""
     scene = lit("tube")
-    row = pack_scene(scene)["Quads"][0]
+    row = pack_scene(scene)["Quad"][0]
     assert row["edge_u"].tolist() == pytest.approx([0.01, 0, 0])
     assert row["height"] == 9
     assert row["width"] == pytest.approx(0.01)

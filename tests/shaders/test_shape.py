@@ -116,12 +116,12 @@ def distances64(scene: Scene, origin: Array, direction: Array) -> Array:
     """The distance of every shape from every ray, inf for none, (shapes, n)."""
     rows = pack_scene(scene)
     found = []
-    for ball in rows["Spheres"]:
+    for ball in rows["Sphere"]:
         center = ball["center"].astype(np.float64)
         radius = np.full(len(origin), ball["radius"], np.float64)
         (near, far), _ = roots64(center, radius, origin, direction)
         found.append(np.where(near > 0, near, far))
-    for flat in [*rows["Planes"], *rows["Quads"]]:
+    for flat in [*rows["Plane"], *rows["Quad"]]:
         point = flat["point" if "point" in flat.dtype.names else "corner"].astype(np.float64)
         normal = flat["normal"].astype(np.float64)
         t = dot(point - origin, normal) / dot(direction, normal)
@@ -197,7 +197,7 @@ def test_a_point_that_was_hit_lies_on_its_shape(call_glsl: CallGlsl) -> None:
     normal = call_glsl("surface.normal", "vec3", setup=setup, scene=scene, **args)
     shape = hit[:, 0].astype(int)
     rows = pack_scene(scene)
-    balls, flats = rows["Spheres"], [*rows["Planes"], *rows["Quads"]]
+    balls, flats = rows["Sphere"], [*rows["Plane"], *rows["Quad"]]
     for number in range(len(balls) + len(flats)):
         on = (shape == number) & (hit[:, 1] < 20)
         p, m = float32(position[on]), float32(normal[on])
@@ -245,6 +245,6 @@ def test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits(
     if thing["shape"] == "sphere":
         assert np.abs(length(p) - 1).max() < 2 * ULP
     else:
-        row = pack_scene(scene)["Planes" if thing["shape"] == "plane" else "Quads"][0]
+        row = pack_scene(scene)["Plane" if thing["shape"] == "plane" else "Quad"][0]
         point = row["point" if thing["shape"] == "plane" else "corner"].astype(np.float64)
         assert np.abs(dot(p - point, row["normal"].astype(np.float64))).max() < 40 * ULP

@@ -1,19 +1,12 @@
 """Scenes in a few words, for tests."""
 
-from dataclasses import fields
 from typing import Any
 
-from glrt.methods.features import NO_LAYERS, Needs
+from glrt.methods.features import everything
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene
 
-EVERYTHING: dict[str, bool | int] = {
-    **{field.name.upper(): True for field in fields(Needs)},
-    "BLOCK": 1,
-    "MODEL": 0,
-    "CLUSTERS": 0,
-    **NO_LAYERS,
-}
+EVERYTHING = everything()
 
 _FLAGS = [name for name, value in EVERYTHING.items() if value is True]
 _NOTHING = {**EVERYTHING, **dict.fromkeys(_FLAGS, False)}

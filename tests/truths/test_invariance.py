@@ -7,7 +7,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.features import LADDER
+from glrt.methods.table import CLASSIC
 from glrt.scene.scene import Scene, with_lights
 from tests.support.builders import lamp, plane, quad, scene_of, sphere
 from tests.support.images import same_bits
@@ -39,7 +39,7 @@ def mixture(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) 
     return scene_of(objects, MATERIALS, {**eye, **lens}, background=SKY)
 
 
-@pytest.mark.parametrize("method", [*METHODS, *LADDER])
+@pytest.mark.parametrize("method", [*METHODS, *CLASSIC])
 def test_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, method: str) -> None:
     expected = rendered(mixture(), context, 4, method=method, **SMALL)
     for power in range(-10, 11):

@@ -7,8 +7,8 @@ import pytest
 
 from glrt.errors import RenderError
 from glrt.gpu.context import Context
-from glrt.gpu.struct_arrays import MOST_BAKED
 from glrt.methods.light_layers import Layering
+from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import settings_for

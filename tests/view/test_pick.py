@@ -16,7 +16,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Quad, Shape, Sphere
 from glrt.view.viewport import orbit
-from glrt.view.viewport.pick import middle, pick, ray_through, reach
+from glrt.view.viewport.pick import pick, ray_through
 from glrt.view.viewport.transform import (
     moved_to,
     object_matrix,
@@ -96,16 +96,16 @@ def test_a_gizmo_moves_the_middle(shape: Shape) -> None:
     assert moved_to(shape, matrix.astype(np.float32)) == shape
     matrix[12:15] += [1, 2, 3]
     moved = moved_to(shape, matrix.astype(np.float32))
-    assert np.subtract(middle(moved), middle(shape)) == pytest.approx([1, 2, 3], abs=1e-6)
-    assert reach(moved) == pytest.approx(reach(shape))
+    assert np.subtract(moved.middle, shape.middle) == pytest.approx([1, 2, 3], abs=1e-6)
+    assert moved.reach == pytest.approx(shape.reach)
 
 
 def test_shapes_grow_about_their_middle() -> None:
     for shape in SHAPES:
         grown = scaled(shape, 2.0)
-        assert middle(grown) == pytest.approx(middle(shape))
+        assert grown.middle == pytest.approx(shape.middle)
         factor = 1 if isinstance(shape, Plane) else 2
-        assert reach(grown) == pytest.approx(factor * reach(shape))
+        assert grown.reach == pytest.approx(factor * shape.reach)
 
 
 def test_a_scaling_gizmo_scales_by_the_mean_of_its_axes() -> None:
@@ -146,7 +146,7 @@ def test_no_matrix_of_a_gizmo_raises_what_the_window_does_not_catch(
 ) -> None:
     with suppress(GlrtError), np.errstate(all="ignore"):
         moved = moved_to(shape, np.array(entries, np.float32))
-        assert np.isfinite([*middle(moved), reach(moved)]).all()
+        assert np.isfinite([*moved.middle, moved.reach]).all()
 
 
 @settings(max_examples=200, derandomize=True, deadline=None, database=None)

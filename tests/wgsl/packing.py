@@ -37,7 +37,7 @@ def object_buffer(scene: Scene) -> bytes:
 def material_buffer(scene: Scene) -> bytes:
     """The materials that some shape is made of."""
     row = struct("Material")
-    return _taken(pack_scene(scene)["Materials"], row).tobytes() or bytes(row.itemsize)
+    return _taken(pack_scene(scene)["Material"], row).tobytes() or bytes(row.itemsize)
 
 
 def settings_buffer(scene: Scene, settings: Settings) -> bytes:

@@ -11,9 +11,10 @@ from glrt.gpu.context import Context
 from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.program import Kernel
-from glrt.gpu.struct_arrays import blocks_text, padded, tier_for
+from glrt.gpu.struct_arrays import FILE
 from glrt.methods.features import needs_of
 from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.rendering.pipelines import scene_text, upload
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.device import Device
@@ -55,33 +56,33 @@ _WORDS = {f"{name.upper()}_WORD": field[1] // 4 for name, field in (STAGE.fields
 _CONSTANTS = {**_WORDS, "WORDS": STAGE.itemsize // 4}
 _GROUP = 64  # work group of stages.comp
 # Every number drawn goes through unit_float, in both languages.
-_DRAW = "return {}(x >> 8u)"
-_RECORD = "digest = pcg_hash(digest ^ x);\n    draws += 1u;\n    return {}(x >> 8u)"
+_DRAWS = {"float": "precise float value = float(x >> 8u)", "f32": "return f32(x >> 8u)"}
+_RECORD = "digest = pcg_hash(digest ^ x);\n    draws += 1u;\n    "
 
 
 def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
     """The stages of the first sample by the kernel's path text: (H, W) of STAGE."""
     arrays = pack_scene(scene)
-    counts = {name: len(rows) for name, rows in arrays.items()}
-    tier = tier_for(arrays, "generic")
-    data = {name: padded(rows, tier) for name, rows in arrays.items()}
-    data["FrameBlock"] = pack_frame(scene, settings, counts, 0, 1)
-    data["Words"] = bytes(STAGE.itemsize * settings.width * settings.height)
-    parts = {
-        "stages": _glsl_entry(),
-        "blocks.glsl": blocks_text(arrays, tier),
-        "rng.glsl": "uint digest = 0u;\nuint draws = 0u;\n" + _recording(read("rng.glsl"), "float"),
-    }
+    counts = {struct: len(rows) for struct, rows in arrays.items()}
+    recorder = "uint digest = 0u;\nuint draws = 0u;\n"
+    recorded = _recording(read("sampling/uniform.glsl"), "float")
     constants = {**needs_of(scene, settings).constants(), **_CONSTANTS}
     with context.gl as gl:
-        kernel = Kernel(gl, Source("stages", constants, parts=parts))
-        buffers = {name: gl.buffer(content) for name, content in data.items()}
-        kernel.bind(buffers, {})
+        texts = {
+            "stages": _glsl_entry(),
+            FILE: scene_text(gl, arrays, "generic"),
+            "sampling/uniform.glsl": recorder + recorded,
+        }
+        kernel = Kernel(gl, Source("stages", constants, texts=texts))
+        resources = upload(gl, arrays, "generic")
+        frame = gl.buffer(pack_frame(scene, settings, counts, 0, 1))
+        words = gl.buffer(reserve=STAGE.itemsize * settings.width * settings.height)
+        kernel.bind({**resources, "FrameBlock": frame, "Words": words}, {})
         kernel.run_tiles(-(-settings.width * settings.height // _GROUP))
-        words = buffers["Words"].read()
-        for resource in (kernel, *buffers.values()):
+        content = words.read()
+        for resource in (kernel, frame, words, *resources.values()):
             resource.release()
-    return _shaped(words, settings)
+    return _shaped(content, settings)
 
 
 class WgslStages:
@@ -113,7 +114,7 @@ def _glsl_entry() -> str:
 
 
 def _recording(source: str, to_float: str) -> str:
-    return planted(source, _DRAW.format(to_float), _RECORD.format(to_float))
+    return planted(source, _DRAWS[to_float], _RECORD + _DRAWS[to_float])
 
 
 def _shaped(words: Any, settings: Settings) -> Array:

@@ -12,8 +12,8 @@ from glrt.analysis.method_choice.search import Verdict, what_suffices
 from glrt.analysis.method_choice.trial import LEADER, Candidate, OutOfTimeError
 from glrt.errors import UsageError
 from glrt.gpu.context import open_context
-from glrt.methods.features import LADDER
 from glrt.methods.omissions import omissions
+from glrt.methods.table import CLASSIC
 from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
@@ -153,7 +153,7 @@ def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> st
     samples = candidate.samples_to(verdict.error)
     seconds = _seconds(candidate.seconds_to(verdict.error)) if samples else "never"
     bias = percent(candidate.bias.value)
-    if settings.method in LADDER:
+    if settings.method in CLASSIC:
         missing = omissions(scene, settings)
         reason = "; ".join(missing) if missing else "leaves nothing out here"
     else:

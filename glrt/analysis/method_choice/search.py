@@ -9,7 +9,7 @@ from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Trial, un
 from glrt.analysis.reference import Reference, reference_for
 from glrt.analysis.variants import METHODS, variants_of
 from glrt.gpu.context import Context
-from glrt.methods.features import LADDER
+from glrt.methods.table import CLASSIC
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
@@ -79,7 +79,7 @@ def what_suffices(
     leader = min(limits.values(), key=lambda candidate: candidate.seconds_to(error))
     variants = variants_of(scene, small, METHODS, leads=False)
     found = trial.methods(variants, leader)
-    order = [*LADDER, *METHODS]
+    order = [*CLASSIC, *METHODS]
     ranked = sorted(found, key=lambda c: order.index(c.settings.method))
     untried = {variant.name for variant in variants} - {candidate.name for candidate in found}
     candidates = tuple(trial.in_turns(ranked, small))

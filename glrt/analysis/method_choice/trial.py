@@ -18,7 +18,7 @@ import numpy as np
 from glrt.analysis.reference import Floats, Reference
 from glrt.analysis.variants import Variant
 from glrt.gpu.context import Context
-from glrt.methods.features import LADDER
+from glrt.methods.table import CLASSIC
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -148,7 +148,7 @@ class Trial:
         return found or [replace(leader, name=variant.name) for variant in first]
 
     def _measured(self, variant: Variant, leader: Candidate) -> Candidate:
-        if variant.settings.method in LADDER:
+        if variant.settings.method in CLASSIC:
             return self.model(variant)
         return self.tracer(variant, leader.settings.bounces, leader.bias)
 

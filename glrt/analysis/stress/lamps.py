@@ -6,20 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.shader_edits import Edit, edited
 from glrt.analysis.stress.scenes import lamp as emitter
 from glrt.analysis.stress.scenes import matte, plane, quad, scene_of
 from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
-from glrt.rendering.renderer import Renderer
+from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Quad
 from glrt.settings import Method
 
-# Points on quads evenly by area, where `nee` else takes them by solid angle.
-BY_AREA = edited(
-    Edit("light.glsl", "if (WEIGHT_BOTH) {", "if (true) {"),
-    Edit("light.glsl", "!WEIGHT_BOTH", "false"),
-)
+# Points on quads even in area, where `nee` else takes them even in solid angle.
+BY_AREA = Variant({"QUADS_BY_AREA": True})
 
 
 def lamp(lab: Lab) -> Sweep:
@@ -135,21 +131,21 @@ def ceiling(lab: Lab) -> Sweep:
     """A lamp a little below a ceiling: what it sends up leaves through the gap along its rim."""
     x = [0.0003, 0.001, 0.003, 0.01, 0.03, 0.1]
     samples = lab.count(1024, 64)
-    kinds: dict[str, tuple[Method, type[Renderer]]] = {
-        "nee, points by angle": ("nee", Renderer),
+    kinds: dict[str, tuple[Method, Variant]] = {
+        "nee, points by angle": ("nee", PLAIN),
         "nee, points by area": ("nee", BY_AREA),
-        "mis": ("mis", Renderer),
-        "naive": ("naive", Renderer),
+        "mis": ("mis", PLAIN),
+        "naive": ("naive", PLAIN),
     }
     errors: dict[str, list[float]] = {name: [] for name in kinds}
     chances: list[float] = []
     wrong = []
-    for gap, (name, (method, kind)) in product(x, kinds.items()):
+    for gap, (name, (method, variant)) in product(x, kinds.items()):
         truth = _rim_light(gap)
         size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 1, "method": method}
-        mean, stderr = mean_of(lab.render(_gap_scene(gap), samples, kind, **size))
+        mean, stderr = mean_of(lab.render(_gap_scene(gap), samples, variant, **size))
         errors[name].append(abs(mean / truth - 1))
-        if kind is Renderer and not abs(mean - truth) <= SIGMAS * stderr:
+        if variant is PLAIN and not abs(mean - truth) <= SIGMAS * stderr:
             wrong.append(gap)
         if name == "nee, points by angle":
             chances.append(SIGMAS * stderr / truth)

@@ -2,17 +2,16 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from glrt.analysis.plot import Chart, Curve
 from glrt.gpu.context import Context
-from glrt.gpu.evaluate import Probe, path_files
 from glrt.image.image import Image
-from glrt.methods.features import Needs, clusters_of, has_many_lights
-from glrt.rendering.pack import scene_blocks
+from glrt.rendering.evaluation import evaluate
+from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 
@@ -84,29 +83,23 @@ class Lab:
 
         They see `scene`, or nothing. Every feature is compiled in, and lamps are chosen as there.
         """
-        constants = _EVERYTHING | (_choice_of(scene) if scene else {})
-        probe = Probe(expression, returns, setup, functions, path_files(), constants)
         with self.context.gl as gl:
-            blocks = {name: gl.buffer(data) for name, data in scene_blocks(scene).items()}
-            result = probe.run(gl, inputs, blocks)
-            for block in blocks.values():
-                block.release()
-        return result
+            return evaluate(gl, expression, inputs, returns, setup, functions, scene)
 
     def render(
-        self, scene: Scene, samples: int, kind: type[Renderer] = Renderer, **settings: Any
+        self, scene: Scene, samples: int, variant: Variant = PLAIN, **settings: Any
     ) -> Image:
         """A picture, by the tier that `glrt render` uses."""
-        with self.rendering(scene, kind, **settings) as renderer:
+        with self.rendering(scene, variant, **settings) as renderer:
             return renderer.render(samples).image()
 
     @contextmanager
     def rendering(
-        self, scene: Scene, kind: type[Renderer] = Renderer, **settings: Any
+        self, scene: Scene, variant: Variant = PLAIN, **settings: Any
     ) -> Iterator[Renderer]:
         """A renderer, by the tier that `glrt render` uses, whose samples each tell of the noise."""
         wanted = {"sampler": "independent", **settings}
-        renderer = kind(scene, context=self.context, tier="baked", **wanted)
+        renderer = Renderer(scene, context=self.context, tier="baked", variant=variant, **wanted)
         try:
             yield renderer
         finally:
@@ -118,14 +111,6 @@ def mean_of(image: Image) -> tuple[float, float]:
     spread = np.square(image.stderr, dtype=np.float64).sum()
     mean = float(image.radiance.mean(dtype=np.float64))
     return mean, float(np.sqrt(spread) / image.radiance.size)
-
-
-_FLAGS: Any = {field.name: True for field in fields(Needs)}
-_EVERYTHING = Needs(**{**_FLAGS, "model": 0, "clusters": 0, "block": 1}).constants()
-
-
-def _choice_of(scene: Scene) -> dict[str, bool | int]:
-    return {"CLUSTERS": clusters_of(scene), "MANY_LIGHTS": has_many_lights(scene)}
 
 
 @dataclass(frozen=True)

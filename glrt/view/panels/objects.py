@@ -13,7 +13,6 @@ from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.widgets import edited_fields
 from glrt.view.state.controls import Control, controls_of, replaced
-from glrt.view.viewport import pick
 from glrt.view.viewport.transform import with_object
 
 _NONE = "nothing"
@@ -66,7 +65,7 @@ def _buttons(app: App, shape: Shape) -> None:
         app.frame_selected()
     imgui.same_line()
     if imgui.button("focus here"):
-        app.focus_on(pick.middle(shape))
+        app.focus_on(shape.middle)
     imgui.same_line()
     imgui.text_disabled("Shift scales")
 

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 
 from glrt.errors import RenderError
-from glrt.gpu.struct_arrays import MOST_BAKED
+from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.idle_compile import Rehearsal
 

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Shape, Sphere
+from glrt.scene.shapes import Shape
 from glrt.scene.values import Vector
 from glrt.view.state.controls import replaced
 from glrt.view.viewport.orbit import axes
-from glrt.view.viewport.pick import middle
 
 Matrix = list[float]
 
@@ -36,31 +35,29 @@ def projection_matrix(camera: Camera, aspect: float) -> Matrix:
 
 def object_matrix(shape: Shape) -> Matrix:
     """From a shape's own place to the world: its middle, not its size."""
-    return _flat(np.eye(3), np.array(middle(shape)))
+    return _flat(np.eye(3), np.array(shape.middle))
 
 
 def moved_to(shape: Shape, matrix: NDArray[np.float32]) -> Shape:
     """The shape where a gizmo has put it; scaled by the mean of the scales of the three axes."""
     columns = np.asarray(matrix, np.float64).reshape(4, 4)
-    step = columns[3, :3] - np.array(middle(shape))
+    step = columns[3, :3] - np.array(shape.middle)
     return scaled(shifted(shape, step), float(np.mean(np.linalg.norm(columns[:3, :3], axis=1))))
 
 
 def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
     """The shape moved by a vector."""
-    name = {"sphere": "center", "plane": "point", "quad": "corner"}[shape.shape]
-    return replaced(shape, **{name: _short(np.array(getattr(shape, name)) + step)})
+    return replaced(shape, **{shape.anchor: _short(np.add(getattr(shape, shape.anchor), step))})
 
 
 def scaled(shape: Shape, factor: float) -> Shape:
-    """The shape made larger about its middle; a plane has no size."""
-    if factor == 1 or isinstance(shape, Plane):
+    """The shape made larger about its middle; what has no size stays as it is."""
+    if factor == 1 or not shape.extents:
         return shape
-    if isinstance(shape, Sphere):
-        return replaced(shape, radius=_digits(shape.radius * factor))
-    edges = {name: _short(factor * np.array(getattr(shape, name))) for name in ("edge_u", "edge_v")}
-    larger: Quad = replaced(shape, **edges)
-    return shifted(larger, np.array(middle(shape)) - np.array(middle(larger)))
+    larger: Shape = replaced(
+        shape, **{name: _short(factor * np.array(getattr(shape, name))) for name in shape.extents}
+    )
+    return shifted(larger, np.subtract(shape.middle, larger.middle))
 
 
 def with_object(scene: Scene, index: int, shape: Shape) -> Scene:
@@ -75,10 +72,12 @@ def _flat(turn: NDArray[np.float64], shift: NDArray[np.float64]) -> Matrix:
     return [float(value) for value in matrix.T.ravel()]
 
 
-def _short(vector: NDArray[np.float64]) -> Vector:
-    return (_digits(vector[0]), _digits(vector[1]), _digits(vector[2]))
+def _short(value: NDArray[np.float64]) -> Vector | float:
+    """With seven digits: a gizmo knows no more, and a scene file is to be read."""
+    if value.ndim == 0:
+        return _digits(float(value))
+    return (_digits(value[0]), _digits(value[1]), _digits(value[2]))
 
 
 def _digits(value: float) -> float:
-    """Seven digits: a gizmo knows no more, and a scene file is to be read."""
     return float(f"{value:.7g}")

@@ -1,0 +1,42 @@
+"""The methods, a row each: what each one does, and so what it needs of a kernel.
+
+docs/extending.md says how a method is added.
+"""
+
+from dataclasses import dataclass
+from typing import get_args
+
+from glrt.settings import Method
+
+
+@dataclass(frozen=True)
+class Traits:
+    """What a method does."""
+
+    model: int = 0  # its number in shaders_glsl/integrators/classic.glsl; 0 traces paths
+    samples_lights: bool = False  # at each vertex of a path
+    weights_both: bool = False  # light sampling and scattering, by the power heuristic
+    chooses_lights: bool = False  # one of several at each point, by flux and nearness
+    follows: bool = True  # mirrors and glass
+    has_lens: bool = True
+    has_rough_metal: bool = True  # else it is a mirror
+
+    @property
+    def uses_lamps(self) -> bool:
+        """Whether it finds lamps otherwise than by scattering."""
+        return self.samples_lights or self.model > 0
+
+
+METHODS: dict[str, Traits] = {
+    "naive": Traits(),
+    "nee": Traits(samples_lights=True, chooses_lights=True),
+    "mis": Traits(samples_lights=True, weights_both=True, chooses_lights=True),
+    "phong": Traits(model=1, follows=False, has_lens=False),
+    "blinn": Traits(model=2, follows=False, has_lens=False),
+    "whitted": Traits(model=3, has_lens=False, has_rough_metal=False),
+    "cook": Traits(model=4, chooses_lights=True),
+}
+CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing
+
+if list(METHODS) != list(get_args(Method)):
+    raise TypeError(f"methods have rows {list(METHODS)}, and settings {get_args(Method)}")

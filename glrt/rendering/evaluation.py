@@ -1,0 +1,66 @@
+"""Functions of the path tracer over arrays, with a scene for them to see."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.evaluate import Probe, path_files
+from glrt.gpu.program import Resource
+from glrt.gpu.struct_arrays import FILE, Arrays
+from glrt.methods.features import contents_of, everything
+from glrt.rendering.kernel_structs import STRUCTS
+from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.rendering.pack_shapes import NUMBERED
+from glrt.rendering.pipelines import scene_text, upload
+from glrt.scene.scene import Scene
+from glrt.settings import settings_for
+
+Array = np.ndarray[Any, Any]
+
+
+def evaluate(
+    gl: moderngl.Context,
+    expression: str,
+    inputs: Mapping[str, Any],
+    returns: str = "float",
+    setup: str = "",
+    functions: str = "",
+    scene: Scene | None = None,
+    constants: Mapping[str, bool | int] | None = None,
+) -> Array:
+    """An expression of the functions that trace paths (`Probe` says more), of a scene or of none.
+
+    Every feature is compiled in, and lamps are chosen as in the scene, unless `constants` say
+    otherwise. The context must be current.
+    """
+    prelude = {**everything(), **(_choice(scene) if scene else {}), **(constants or {})}
+    arrays = pack_scene(scene) if scene else _nothing()
+    texts = {FILE: scene_text(gl, arrays, "generic")}
+    probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
+    resources = resources_of(gl, scene, arrays)
+    try:
+        return probe.run(gl, inputs, resources)
+    finally:
+        for resource in resources.values():
+            resource.release()
+
+
+def resources_of(gl: moderngl.Context, scene: Scene | None, arrays: Arrays) -> dict[str, Resource]:
+    """The buffers and textures that the functions read; a frame of zeros without a scene."""
+    frame = bytes(STRUCTS["Frame"].itemsize)
+    if scene:
+        counts = {struct: len(rows) for struct, rows in arrays.items()}
+        frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1)
+    return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame)}
+
+
+def _choice(scene: Scene) -> dict[str, bool | int]:
+    found = contents_of(scene)
+    return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights}
+
+
+def _nothing() -> dict[str, Array]:
+    structs = (*NUMBERED, "Node", "Material", "Light", "Cluster")
+    return {struct: np.zeros(0, STRUCTS[struct]) for struct in structs}

@@ -1,0 +1,101 @@
+"""Shapes as rows of the kernel's arrays: a packer for each kind, in the order of its numbering.
+
+Positions are taken relative to the camera in float64: far from the origin nothing is lost.
+docs/extending.md says how a kind is added.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import KINDS, Plane, Quad, Shape, Sphere
+
+Array = np.ndarray[Any, Any]
+
+
+class Placing(NamedTuple):
+    """What a packer must know beside its shapes."""
+
+    eye: Array  # position of the camera, float64
+    materials: Mapping[str, int]  # row of each material
+    lights: Mapping[int, int]  # row of each sampled lamp, by the kernel's number of its shape
+
+    def light(self, number: int) -> int:
+        """The row of a lamp, or NO_LIGHT."""
+        return self.lights.get(number, CONSTANTS["NO_LIGHT"])
+
+
+def pack_spheres(rows: Array, spheres: Sequence[Sphere], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Sphere; `first` is the kernel's number of the first."""
+    rows["center"] = np.array([s.center for s in spheres], np.float64) - placing.eye
+    rows["radius"] = [s.radius for s in spheres]
+    rows["material"] = [placing.materials[s.material] for s in spheres]
+    rows["light"] = [placing.light(first + i) for i in range(len(spheres))]
+
+
+def pack_planes(rows: Array, planes: Sequence[Plane], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Plane."""
+    del first  # planes are no sampled lamps
+    for row, plane in zip(rows, planes, strict=True):
+        normal = unit(np.array(plane.normal, np.float64))
+        offset = np.dot(normal, np.array(plane.point, np.float64) - placing.eye)
+        row["point"] = normal * offset  # nearest to the eye
+        row["normal"] = normal
+        row["material"] = placing.materials[plane.material]
+
+
+def pack_quads(rows: Array, quads: Sequence[Quad], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Quad."""
+    for index, (row, quad) in enumerate(zip(rows, quads, strict=True)):
+        edges = np.array(quad.edge_u, np.float64), np.array(quad.edge_v, np.float64)
+        normal = np.cross(*edges)
+        area = np.linalg.norm(normal)
+        u, v = sorted(edges, key=np.linalg.norm)
+        length = np.linalg.norm(v)
+        row["corner"] = np.array(quad.corner, np.float64) - placing.eye
+        row["edge_u"], row["edge_v"] = u, v
+        row["normal"], row["height"] = normal / area, length
+        row["width"], row["shear"] = area / length, np.dot(u, v) / length
+        row["dual_u"] = np.cross(v, np.cross(u, v)) / area**2
+        row["dual_v"] = np.cross(np.cross(u, v), u) / area**2
+        row["material"] = placing.materials[quad.material]
+        row["light"] = placing.light(first + index)
+
+
+def unit(value: Array) -> Array:
+    """A vector of length 1 along another."""
+    along: Array = value / np.linalg.norm(value)
+    return along
+
+
+# The name of a model is that of its struct.
+PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
+    Sphere: pack_spheres,
+    Plane: pack_planes,
+    Quad: pack_quads,
+}
+NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
+
+if list(PACKERS) != list(KINDS.values()):
+    raise TypeError(f"shapes have packers {list(PACKERS)}, and models {list(KINDS.values())}")
+
+
+def in_order(scene: Scene) -> list[Shape]:
+    """The objects as the kernel numbers them: by kind, in the order of the scene file in each."""
+    return [shape for kind in PACKERS for shape in scene.objects if type(shape) is kind]
+
+
+def pack_shapes(shapes: Sequence[Shape], placing: Placing) -> dict[str, Array]:
+    """Rows of each kind by the name of its struct; `shapes` are in the kernel's order."""
+    arrays, first = {}, 0
+    for kind, pack in PACKERS.items():
+        some = [shape for shape in shapes if type(shape) is kind]
+        rows = np.zeros(len(some), STRUCTS[kind.__name__])
+        if some:
+            pack(rows, some, placing, first)
+        arrays[kind.__name__] = rows
+        first += len(some)
+    return arrays

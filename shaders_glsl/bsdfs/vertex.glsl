@@ -1,0 +1,23 @@
+// How surfaces scatter: sample, evaluate, density. The legend of the field:
+//   wo   unit, towards where the path came from     wi   unit, towards where it goes
+//   n    unit normal on the side of wo              h    half vector of wo and wi
+//   eta  index of refraction here over there        pdf  density per solid angle, 0: delta
+// In local frames n is +z. eval_x contains the cosine, so that a sample's weight is eval / pdf.
+
+struct Vertex {
+    mat3 frame;         // world from local
+    vec3 wo;            // local, z > 0
+    Material material;
+};
+
+struct Scattering {
+    vec3 direction;  // world
+    vec3 weight;     // eval / pdf; 0: absorbed
+    float pdf;
+    float scale;     // of radiance, by refraction: (eta)^2
+    bool crosses;    // through the surface
+};
+
+Scattering absorbed() {
+    return Scattering(vec3(0.0), vec3(0.0), 0.0, 1.0, false);
+}

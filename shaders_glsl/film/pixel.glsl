@@ -1,0 +1,96 @@
+// What a pixel has gathered: running means, so that any number of samples keeps its digits.
+//
+// Its error is taken over observations, which are independent of each other: a sample each, or
+// BLOCK samples whose points belong together.
+
+struct Pixel {
+    vec3 mean;           // of the finite samples, radiance
+    float dropped;       // samples that were not finite
+    vec3 variance;       // of the observations: mean squared deviation from their mean
+    float observations;
+    vec3 block;          // mean of the finite samples of the observation that has begun
+    float begun;         // how many those are
+};
+
+Pixel empty_pixel() {
+    return Pixel(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0);
+}
+
+// By its bits: drivers may assume that no NaN exists and fold isnan away.
+bool is_finite(vec3 x) {
+    uvec3 exponent = floatBitsToUint(x) & uvec3(0x7F800000u);
+    return all(notEqual(exponent, uvec3(0x7F800000u)));
+}
+
+// The mean of `count` samples from that of all but x, m += (x - m) / n: a mix of m and x would
+// drift (its weights do not add up to 1 in floating point). A late step is a few units in the last
+// place of m; rounded the same way every time it would pull the mean of an edge, where samples
+// have two values, away by ten times its noise after 2^20 samples. So steps are dithered.
+vec3 next_mean(vec3 mean, vec3 x, float count) {
+    precise float weight = 1.0 / count;
+    precise vec3 step = (x - mean) * weight;
+    uvec3 exponent = floatBitsToUint(mean) & uvec3(0x7F800000u);
+    precise vec3 last_place = uintBitsToFloat(exponent) * 1.1920928955078125e-7;
+    precise vec3 dither = golden_turn(uint(count)) * last_place * vec3(notEqual(step, vec3(0.0)));
+    precise vec3 next = mean + (step + dither);
+    return next;
+}
+
+// Welford's form, after the mean has moved by its share of the observation x: x less the mean
+// before is x less the mean now, times n / (n - 1).
+void end_observation(precise inout Pixel pixel) {
+    pixel.observations += 1.0;
+    if (pixel.observations > 1.0) {
+        precise float count = pixel.observations;
+        precise vec3 after = pixel.block - pixel.mean;
+        precise vec3 before = after * (count / (count - 1.0));
+        pixel.variance = next_mean(pixel.variance, before * after, count);
+    }
+    pixel.block = vec3(0.0);
+    pixel.begun = 0.0;
+}
+
+// Adds the sample number `index`, from 0.
+void add_sample(precise inout Pixel pixel, vec3 x, int index) {
+    if (is_finite(x)) {
+        pixel.mean = next_mean(pixel.mean, x, float(index + 1) - pixel.dropped);
+        pixel.begun += 1.0;
+        pixel.block = BLOCK > 1 ? next_mean(pixel.block, x, pixel.begun) : x;
+    } else {
+        pixel.dropped += 1.0;
+    }
+    if ((index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
+}
+
+// The samples from number `index` to before `end` are lost.
+void drop_samples(precise inout Pixel pixel, int index, int end) {
+    pixel.dropped += float(end - index);
+    if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
+}
+
+// What a pixel has gathered by layers: means over every second observation, then over the others.
+// How far the two lie apart tells the error of their mean, whatever the weights of the layers.
+struct Layers {
+    vec3 means[2 * MOST_LAYERS];
+    float counts[2];  // finite samples
+};
+
+Layers empty_layers() {
+    precise Layers layers;
+    for (int i = 0; i < 2 * LAYERS; i += 1) layers.means[i] = vec3(0.0);
+    layers.counts[0] = 0.0;
+    layers.counts[1] = 0.0;
+    return layers;
+}
+
+// Adds what the sample number `index` brought by layers.
+void add_layers(precise inout Layers layers, Path path, int index) {
+    if (!is_finite(path.radiance)) return;
+    int side = (index / BLOCK) % 2;
+    layers.counts[side] += 1.0;
+    for (int i = 0; i < 2 * LAYERS; i += 1) {
+        if (i / DIVISOR != side) continue;
+        precise vec3 light = path.layers[i % DIVISOR];
+        layers.means[i] = next_mean(layers.means[i], light, layers.counts[side]);
+    }
+}

@@ -1,0 +1,100 @@
+// Lighting models older than the rendering equation: light goes straight from lamp to surface to
+// eye, or over mirrors and glass. MODEL is 0 where paths are traced.
+//
+// Lamps are points in their centres for all but COOK, each with the power that its whole area
+// sends this way. The background is an even, unhidden light.
+
+const int PHONG = 1;    // no shadows; highlights around the mirrored direction (Phong 1975)
+const int BLINN = 2;    // the same around the half vector (Blinn 1977): the thesis's Appendix A
+const int WHITTED = 3;  // shadows, mirrors and glass (Whitted 1980): Appendix B
+const int COOK = 4;     // a random point of a lamp, of the lens and of a lobe (Cook et al. 1984)
+
+const int MOST_EXPONENT = 16777216;  // 2^24
+
+// Whether light is followed beyond this surface. Glass divides it by a random choice, not by a
+// tree: the mean is the same, work does not double at each surface, and antialiasing takes many
+// samples a pixel anyway.
+bool is_followed(Material material) {
+    return MODEL == 0 || MODEL >= WHITTED && material.kind != MATTE;
+}
+
+// x^n by squaring: pow differs between drivers.
+float whole_power(float x, int n) {
+    precise float result = 1.0;
+    precise float square = x;
+    int rest = n;
+    for (; rest > 0; rest /= 2) {
+        if (rest % 2 == 1) result *= square;
+        square *= square;
+    }
+    note_end(0, rest);
+    return result;
+}
+
+// The exponent of a half vector's highlight that is as wide as the GGX lobe. One around the
+// mirrored direction is as wide with a quarter of it, since its angle is twice the other.
+int highlight_exponent(float alpha) {
+    precise float exponent = min(2.0 / (alpha * alpha), float(MOST_EXPONENT)) - 2.0;
+    return max(int(exponent), 0);
+}
+
+// With the cosine, and scaled so that a white metal seen head-on reflects everything: the
+// integrals are 2 PI / (m + 2) and 8 PI (2^(-n/2) + n) / ((n + 2) (n + 4)).
+float eval_highlight(float alpha, vec3 wo, vec3 wi) {
+    int n = highlight_exponent(alpha);
+    if (MODEL == BLINN) {
+        precise vec3 h = normalized(wo + wi);
+        precise float rest = whole_power(sqrt(0.5), n) + float(n);
+        precise float scale = float(n + 2) / (2.0 * PI) * (float(n + 4) / (2.0 * 2.0 * rest));
+        precise float value = scale * whole_power(h.z, n) * wi.z;
+        return value;
+    }
+    int m = n / 4;
+    precise float along = max(dot(vec3(-wo.xy, wo.z), wi), 0.0);
+    precise float scale = float(m + 2) / (2.0 * PI);
+    precise float value = scale * whole_power(along, m) * wi.z;
+    return value;
+}
+
+vec3 eval_local(Vertex vertex, vec3 wi) {
+    precise Material material = vertex.material;
+    if (material.kind == MATTE) return eval_matte(material.color, wi);
+    if (!HAS_ROUGH_METAL || material.kind != METAL || material.alpha == 0.0) return vec3(0.0);
+    precise vec3 value = material.color * eval_highlight(material.alpha, vertex.wo, wi);
+    return value;
+}
+
+struct PointLamp {
+    vec3 center;
+    float disk;    // area that a sphere shows; 0 for a quad
+    vec3 facing;   // normal times area of a quad; 0 for a sphere
+    int material;
+};
+
+PointLamp point_lamp(int shape) {
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
+        precise Sphere sphere = sphere_at(shape);
+        precise float disk = PI * sphere.radius * sphere.radius;
+        return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
+    }
+    precise Quad quad = quad_at(shape - sphere_count() - plane_count());
+    precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
+    precise vec3 facing = cross(quad.edge_u, quad.edge_v);
+    return PointLamp(center, 0.0, facing, quad.material);
+}
+
+// Light of a lamp in its centre, scattered towards wo. The direction of `from` is ignored.
+vec3 point_light(Vertex vertex, Ray from, int shape) {
+    precise PointLamp lamp = point_lamp(shape);
+    precise vec3 to_center = lamp.center - from.origin;
+    precise float distance = length(to_center);
+    if (shape == from.leaves || distance == 0.0) return vec3(0.0);
+    from.direction = to_center / distance;
+    precise vec3 wi = to_local(vertex.frame, from.direction);
+    if (wi.z <= 0.0) return vec3(0.0);
+    if (MODEL == WHITTED && occluded(from, distance, shape)) return vec3(0.0);
+    precise float across = lamp.disk + abs(dot(lamp.facing, from.direction));
+    precise vec3 irradiance = across / distance / distance * material_at(lamp.material).emission;
+    precise vec3 radiance = irradiance * eval_local(vertex, wi);
+    return radiance;
+}

@@ -1,0 +1,148 @@
+// One path from the camera: radiance in linear sRGB.
+//
+// Emission found by scattering and emission sampled on lamps are the same light; METHOD says how
+// they share it. naive: scattering alone. nee: sampling, where its density is not 0. mis: both,
+// weighted by the power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not
+// followed (integrators/classic.glsl).
+
+vec3 background(vec3 direction) {
+    precise float t = 0.5 * (direction.y + 1.0);
+    precise vec3 radiance = frame.background_bottom + t * (frame.background_top - frame.background_bottom);
+    return radiance;
+}
+
+// p_a^2 / (p_a^2 + p_b^2), written so that no square overflows to NaN; p_a is above 0.
+float power_heuristic(float p_a, float p_b) {
+    precise float ratio = p_b / p_a;
+    precise float weight = 1.0 / (1.0 + ratio * ratio);
+    return weight;
+}
+
+// The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if it
+// comes from the camera or a delta.
+float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
+    if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
+    if (!is_sampled(light, ray)) return 1.0;
+    precise float light_pdf = pdf_light(light, ray, hit.distance, lamps);
+    return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
+}
+
+// Direct light from one sampled point, scattered towards wo. The direction of `from` is ignored.
+vec3 direct_light(Vertex vertex, Ray from, LightSample light) {
+    if (light.pdf == 0.0) return vec3(0.0);
+    precise vec3 wi = to_local(vertex.frame, light.ray.direction);
+    if (wi.z <= 0.0) return vec3(0.0);
+    precise vec3 weight = eval_material(vertex, wi) / light.pdf;
+    if (WEIGHT_BOTH) weight *= power_heuristic(light.pdf, pdf_material(vertex, wi));
+    if (occluded(light.ray, light.distance, light.shape)) return vec3(0.0);
+    precise vec3 radiance = weight * light.radiance;
+    return radiance;
+}
+
+// Divides the survivors' throughput by their chance: another variance, the same mean. Paths play
+// from a throughput of 1/4 downwards: what that costs in time, it gives more than once in variance
+// (docs/speed.md). Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
+// meet exactly.
+const float CHANCES = 65536.0;
+
+bool roulette_ends(precise inout vec3 throughput, precise inout Sampler rng) {
+    precise float brightest = max(throughput.x, max(throughput.y, throughput.z));
+    precise float survival = min(ceil(4.0 * CHANCES * brightest) / CHANCES, 1.0);
+    if (next_1d(rng) >= survival) return true;
+    throughput /= survival;
+    return false;
+}
+
+struct Path {
+    Ray ray;          // its next segment
+    vec3 throughput;
+    float scale;      // of radiance by refraction, which roulette ignores
+    vec3 radiance;    // gathered so far
+    float pdf;        // of the last scattering; 0 if it was a delta, or none yet
+    float lamps;      // weight of all that are sampled, where it scattered last
+    int depth;        // scattering events so far
+    vec3 layers[MOST_LAYERS];  // the radiance by layers
+};
+
+Path start_path(Ray ray) {
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, NO_LAYERS);
+}
+
+// Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
+void gather(precise inout Path path, vec3 light, int group, int length) {
+    path.radiance += light;
+    if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
+}
+
+// Where a model of the ladder ends: the light of the lamps and of an unhidden sky, whose irradiance
+// over PI is its radiance two thirds of the way up along the normal.
+void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampler rng) {
+    precise vec3 weight = path.scale * path.throughput;
+    if (HAS_BACKGROUND) {
+        precise vec3 sky = background(2.0 / 3.0 * vertex.frame[2]);
+        gather(path, weight * vertex.material.color * sky, BACKGROUND_LAYER, path.depth + 1);
+    }
+    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
+    if (MODEL == COOK) {
+        precise LightSample light = sample_light(from, total_weight(from), rng);
+        precise vec3 direct = weight * direct_light(vertex, from, light);
+        gather(path, direct, light.layer, path.depth + 1);
+        return;
+    }
+    int i = 0;
+    for (; i < light_count(); ++i) {
+        int shape = light_at(i).shape;
+        precise vec3 direct = weight * point_light(vertex, from, shape);
+        gather(path, direct, material_at(point_lamp(shape).material).layer, path.depth + 1);
+    }
+    note_end(i, light_count());
+}
+
+// Scatters at a surface, after gathering direct light there; false when the path ends.
+bool scatter_path(precise inout Path path, Surface surface, Material material, precise inout Sampler rng) {
+    precise float side = dot(path.ray.direction, surface.normal) < 0.0 ? 1.0 : -1.0;  // 1: outer
+    precise mat3 around = frame_around(side * surface.normal);
+    precise Vertex vertex = Vertex(around, to_local(around, -path.ray.direction), material);
+    precise Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
+    if (!is_followed(material)) {
+        shade(path, vertex, ray, rng);
+        return false;
+    }
+    precise float lamps = total_weight(ray);
+    if (SAMPLE_LIGHTS && !is_delta(material)) {
+        precise LightSample light = sample_light(ray, lamps, rng);
+        precise vec3 direct = path.scale * path.throughput * direct_light(vertex, ray, light);
+        gather(path, direct, light.layer, path.depth + 1);
+    }
+    precise Scattering next = sample_material(vertex, side > 0.0, rng);
+    path.throughput *= next.weight;
+    if (path.throughput == vec3(0.0)) return false;
+    if (HAS_DIELECTRIC) path.scale *= next.scale;
+    if (ROULETTE && roulette_ends(path.throughput, rng)) return false;
+    ray.direction = next.direction;
+    ray.inward = (side < 0.0) != next.crosses;
+    path.ray = ray;
+    path.pdf = next.pdf;
+    path.lamps = lamps;
+    path.depth += 1;
+    return true;
+}
+
+// Follows one segment; false when the path ends with it.
+bool extend_path(precise inout Path path, precise inout Sampler rng) {
+    precise Hit hit = closest_hit(path.ray);
+    if (hit.shape == NO_SHAPE) {
+        if (HAS_BACKGROUND) {
+            precise vec3 sky = path.scale * path.throughput * background(path.ray.direction);
+            gather(path, sky, BACKGROUND_LAYER, path.depth);
+        }
+        return false;
+    }
+    precise Surface surface = surface_at(path.ray, hit);
+    precise Material material = material_at(surface.material);
+    precise float emitted = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
+    precise vec3 light = path.scale * path.throughput * material.emission * emitted;
+    gather(path, light, material.layer, path.depth);
+    if (path.depth == frame.bounces) return false;
+    return scatter_path(path, surface, material, rng);
+}

@@ -1,0 +1,38 @@
+// The samples that one dispatch adds to one pixel.
+
+Path camera_path(ivec2 place, precise inout Sampler rng) {
+    return start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
+}
+
+// In place of radiance, where COUNT_RAYS.
+vec3 rays_of_sample() {
+    precise vec3 rays = vec3(rays_so_far);
+    rays_so_far = 0.0;
+    return rays;
+}
+
+// One loop over the segments of all paths: a lane whose path has ended starts its next sample at
+// once, and does not wait for its neighbours. `place`: pixel in the full frame. Returns how many
+// samples are lost because the driver ended a loop early: this one, or one that a ray ran.
+int add_samples(precise inout Pixel pixel, precise inout Layers layers, ivec2 place) {
+    int index = frame.first_sample;
+    int end = index + frame.sample_count;
+    precise Sampler rng = sampler_at(place, index, frame.seed);
+    precise Path path = camera_path(place, rng);
+    while (index < end) {
+        if (extend_path(path, rng)) continue;
+        if (loop_was_cut) break;
+        add_sample(pixel, COUNT_RAYS ? rays_of_sample() : path.radiance, index);
+        if (LAYERS > 0) add_layers(layers, path, index);
+        index += 1;
+        rng = sampler_at(place, index, frame.seed);
+        path = camera_path(place, rng);
+    }
+    drop_samples(pixel, index, end);
+    return end - index;
+}
+
+int add_samples(precise inout Pixel pixel, ivec2 place) {
+    precise Layers none = empty_layers();
+    return add_samples(pixel, none, place);
+}

@@ -1,0 +1,82 @@
+// Which lamp is sampled. Clusters of lamps are weighed at each point, by their flux over their squared
+// distance, so that near ones are chosen more often. CLUSTERS: how many there are. Of few lamps each
+// is a cluster. Of MANY_LIGHTS, the PARTS of the chosen cluster are weighed alike, and within a part
+// a table chooses by flux. The flux is that of the last restart, and no lamp's share of it is 0:
+// light groups can be dimmed and lit later.
+
+// Of a cluster or a part, from the origin of `ray`, whose direction is ignored; 0 for the lamp that
+// it leaves, where that is alone.
+float cluster_weight(int index, Ray ray) {
+    precise Cluster cluster = cluster_at(index);
+    if (cluster.shape == ray.leaves) return 0.0;
+    precise vec3 away = cluster.center - ray.origin;
+    precise float weight = cluster.probability / max(dot(away, away), cluster.reach2);
+    return weight;
+}
+
+// Of all lamps together.
+float total_weight(Ray ray) {
+    precise float total = 0.0;
+    for (int i = 0; i < CLUSTERS; ++i) total += cluster_weight(i, ray);
+    return total;
+}
+
+int choose_cluster(Ray ray, float total, float u) {
+    precise float target = u * total;
+    precise float sum = 0.0;
+    int chosen = 0;
+    for (int i = 1; i < CLUSTERS; ++i) {
+        sum += cluster_weight(i - 1, ray);
+        if (sum <= target) chosen = i;
+    }
+    return chosen;
+}
+
+int first_part(int cluster) { return CLUSTERS + PARTS * cluster; }
+
+// Of all parts of a cluster together.
+float parts_weight(int cluster, Ray ray) {
+    precise float total = 0.0;
+    for (int i = 0; i < PARTS; ++i) total += cluster_weight(first_part(cluster) + i, ray);
+    return total;
+}
+
+int choose_part(int cluster, Ray ray, float u) {
+    precise float target = u * parts_weight(cluster, ray);
+    precise float sum = 0.0;
+    int chosen = first_part(cluster);
+    for (int i = 1; i < PARTS; ++i) {
+        sum += cluster_weight(first_part(cluster) + i - 1, ray);
+        if (sum <= target) chosen = first_part(cluster) + i;
+    }
+    return chosen;
+}
+
+// The alias method (Vose 1991): one number chooses a lamp, however many there are.
+int choose_by_table(Cluster part, float u) {
+    precise float scaled = u * float(part.count);
+    int index = min(int(scaled), part.count - 1);
+    precise Light light = light_at(part.first + index);
+    precise float rest = scaled - float(index);
+    return rest < light.keep ? part.first + index : light.alias & 0xFFFF;
+}
+
+int choose_light(Ray ray, float total, vec3 u) {
+    int cluster = choose_cluster(ray, total, u.x);
+    return MANY_LIGHTS ? choose_by_table(cluster_at(choose_part(cluster, ray, u.y)), u.z) : cluster;
+}
+
+// How likely a lamp, not the one just left, is chosen where all together have the weight `total`.
+float choice_pdf(int index, Ray ray, float total) {
+    if (!MANY_LIGHTS) {
+        if (CLUSTERS == 1) return 1.0;
+        precise float pdf = cluster_weight(index, ray) / total;
+        return pdf;
+    }
+    precise Light light = light_at(index);
+    int part = light.alias >> 16;
+    int cluster = (part - CLUSTERS) / PARTS;
+    precise float chance = cluster_weight(part, ray) / parts_weight(cluster, ray);
+    precise float pdf = cluster_weight(cluster, ray) / total * chance * light.share;
+    return pdf;
+}

@@ -1,0 +1,125 @@
+// Points of a parallelogram, sampled nearly evenly in the solid angle that it fills, seen from near
+// and from afar.
+//
+// It is cut into strips along its longer edge. With x across the strips, y along them and z the
+// height of the point over the plane, the solid angle is |z| dx dy / r^3, r^2 = x^2 + y^2 + z^2. A
+// strip is chosen evenly in the angle atan(x / z), a point on it evenly in y / r, which is even in
+// solid angle. So the density is 1 / (angle * extent), the extent being that of y / r over the
+// strip, and no sample weighs more than 2 PI. That of Urena et al. ("An Area-Preserving
+// Parametrization for Spherical Rectangles", EGSR 2013) is even in x too, but for rectangles alone,
+// and by a sum of four angles less 2 PI, which has no digits for small lamps.
+
+struct StripView {
+    vec3 corner;  // from the point
+    float z;      // height of the point over the plane, not below 0
+    float x;      // of the corner
+    float y;
+};
+
+StripView view_strips(Quad quad, vec3 origin) {
+    precise vec3 corner = quad.corner - origin;
+    precise float z = abs(dot(corner, quad.normal));
+    precise float x = dot(corner, quad.dual_u) * quad.width;
+    precise float y = dot(corner, quad.edge_v) / quad.height;
+    return StripView(corner, z, x, y);
+}
+
+// Whether a point lies off the quad's plane.
+bool is_beside(Quad quad, vec3 origin) {
+    precise float z = dot(quad.corner - origin, quad.normal);
+    return z * z > 0.0;
+}
+
+// atan on 0..1, an odd polynomial whose largest relative error is 1e-7: the built-in differs
+// between drivers.
+float small_angle(float tangent) {
+    precise float q = tangent * tangent;
+    precise float p = 0.0247340375 - 0.00482252624 * q;
+    p = p * q - 0.0602030977;
+    p = p * q + 0.0996847111;
+    p = p * q - 0.140413272;
+    p = p * q + 0.19974214;
+    p = p * q - 0.333323916;
+    precise float angle = tangent + tangent * (q * p);
+    return angle;
+}
+
+// The angle from x to x + width at the height z: a difference of the two would lose small ones.
+float strip_angle(float x, float width, float z) {
+    precise float end = x + width;
+    precise float along = x * end + z * z;
+    precise float both = sqrt((x * x + z * z) * (end * end + z * z));
+    precise float half_angle = small_angle(z * width / (both + abs(along)));
+    precise float angle = along >= 0.0 ? 2.0 * half_angle : PI - 2.0 * half_angle;
+    return angle;
+}
+
+// The share of the width, after the share u of the angle, both from the farther end.
+float sample_strip(float x, float width, float z, float u) {
+    precise float end = x + width;
+    bool flip = x + end > 0.0;
+    precise float far_end = flip ? -end : x;
+    precise float turn = u * strip_angle(x, width, z);
+    precise float s = sin(turn);
+    precise float offset = s * (far_end * far_end + z * z) / (z * cos(turn) - far_end * s);
+    precise float share = min(offset / width, 1.0);
+    precise float from_corner = flip ? 1.0 - share : share;
+    return from_corner;
+}
+
+// The ends of a strip at the distance d, from y to y + length; r^2 = d^2 + y^2.
+struct StripEnds {
+    vec2 sine;     // y / r
+    vec2 cosine;   // d / r
+    float extent;  // difference of the sines
+};
+
+StripEnds strip_ends(float y, float length, float d) {
+    precise vec2 ends = vec2(y, y + length);
+    precise vec2 inverse = 1.0 / sqrt(vec2(d * d) + ends * ends);
+    precise vec2 sine = ends * inverse;
+    precise vec2 cosine = d * inverse;
+    precise float apart = sine.y - sine.x;  // of near equals, if both are on one side
+    precise float within = length * inverse.x * (abs(ends.x + ends.y) * inverse.y);
+    precise float beside = cosine.x * cosine.y * within / (abs(sine.x) + abs(sine.y));
+    return StripEnds(sine, cosine, ends.x < 0.0 && ends.y > 0.0 ? apart : beside);
+}
+
+// y, even in y / r. The squared cosine is a sum of what is not below 0, with 1 - sine.x sine.y.
+float sample_on_strip(StripEnds ends, float d, float u) {
+    precise float v = 1.0 - u;
+    precise float sine = v * ends.sine.x + u * ends.sine.y;
+    precise vec2 square = ends.cosine * ends.cosine;
+    precise float product = ends.sine.x * ends.sine.y;
+    precise float beside = (square.x + square.y * (ends.sine.x * ends.sine.x)) / (1.0 + abs(product));
+    precise float mixed = product < 0.0 ? 1.0 - product : beside;
+    precise float cosine2 = v * v * square.x + u * u * square.y + 2.0 * u * v * mixed;
+    precise float y = d * sine / sqrt(cosine2);
+    return y;
+}
+
+// Of the strip at the share `a` of edge_u.
+float strip_distance(Quad quad, StripView view, float a) {
+    precise float x = view.x + a * quad.width;
+    precise float d = sqrt(x * x + view.z * view.z);
+    return d;
+}
+
+// The density of its points, per solid angle.
+float pdf_strips(Quad quad, StripView view, float a) {
+    precise float d = strip_distance(quad, view, a);
+    precise float y = view.y + a * quad.shear;
+    precise float extent = strip_ends(y, quad.height, d).extent;
+    precise float pdf = 1.0 / (strip_angle(view.x, quad.width, view.z) * extent);
+    return pdf;
+}
+
+// The shares of edge_u and edge_v.
+vec2 sample_strips(Quad quad, StripView view, vec2 u) {
+    precise float a = sample_strip(view.x, quad.width, view.z, u.x);
+    precise float d = strip_distance(quad, view, a);
+    precise float y = view.y + a * quad.shear;
+    precise float offset = sample_on_strip(strip_ends(y, quad.height, d), d, u.y) - y;
+    precise float b = clamp(offset / quad.height, 0.0, 1.0);
+    return vec2(a, b);
+}

@@ -1,0 +1,120 @@
+// Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad, or a direction in the
+// cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
+//
+// The density is 0, and scattering alone finds the light, for planes (infinite area), for the
+// background, for the lamp just left, for a sphere that contains the point, and for a quad whose
+// plane does.
+
+struct LightSample {
+    Ray ray;
+    float distance;
+    float pdf;      // 0: nothing was sampled
+    vec3 radiance;
+    int shape;
+    int layer;      // of its light group
+};
+
+// 1 - cos of the cone that a sphere fills, without the cancellation of 1 - sqrt(1 - s2);
+// 0 when it contains the point.
+float cone_of_sphere(vec3 to_center, float radius) {
+    precise float s2 = radius * radius / dot(to_center, to_center);
+    if (s2 >= 1.0) return 0.0;
+    precise float one_minus_cos = s2 / (1.0 + sqrt(1.0 - s2));
+    return one_minus_cos;
+}
+
+bool is_of_sphere(Light light) {
+    return HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < sphere_count());
+}
+
+Quad quad_of(Light light) {
+    return quad_at(light.shape - sphere_count() - plane_count());
+}
+
+// Whether sampling may find this lamp from the ray's origin.
+bool is_sampled(int index, Ray ray) {
+    precise Light light = light_at(index);
+    if (light.shape == ray.leaves) return false;
+    if (is_of_sphere(light)) {
+        precise Sphere sphere = sphere_at(light.shape);
+        return cone_of_sphere(sphere.center - ray.origin, sphere.radius) > 0.0;
+    }
+    return is_beside(quad_of(light), ray.origin);
+}
+
+// QUADS_BY_AREA: where both strategies are weighted, points even in area are as good as points even in
+// solid angle, and cheaper: near a lamp, the weights leave it to scattering. Light sampling alone would
+// miss what is near.
+float pdf_quad(Quad quad, Ray ray, float distance) {
+    if (QUADS_BY_AREA) {
+        precise float cos_light = abs(dot(ray.direction, quad.normal));
+        if (cos_light == 0.0) return 0.0;
+        precise float pdf = (distance / (quad.width * quad.height)) * (distance / cos_light);
+        return pdf;
+    }
+    precise StripView view = view_strips(quad, ray.origin);
+    precise float share = dot(quad.dual_u, distance * ray.direction - view.corner);
+    return pdf_strips(quad, view, clamp(share, 0.0, 1.0));
+}
+
+// The density of choosing this lamp and sampling this ray, which meets it at this distance; `lamps`
+// is the total_weight at its origin.
+float pdf_light(int index, Ray ray, float distance, float lamps) {
+    if (!is_sampled(index, ray)) return 0.0;
+    precise Light light = light_at(index);
+    if (is_of_sphere(light)) {
+        precise Sphere sphere = sphere_at(light.shape);
+        precise float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
+        precise float pdf = choice_pdf(index, ray, lamps) / (2.0 * PI * one_minus_cos);
+        return pdf;
+    }
+    precise float pdf = choice_pdf(index, ray, lamps) * pdf_quad(quad_of(light), ray, distance);
+    return pdf;
+}
+
+LightSample no_light_sample(Ray ray) {
+    return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0);
+}
+
+LightSample sample_sphere(Ray ray, int index, int shape, vec2 u, float lamps) {
+    precise Sphere sphere = sphere_at(shape);
+    precise vec3 to_center = sphere.center - ray.origin;
+    precise float one_minus_cos = cone_of_sphere(to_center, sphere.radius);
+    if (one_minus_cos == 0.0 || shape == ray.leaves) return no_light_sample(ray);
+    precise vec3 local = sample_cone(one_minus_cos, u);
+    precise vec3 direction = normalized(frame_around(normalized(to_center)) * local);
+    ray.direction = direction;
+    precise float distance = sphere_distance(ray, sphere, shape);
+    if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
+    precise Material lamp = material_at(sphere.material);
+    precise float pdf = pdf_light(index, ray, distance, lamps);
+    return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
+}
+
+LightSample sample_quad(Ray ray, int index, int shape, vec2 u, float lamps) {
+    precise Quad quad = quad_at(shape - sphere_count() - plane_count());
+    precise vec2 share = u;
+    if (!QUADS_BY_AREA) share = sample_strips(quad, view_strips(quad, ray.origin), u);
+    precise vec3 to_point = quad.corner - ray.origin + share.x * quad.edge_u + share.y * quad.edge_v;
+    precise float distance = length(to_point);
+    if (distance == 0.0) return no_light_sample(ray);
+    precise vec3 direction = to_point / distance;
+    ray.direction = direction;
+    precise Material lamp = material_at(quad.material);
+    precise float pdf = pdf_light(index, ray, distance, lamps);
+    return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
+}
+
+// From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.
+LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
+    precise vec3 choice = vec3(0.0);
+    if (MANY_LIGHTS) choice.yz = next_2d(rng);
+    if (CLUSTERS > 1) choice.x = next_1d(rng);
+    precise vec2 u = next_2d(rng);
+    int index = choose_light(ray, lamps, choice);
+    int shape = light_at(index).shape;
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
+        return sample_sphere(ray, index, shape, u, lamps);
+    }
+    return sample_quad(ray, index, shape, u, lamps);
+}

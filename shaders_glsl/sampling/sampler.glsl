@@ -1,0 +1,63 @@
+// Uniform numbers for one sample of one pixel. The seed is what the thesis keeps in a texture of
+// the frame's size and refreshes every frame; here it is hashed from its place. The dimension
+// counts the numbers drawn.
+//
+// Independent numbers, or, where BLOCK is above 1, the first 16 points of Sobol's sequence, with
+// a scramble of its own for each block of 16 samples (sampling/sobol.glsl).
+
+const uint STEP = 0x9E3779B9u;  // from one dimension to the next
+
+struct Sampler {
+    uint seed;
+    uint dimension;
+    uint block;  // seed of the block
+    uint point;  // number of the sample in it
+};
+
+// Pixel, sample and seed are hashed together: `hash(pixel) + sample` would give neighbours
+// the same sequence shifted by one.
+uint pixel_seed(ivec2 pixel, int sample_index, uint seed) {
+    uint frame = pcg_hash(uint(sample_index) + pcg_hash(seed));
+    return pcg_hash(uint(pixel.x) + pcg_hash(uint(pixel.y) + frame));
+}
+
+Sampler make_sampler(uint seed) {
+    return Sampler(seed, 0u, 0u, 0u);
+}
+
+// The sampler of the sample `index`, from 0, of a pixel.
+Sampler sampler_at(ivec2 pixel, int index, uint seed) {
+    precise Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
+    if (BLOCK > 1) {
+        rng.block = pixel_seed(pixel, index / BLOCK, ~seed);  // no sample's seed
+        rng.point = uint(index % BLOCK);
+    }
+    return rng;
+}
+
+float next_independent(precise inout Sampler self) {
+    self.dimension += STEP;
+    return unit_float(pcg_hash(self.seed ^ self.dimension));
+}
+
+// Two draws in turn share one shuffled point of four dimensions.
+vec2 next_sobol(precise inout Sampler self) {
+    self.dimension += STEP;
+    bool last = (self.dimension & 1u) == 0u;  // STEP is odd: every second draw
+    uint first = last ? self.dimension - STEP : self.dimension;
+    uint index = owen_scramble(self.point, pcg_hash(self.block ^ first));
+    uvec2 cell = sobol_cell(index, last, pcg_hash(~self.block ^ self.dimension));
+    return sobol_place(cell, pcg_hash(self.seed ^ self.dimension));
+}
+
+float next_1d(precise inout Sampler self) {
+    if (BLOCK > 1) return next_sobol(self).x;
+    return next_independent(self);
+}
+
+vec2 next_2d(precise inout Sampler self) {
+    if (BLOCK > 1) return next_sobol(self);
+    precise float x = next_independent(self);
+    precise float y = next_independent(self);
+    return vec2(x, y);
+}

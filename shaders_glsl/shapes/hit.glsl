@@ -1,0 +1,28 @@
+// What a ray meets.
+
+const float FAR = 3.402823466e38;
+
+struct Hit {
+    float distance;
+    int shape;
+};
+
+struct Surface {
+    vec3 position;
+    vec3 normal;   // unit; outward on a sphere, else the shape's own
+    int shape;
+    int material;
+    int light;
+};
+
+// Some drivers end loops early, silently (glrt/gpu/driver_checks.py); see add_samples.
+bool loop_was_cut = false;
+
+void note_end(int reached, int end) {
+    if (reached < end) loop_was_cut = true;
+}
+
+// Where no kind of shape was compiled in: nothing asks for it.
+Surface no_surface() {
+    return Surface(vec3(0.0), vec3(0.0), NO_SHAPE, 0, NO_LIGHT);
+}

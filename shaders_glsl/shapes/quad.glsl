@@ -1,0 +1,30 @@
+// Rays against parallelograms.
+
+float quad_distance(Ray ray, Quad quad) {
+    precise float t = plane_distance(ray, quad.corner, quad.normal);
+    precise vec3 p = ray.origin + t * ray.direction - quad.corner;
+    precise float u = dot(quad.dual_u, p);
+    precise float v = dot(quad.dual_v, p);
+    bool inside = u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0;
+    return inside ? t : 0.0;
+}
+
+Hit find_quad(Ray ray, Hit hit, int ignored, bool any) {
+    int i = 0;
+    for (; i < quad_count(); ++i) {
+        int shape = first_quad() + i;
+        precise float t = quad_distance(ray, quad_at(i));
+        if (t > 0.0 && t < hit.distance && shape != ray.leaves && shape != ignored) {
+            hit = Hit(t, shape);
+            if (any) return hit;
+        }
+    }
+    note_end(i, quad_count());
+    return hit;
+}
+
+Surface quad_surface(vec3 p, int shape) {
+    precise Quad quad = quad_at(shape - first_quad());
+    precise vec3 position = p - dot(p - quad.corner, quad.normal) * quad.normal;
+    return Surface(position, quad.normal, shape, quad.material, quad.light);
+}

@@ -1,0 +1,45 @@
+// Rays against spheres. A sphere is hit again by a ray that leaves it only from inside, at the far end
+// of its chord.
+
+// The distance along the ray, not above 0 for a miss. The form of Haines et al. ("Precision
+// Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019): the discriminant keeps the
+// digits of r^2 from afar, and neither root is a difference of near equals.
+float sphere_distance(Ray ray, Sphere sphere, int shape) {
+    precise vec3 to_center = sphere.center - ray.origin;
+    precise float along = dot(to_center, ray.direction);
+    precise vec3 beside = to_center - along * ray.direction;
+    precise float r2 = sphere.radius * sphere.radius;
+    precise float discriminant = r2 - dot(beside, beside);
+    if (shape == ray.leaves) {
+        precise float chord = 2.0 * along;  // twice the way to its middle: along the rim, roots are all noise
+        return ray.inward ? chord : 0.0;
+    }
+    if (discriminant <= 0.0) return 0.0;
+    precise float half_chord = sqrt(discriminant);
+    precise float q = along >= 0.0 ? along + half_chord : along - half_chord;
+    precise float c = dot(to_center, to_center) - r2;
+    precise float t = c / q;
+    return t > 0.0 ? t : q;
+}
+
+// The nearest sphere nearer than hit.distance, apart from the shape `ignored`; with `any`, the first
+// that is found.
+Hit find_sphere(Ray ray, Hit hit, int ignored, bool any) {
+    int i = 0;
+    for (; i < sphere_count(); ++i) {
+        precise float t = sphere_distance(ray, sphere_at(i), i);
+        if (t > 0.0 && t < hit.distance && i != ignored) {
+            hit = Hit(t, i);
+            if (any) return hit;
+        }
+    }
+    note_end(i, sphere_count());
+    return hit;
+}
+
+Surface sphere_surface(vec3 p, int shape) {
+    precise Sphere sphere = sphere_at(shape);
+    precise vec3 normal = normalized(p - sphere.center);
+    precise vec3 position = sphere.center + sphere.radius * normal;
+    return Surface(position, normal, shape, sphere.material, sphere.light);
+}

@@ -1,0 +1,73 @@
+// Rays against the tree over the spheres (glrt/accel/sphere_nodes.py). Its nodes lie in depth-first order and
+// say where to go on when a ray misses them, so a ray needs no stack.
+//
+// The picture is that of the loop over all spheres, bit for bit: a box only says what may be left
+// out, and it is wide enough for the rounding of sphere_distance and of its own test.
+
+// How far the origin of a ray is taken to lie off, relative to its largest coordinate or that of the
+// grid's corner: 64 times the rounding of a float. Boxes are as wide for the rounding of their own
+// corners.
+const float SLACK = 3.814697265625e-6;
+
+// A ray among the cells of the grid.
+struct Slab {
+    vec3 above;    // the origin, moved up and down by its slack
+    vec3 below;
+    vec3 inverse;  // of the direction, finite: 0 times it is 0
+};
+
+// `grid`: its corner, and the edge of a cell, a power of two.
+Slab slab_of(Ray ray, vec4 grid) {
+    precise vec3 size = max(abs(ray.origin), abs(grid.xyz));
+    precise float slack = SLACK * max(size.x, max(size.y, size.z));
+    precise float cells = 1.0 / grid.w;  // compilers compute what follows at every node
+    precise vec3 above = (ray.origin + slack - grid.xyz) * cells;
+    precise vec3 below = (ray.origin - slack - grid.xyz) * cells;
+    precise vec3 inverse = clamp(grid.w / ray.direction, vec3(-FAR), vec3(FAR));
+    return Slab(above, below, inverse);
+}
+
+// As min and max, which look for NaN on llvmpipe: three instructions there, and one for these.
+float lesser(float a, float b) { return a < b ? a : b; }
+float larger(float a, float b) { return a > b ? a : b; }
+
+// Whether the ray may meet the box of a node before `limit`.
+bool meets_box(Slab slab, uvec3 box, float limit) {
+    precise vec3 lower = vec3(ivec3(box & 0xFFFFu));
+    precise vec3 upper = vec3(ivec3(box >> 16u));
+    precise vec3 a = (lower - slab.above) * slab.inverse;
+    precise vec3 b = (upper - slab.below) * slab.inverse;
+    precise vec3 first = vec3(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z));
+    precise vec3 last = vec3(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z));
+    precise float enters = larger(larger(first.x, first.y), larger(first.z, 0.0));
+    precise float leaves = lesser(lesser(last.x, last.y), lesser(last.z, limit));
+    return enters <= leaves;
+}
+
+// Without its material, which is that of sphere_at.
+Sphere sphere_of(Node node) {
+    precise vec4 place = uintBitsToFloat(node.sphere);
+    return Sphere(place.xyz, place.w, 0, NO_LIGHT);
+}
+
+// The nearest sphere nearer than hit.distance, as find_hit has it. The box is looked at first: that
+// the sphere is then hit nearer saves less than waiting for it costs.
+Hit find_sphere_by_tree(Ray ray, Hit hit, int ignored, bool any) {
+    precise Slab slab = slab_of(ray, uintBitsToFloat(node_at(0).sphere));
+    int end = node_count();  // read once
+    int place = 1;
+    while (place < end) {
+        precise Node node = node_at(place);
+        int below = int(node.box.w >> 16u);
+        int shape = int(node.box.w & 0xFFFFu);
+        place += meets_box(slab, node.box.xyz, hit.distance) ? 1 : 1 + below;
+        precise float t = sphere_distance(ray, sphere_of(node), shape);
+        bool is_first = t == hit.distance && shape < hit.shape;
+        if (t > 0.0 && (t < hit.distance || is_first) && shape != ignored) {
+            hit = Hit(t, shape);
+            if (any) return hit;
+        }
+    }
+    note_end(place, end);
+    return hit;
+}

@@ -1,0 +1,30 @@
+// What changes from frame to frame: the camera, the background, counts, and the part of a dispatch.
+
+struct Camera {
+    vec3 right;     // unit
+    float tan_x;    // half the width of the image plane at distance 1
+    vec3 up;        // unit
+    float tan_y;
+    vec3 forward;   // unit
+    float lens_radius;
+    float tan_lens; // lens radius over focus distance
+};
+
+struct Frame {
+    Camera camera;
+    vec3 background_bottom;  // radiance from below and from above
+    int bounces;             // scattering events on a path
+    vec3 background_top;
+    uint seed;
+    ivec2 size;              // of the full frame, pixels
+    ivec2 origin;            // of the crop in it
+    int first_sample;        // how many samples each pixel has
+    int sample_count;        // how many this dispatch adds
+    int sphere_count;
+    int plane_count;
+    int quad_count;
+    int light_count;
+    int first_tile;         // of this dispatch: see tiles.glsl
+    int tile_stride;
+    int node_count;
+};

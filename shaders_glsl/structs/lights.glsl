@@ -1,0 +1,24 @@
+// What light sampling chooses among.
+
+const int NO_LIGHT = -1;
+const int SEVERAL = -2;  // lamps, so no shape
+
+const int PARTS = 8;  // of a cluster, among many lamps
+
+struct Light {
+    int shape;
+    float share;  // of the flux of its part
+    float keep;   // alias method: this light with probability `keep`, else its alias
+    int alias;    // its part, an index into the clusters, << 16 | its alias
+};
+
+// Lamps close together. Of few lamps each is a cluster; the clusters of many are followed by PARTS
+// of each, those of the first one first. A part holds the lamps from `first` on, or none.
+struct Cluster {
+    vec3 center;        // mean place of their flux
+    float reach2;       // mean squared distance of their points from the center
+    float probability;  // their share of all flux
+    int first;
+    int count;
+    int shape;          // of the lamp if it is one, else SEVERAL
+};

@@ -1,0 +1,14 @@
+// Materials. Colours are linear sRGB.
+
+const int MATTE = 0;       // Lambert's law; lamps are of this kind too
+const int METAL = 1;       // mirror or GGX
+const int DIELECTRIC = 2;  // smooth interface with Fresnel reflection
+
+struct Material {
+    vec3 color;      // albedo or reflectance
+    int kind;        // MATTE, METAL or DIELECTRIC
+    vec3 emission;   // radiance, light intensity included
+    float alpha;     // GGX roughness, the square of the scene file's; 0: mirror
+    float ior;       // inside over outside
+    int layer;       // of its light group, where light is kept by layers
+};

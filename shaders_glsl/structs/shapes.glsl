@@ -1,0 +1,38 @@
+// Shapes, numbered through: spheres, then planes, then quads. Positions are in scene units, relative
+// to the camera; axes are those of the world.
+
+const int NO_SHAPE = -1;
+
+struct Sphere {
+    vec3 center;
+    float radius;
+    int material;
+    int light;  // index into the lights, or NO_LIGHT
+};
+
+struct Plane {
+    vec3 point;
+    int material;
+    vec3 normal;  // unit
+};
+
+struct Quad {
+    vec3 corner;
+    int material;
+    vec3 normal;  // unit, along cross(edge_u, edge_v)
+    int light;
+    vec3 edge_u;  // the shorter edge
+    float width;  // across edge_v
+    vec3 edge_v;
+    float height;
+    vec3 dual_u;  // dot(dual_u, p - corner) is 0 at the corner, 1 at the end of edge_u
+    float shear;  // of edge_u, along edge_v
+    vec3 dual_v;
+};
+
+// Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
+// node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
+struct Node {
+    uvec4 sphere;  // bits of centre and radius; of the grid: its corner, and the edge of a cell
+    uvec4 box;     // along each axis its end << 16 | its start, in cells; nodes below << 16 | sphere
+};
