@@ -35,6 +35,10 @@ os.environ.setdefault(
     "MESA_SHADER_CACHE_DIR", os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
 )
 
+# Tests run in as many processes as there are cores: each keeps the processor's driver to its own.
+if "PYTEST_XDIST_WORKER" in os.environ:
+    os.environ.setdefault("LP_NUM_THREADS", "1")
+
 Array = np.ndarray[Any, Any]
 CallGlsl = Callable[..., Array]
 
