@@ -38,7 +38,7 @@ def one_paragraph(text: str) -> str:
 
 KILLED_IN_SAVE = """
 import os, signal, sys
-from tests.images import picture
+from tests.support.images import picture
 from glrt import files
 def die(*_):
     os.kill(os.getpid(), signal.SIGKILL)
@@ -229,9 +229,9 @@ def test_dispatches_that_take_too_long_become_smaller(
 # --- a cache that two share --------------------------------------------------------------------
 
 REFERENCE = """
-from glrt.context import open_context
-from glrt.lab.reference import reference_for
-from glrt.library import load
+from glrt.analysis.reference import reference_for
+from glrt.gpu.context import open_context
+from glrt.image.sources import load
 from glrt.settings import Settings
 for _ in range(3):
     reference_for(load("cornell"), Settings(width=8, height=8), open_context(), 0.9, 0.1)

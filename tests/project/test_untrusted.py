@@ -29,7 +29,7 @@ HELD_DOWN = f"""
 import resource, sys
 from pathlib import Path
 from glrt.errors import UsageError
-from glrt.library import load
+from glrt.image.sources import load
 resource.setrlimit(resource.RLIMIT_AS, ({MEMORY}, {MEMORY}))
 for source in sys.argv[1:]:
     try:
