@@ -35,7 +35,8 @@ os.environ.setdefault(
     "MESA_SHADER_CACHE_DIR", os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
 )
 
-# Tests run in as many processes as there are cores: each keeps the processor's driver to its own.
+# There is a process for each core then; and of small pictures, llvmpipe's threads take several
+# times the processor time that one takes.
 if "PYTEST_XDIST_WORKER" in os.environ:
     os.environ.setdefault("LP_NUM_THREADS", "1")
 
