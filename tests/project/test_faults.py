@@ -244,7 +244,7 @@ def test_two_processes_may_share_a_cache(
     """Both make the same reference at once; what is left is whole, and nothing beside it."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     both = [subprocess.Popen([sys.executable, "-c", REFERENCE]) for _ in "ab"]
-    assert [process.wait(timeout=120) for process in both] == [0, 0]
+    assert [process.wait(timeout=250) for process in both] == [0, 0]
     (kept,) = (tmp_path / "glrt" / "references").iterdir()
     before = kept.read_bytes()
     found = reference_for(load("cornell"), Settings(width=8, height=8), context, 0.9, 0.1)

@@ -42,7 +42,7 @@ for source in sys.argv[1:]:
 def refusals(*paths: Path) -> list[str]:
     """What `load` says of files, in one process that has little memory and time."""
     command = [sys.executable, "-c", HELD_DOWN, *map(str, paths)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stderr[-2000:]
     said = done.stdout.splitlines()
     assert len(said) == len(paths), "one paragraph each"
