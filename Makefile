@@ -7,6 +7,9 @@ SCENE ?= cornell
 
 BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
 IN_ENVIRONMENT = .venv/bin/python -m
+# A process a core; beyond 8, each would mostly wait for the one that has the longest test.
+# Who has no test left takes from who has most: modules are torn apart at a few places alone.
+IN_PROCESSES = -n auto --maxprocesses 8 --dist worksteal
 
 .PHONY: help render view test check gallery bench charts mutants clean
 
@@ -23,7 +26,7 @@ view: ## show scenes/cornell.toml in a window, or another one: make view SCENE=l
 
 test: ## run the tests, without the slow ones
 	@$(BOOTSTRAP) test
-	$(IN_ENVIRONMENT) pytest -m "not slow" $(ARGS)
+	$(IN_ENVIRONMENT) pytest -m "not slow" $(IN_PROCESSES) $(ARGS)
 
 check: ## look over the source: ruff and mypy
 	@$(BOOTSTRAP) check

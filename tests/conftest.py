@@ -33,6 +33,11 @@ os.environ.setdefault(
     "MESA_SHADER_CACHE_DIR", os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
 )
 
+# There is a process for each core then; and of small pictures, llvmpipe's threads take several
+# times the processor time that one takes.
+if "PYTEST_XDIST_WORKER" in os.environ:
+    os.environ.setdefault("LP_NUM_THREADS", "1")
+
 Array = np.ndarray[Any, Any]
 CallGlsl = Callable[..., Array]
 

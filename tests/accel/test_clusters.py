@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.accel import light_clusters
 from glrt.accel.light_clusters import grouped, light_probabilities
 from glrt.gpu.context import Context
 from glrt.methods import features
 from glrt.methods.features import MOST_NEAR
+from glrt.rendering import pack_lights
 from glrt.rendering.pack import pack_scene
 from glrt.rendering.pack_lights import PARTS, power
 from glrt.rendering.pack_shapes import in_order
@@ -252,9 +252,10 @@ def test_a_corridor_needs_a_third_of_the_samples(
     balls = [sphere([0, 0.8, -1 - step * i], 0.1 * step / 2, "lamp") for i in range(lamps_in_all)]
     corridor = scene_of([*walls, *balls], LAMPS)
     near = rendered(corridor, context, 64, bounces=2)
-    monkeypatch.setattr(features, "MOST_NEAR", 1)
+    for module in (features, pack_lights):
+        monkeypatch.setattr(module, "MOST_NEAR", 1)
     monkeypatch.setattr(
-        light_clusters, "grouped", lambda place, weight, most: [np.arange(len(weight))]
+        pack_lights, "grouped", lambda place, weight, most: [np.arange(len(weight))]
     )
     by_table = rendered(corridor, context, 64, bounces=2)
     assert near.error is not None

@@ -148,7 +148,7 @@ def test_interruption_keeps_the_rounds_that_are_done(
     while not rounds.exists() and process.poll() is None:
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    _, told = process.communicate(timeout=60)
+    _, told = process.communicate(timeout=250)
     assert process.returncode == 130
     assert "the same command goes on from there" in told
     assert json.loads(rounds.read_text())["rounds"]

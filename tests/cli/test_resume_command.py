@@ -14,7 +14,7 @@ from glrt.cli.commands import parse
 from glrt.cli.request import order
 from glrt.image.image import Image
 from tests.support.images import picture, same_bits
-from tests.support.processes import glrt, start
+from tests.support.processes import glrt, start_render
 
 SMALL = ("--width", "24", "--height", "16")
 
@@ -76,10 +76,9 @@ def test_time_adds_a_sample_at_least(folder: Path, tmp_path: Path) -> None:
 
 def test_an_interrupted_render_goes_on_to_what_was_asked(tmp_path: Path) -> None:
     name = tmp_path / "a.exr"
-    process = start("render", "cornell", "-o", name, *SMALL, "--samples", "1000000")
-    time.sleep(3)
+    process = start_render("cornell", "-o", name, *SMALL, "--samples", "1000000")
     process.send_signal(signal.SIGINT)
-    _, stderr = process.communicate(timeout=60)
+    _, stderr = process.communicate(timeout=250)
     assert process.returncode == 130, stderr
     assert 0 < Image.load(name).samples < 1_000_000
     words = ["render", "--resume", str(name), "-o", str(name)]

@@ -42,7 +42,7 @@ def interrupted_in(
     while not mark.exists() and process.poll() is None:
         time.sleep(0.01)
     process.send_signal(number)
-    _, stderr = process.communicate(timeout=60)
+    _, stderr = process.communicate(timeout=250)
     return process.returncode, stderr
 
 

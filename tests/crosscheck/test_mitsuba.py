@@ -167,7 +167,7 @@ def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:
     file = tmp_path / "sky.exr"
     line = "sky --width 24 --height 16 --samples 16 --bounces 2 --variant scalar --json -o"
     command = [sys.executable, "-m", "tests.mitsuba", *line.split(), str(file)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stderr
     image = Image.load(file)
     assert image.radiance.shape == (16, 24, 3)

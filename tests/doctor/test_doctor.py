@@ -91,8 +91,11 @@ def test_a_driver_that_crashes_is_a_finding() -> None:
 
 
 def test_a_driver_that_hangs_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(doctor, "PATIENCE", 1)
-    examined = dying([OPENED], "time.sleep(60)")
+    for patience in (1, 10, 60):  # seconds, in which a busy machine must start Python
+        monkeypatch.setattr(doctor, "PATIENCE", patience)
+        examined = dying([OPENED], "time.sleep(100)")
+        if examined.opens:
+            break
     assert examined.opens
     assert examined.end == "no answer; it was stopped"
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from glrt.errors import SceneError, UsageError
-from glrt.image import sources
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe
+from glrt.scene import catalog
 from glrt.scene.catalog import scene_names
 from glrt.scene.toml import parse_scene
 from glrt.settings import Settings
@@ -34,7 +34,7 @@ def scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (folder / "notes.txt").write_text("not a scene")
     (tmp_path / "here").mkdir()
     monkeypatch.chdir(tmp_path / "here")
-    monkeypatch.setattr(sources, "folder", lambda _: folder)
+    monkeypatch.setattr(catalog, "folder", lambda _: folder)
     return folder
 
 

@@ -87,7 +87,7 @@ import resource, sys
 from pathlib import Path
 import numpy as np
 from glrt.errors import RenderError
-from glrt.image import Image
+from glrt.image.image import Image
 pixels = np.random.default_rng(1).random((64, 64, 3), np.float32)
 image = Image(pixels, pixels, 1)
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]),) * 2)

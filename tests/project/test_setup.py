@@ -256,3 +256,11 @@ def test_the_slow_share_is_a_fraction_up_to_one() -> None:
     for text in ("9/8", "1/0", "half", "-1/8"):
         with pytest.raises(ValueError, match="share"):
             slow_share.share(text)
+
+
+def test_the_limits_of_ci_fit_into_what_it_grants() -> None:
+    text = (ROOT / ".ci" / "run").read_text()
+    limits = [int(seconds) for seconds in re.findall(r"^within (\d+)", text, re.MULTILINE)]
+    (grace,) = re.findall(r"--kill-after=(\d+)", text)
+    assert len(limits) == 4
+    assert sum(limits) + len(limits) * int(grace) <= 5400

@@ -29,7 +29,7 @@ HELD_DOWN = f"""
 import resource, sys
 from pathlib import Path
 from glrt.errors import UsageError
-from glrt.library import load
+from glrt.image.sources import load
 resource.setrlimit(resource.RLIMIT_AS, ({MEMORY}, {MEMORY}))
 for source in sys.argv[1:]:
     try:
@@ -42,7 +42,7 @@ for source in sys.argv[1:]:
 def refusals(*paths: Path) -> list[str]:
     """What `load` says of files, in one process that has little memory and time."""
     command = [sys.executable, "-c", HELD_DOWN, *map(str, paths)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stderr[-2000:]
     said = done.stdout.splitlines()
     assert len(said) == len(paths), "one paragraph each"

@@ -49,8 +49,8 @@ def frames(
     return all_frames[:-1]
 
 
-@pytest.mark.parametrize("tiles", [1, 7, 15, 16, 17, 64, 4096, 100_000])
-@pytest.mark.parametrize("cost", [1e-8, 1e-5, 1e-3])
+@pytest.mark.parametrize("tiles", [1, 15, 16, 17, 4096, 100_000])
+@pytest.mark.parametrize("cost", [1e-8, 1e-3])
 def test_a_frame_covers_every_block_once_with_the_same_samples(tiles: int, cost: float) -> None:
     for frame in frames(Schedule(tiles, 50), device(cost), 60):
         portions = [portion for portion, _ in frame]
@@ -63,7 +63,7 @@ def test_a_frame_covers_every_block_once_with_the_same_samples(tiles: int, cost:
 
 @pytest.mark.parametrize("limit", [HEADLESS.limit, INTERACTIVE.limit])
 @pytest.mark.parametrize("tiles", [1, 64, 4096, 100_000])
-@pytest.mark.parametrize("cost", [1e-7, 1e-6, 1e-5, 1e-4, 2e-3])
+@pytest.mark.parametrize("cost", [1e-7, 1e-5, 2e-3])
 def test_no_dispatch_exceeds_its_limit_though_tiles_differ(
     limit: float, tiles: int, cost: float
 ) -> None:
@@ -156,11 +156,11 @@ def test_a_frame_of_more_samples_than_are_left_is_dropped() -> None:
     assert schedule.begun == 0
 
 
-@pytest.mark.parametrize("tiles", [*range(1, 130), 4096, 65_536, 262_144, 4_194_304])
-def test_tiles_in_steps_of_the_stride_are_all_blocks(tiles: int) -> None:
-    stride = stride_of(tiles)
-    assert math.gcd(stride, tiles) == 1
-    assert (tiles - 1) * stride < 2**32, "the kernel has 32 bits"
+def test_tiles_in_steps_of_the_stride_are_all_blocks() -> None:
+    for tiles in (1, 2, 3, 128, 129, 262_144, 4_194_304):
+        stride = stride_of(tiles)
+        assert math.gcd(stride, tiles) == 1
+        assert (tiles - 1) * stride < 2**32, "the kernel has 32 bits"
 
 
 def test_tiles_of_a_dispatch_lie_all_over_the_picture() -> None:

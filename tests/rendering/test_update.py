@@ -11,7 +11,7 @@ from glrt.gpu.context import Context
 from glrt.rendering import kernel_switch, upload
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.scene import Scene
-from glrt.settings import Cost, Settings
+from glrt.settings import Cost, Settings, cost_of
 from tests.support.builders import glass, lamp, quad, sphere
 from tests.support.mixed_scene import EYE, MATERIALS, OBJECTS, everything
 from tests.support.renders import rendered, rendering, same
@@ -71,8 +71,7 @@ CHANGES: dict[str, Any] = {
 @pytest.mark.parametrize("setting", CHANGES)
 def test_change_of_a_setting_costs_what_it_declares(context: Context, setting: str) -> None:
     order = list(Cost)
-    extra: Any = Settings.model_fields[setting].json_schema_extra
-    declared = Cost(extra["cost"])
+    declared = cost_of(setting)
     change = {setting: CHANGES[setting]}
     alone = rendered(everything(), context, 3)
     with rendering(everything(), context) as renderer:

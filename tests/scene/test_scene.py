@@ -216,10 +216,14 @@ def test_defaults_are_written_out_for_recipes() -> None:
 
 
 def test_reading_hundreds_of_objects_takes_milliseconds() -> None:
+    """Of the processor, and the least of several: whatever else the machine does."""
     objects = [MINIMAL["objects"][0]] * 480
-    start = time.perf_counter()
-    parse_scene(minimal(objects=objects), "test")
-    assert time.perf_counter() - start < 0.1
+    taken = []
+    for _ in range(5):
+        start = time.process_time()
+        parse_scene(minimal(objects=objects), "test")
+        taken.append(time.process_time() - start)
+    assert min(taken) < 0.1, taken
 
 
 def test_every_key_is_described_in_the_schema() -> None:

@@ -12,9 +12,12 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike, NDArray
 
+from tests.support.workers import tell, told_by
+
 ALPHA = 1e-7  # of one verdict
 LIMIT = 1e-4  # of a run of all tests that are not slow, or of all slow ones
 SIGMAS = NormalDist().inv_cdf(1 - ALPHA / 2)  # 5.33
+CHANCE = "chance of a false alarm"  # of what one process booked
 FEWEST = 20.0  # expected counts in a cell: fewer are not normal enough for small chances
 
 Floats = NDArray[np.float64]
@@ -80,14 +83,20 @@ def chi_square_tail(statistic: float, degrees: int) -> float:
 @pytest.hookimpl(wrapper=True)
 def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
     """A run that would alarm too often by chance is no proof."""
+    tell(session.config, CHANCE, sum(_booked))
     yield
     if sum(_booked) > LIMIT and session.exitstatus == pytest.ExitCode.OK:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: object) -> None:
+    """A worker of pytest-xdist has ended: the limit is that of the whole run."""
+    _booked.append(float(told_by(node, CHANCE, 0.0)))
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    if _booked:
-        chance = sum(_booked)
+    if chance := sum(_booked):
         text = f"chance of a false alarm, were the seeds drawn anew: {chance:.1e}"
         excess = f", which is above {LIMIT:g}" if chance > LIMIT else ""
         terminalreporter.write_line(text + excess)

@@ -1,4 +1,4 @@
-"""Whether a verdict on what suffices is right: by renders and times that it knows nothing of."""
+"""Judges the method that `glrt inspect --error` chose: by renders of it and of cheaper ones."""
 
 import time
 from collections.abc import Callable, Iterator

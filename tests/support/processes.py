@@ -15,9 +15,37 @@ def glrt(
         capture_output=True,
         text=True,
         cwd=cwd,
-        timeout=120,
+        timeout=250,
         env={**os.environ, **environment},
     )
+
+
+AT_WORK = """
+import sys
+from glrt.cli.main import main
+from glrt.rendering.renderer import Renderer
+work = Renderer._work
+def told(renderer, *arguments):
+    work(renderer, *arguments)
+    if renderer.samples:
+        print("at work", flush=True)
+        Renderer._work = work
+Renderer._work = told
+sys.exit(main())
+"""
+
+
+def start_render(*arguments: str | Path) -> "subprocess.Popen[str]":
+    """Start `glrt render`, and go on when its picture has a sample."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", AT_WORK, "render", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout
+    process.stdout.readline()  # "" if it ends before
+    return process
 
 
 def start(*arguments: str | Path) -> "subprocess.Popen[str]":

@@ -9,10 +9,14 @@ import re
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from tests.support.workers import tell, told_by
+
 DRAWN = pytest.StashKey[str]()
+SHARE = "slow share"  # by this name a worker of pytest-xdist tells what was drawn
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -60,9 +64,17 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 @pytest.hookimpl(wrapper=True)
 def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
     """A share without a test is a share all the same."""
+    tell(session.config, SHARE, session.config.stash.get(DRAWN, ""))
     yield
     if DRAWN in session.config.stash and session.exitstatus == pytest.ExitCode.NO_TESTS_COLLECTED:
         session.exitstatus = pytest.ExitCode.OK
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """A worker of pytest-xdist has ended: all of them draw the same."""
+    if drawn := told_by(node, SHARE, ""):
+        node.config.stash[DRAWN] = drawn
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -1,4 +1,4 @@
-"""Whether values differ from their truths by more than chance."""
+"""z-tests: whether means differ from their truths by more than their standard errors explain."""
 
 import math
 from dataclasses import dataclass

@@ -68,7 +68,7 @@ def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
         assert app.dialogs.is_open
         (folder / "new").write_text(f"{file}\n")
         (folder / "new").rename(answer)
-        hand.until(lambda: not app.dialogs.is_open, frames=1000)
+        hand.until(lambda: not app.dialogs.is_open)
 
     try:
         choose("...##scene file", folder / "cornell.toml")

@@ -38,8 +38,8 @@ def keys_are_chosen_in_the_panel(hand: Hand) -> None:
     drag(hand, 60, 20)
     press(hand, imgui.Key.h)
     assert hand.session.scene.camera == start
-    hand.until(app.preferences_file.exists, frames=1000)
-    hand.until(lambda: "ctrl+f5" in app.preferences_file.read_text(), frames=1000)
+    hand.until(app.preferences_file.exists)
+    hand.until(lambda: "ctrl+f5" in app.preferences_file.read_text())
     ctx.item_click("keys/W##forward 0")
     press(hand, imgui.Key.h)
     assert "H already means" in hand.session.problem

@@ -144,7 +144,7 @@ def a_black_picture_has_figures(hand: Hand) -> None:
     for intensity in (0.0, LARGEST / 100):
         relit = with_lights(hand.session.scene, {"lamp": intensity})
         hand.there(partial(hand.session.edit, relit))
-        hand.until(lambda: len(hand.window.app.progress.looks) > 1, frames=2000)
+        hand.until(lambda: len(hand.window.app.progress.looks) > 1)
         goes_on(hand)
 
 

@@ -72,7 +72,7 @@ def preferences_are_kept_while_the_window_is_open(hand: Hand) -> None:
     file.unlink(missing_ok=True)
     hand.ctx.set_ref("Controls")
     hand.ctx.combo_click("mode##preference/fly")
-    hand.until(lambda: kept(file).get("mode") == "fly", frames=1000)
+    hand.until(lambda: kept(file).get("mode") == "fly")
     before = hand.session.scene.camera
     drag(hand, 60, 0)
     assert hand.session.scene.camera.position == before.position, "fly: it turns where it stands"

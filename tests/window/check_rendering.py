@@ -38,11 +38,11 @@ def pause_keeps_the_samples_and_restart_drops_them(hand: Hand) -> None:
     hand.ctx.yield_(5)
     assert hand.session.samples == samples > 0
     hand.ctx.item_click("//Controls/restart")
+    hand.until(lambda: hand.session.samples == 1)
     hand.ctx.yield_(3)
     assert hand.session.samples == 1, "a paused picture shows its first sample"
     hand.ctx.item_click("//Controls/go on")
-    hand.ctx.yield_(3)
-    assert hand.session.samples > 1
+    hand.until(lambda: hand.session.samples > 1)
 
 
 @check
@@ -58,7 +58,7 @@ def samples_end_at_the_target(hand: Hand) -> None:
 @check
 def the_figures_tell_error_and_forecast(hand: Hand) -> None:
     app = hand.window.app
-    hand.until(lambda: len(app.progress.looks) > 2, frames=2000)
+    hand.until(lambda: len(app.progress.looks) > 2)
     told = "\n".join(figures(app))
     assert "million samples/s" in told
     assert "ms a frame" in told

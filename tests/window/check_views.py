@@ -22,7 +22,7 @@ def views(hand: Hand, *names: str) -> list[Any]:
 @check
 def views_cost_no_sample_and_have_a_legend(hand: Hand) -> None:
     show = hand.window.app.show
-    hand.until(lambda: show.mean is not None and hand.session.samples >= 32, frames=2000)
+    hand.until(lambda: show.mean is not None and hand.session.samples >= 32)
     hand.session.paused = True
     restarts, samples = hand.session.restarts, hand.session.samples
     left, top, _, height = hand.window.app.rectangle

@@ -49,10 +49,10 @@ def a_shader_that_is_broken_on_disk_is_told_and_the_old_kernel_goes_on(hand: Han
         file.unlink()
         hand.until(lambda: (0, 0) in hand.window.app.shaders._known)  # it is seen to be gone
         file.write_text(whole)
-        hand.until(lambda: session.problem == "", frames=1000)
+        hand.until(lambda: session.problem == "")
         hand.settle()
     assert hand.pixels()[..., :3].mean() > 10
 
 
 def until_told(hand: Hand, problem: str) -> None:
-    hand.until(lambda: problem in hand.session.problem, frames=1000)
+    hand.until(lambda: problem in hand.session.problem)

@@ -4,6 +4,7 @@ The engine runs a check on a thread of its own, in turns with the window's frame
 the window's thread: `Hand.there` runs something on that.
 """
 
+import time
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -21,6 +22,7 @@ Result = TypeVar("Result")
 Check = Callable[["Hand"], None]
 
 CHECKS: dict[str, Check] = {}
+WAIT = 120.0  # seconds for what ends by itself, on a machine that has more to do
 DRAWN = 8  # frames, of which one is drawn: pixels take most of a frame's time
 SMALL: dict[str, Any] = {"width": 40, "height": 40, "samples": 1 << 16}
 
@@ -64,13 +66,15 @@ class Hand:
         self.until(lambda: bool(results))
         return results[0]
 
-    def until(self, condition: Callable[[], bool], frames: int = 400) -> None:
-        """Let frames pass until the condition holds."""
-        for _ in range(frames):
-            if condition():
-                return
+    def until(self, condition: Callable[[], bool], frames: int = 0) -> None:
+        """Let frames pass until the condition holds: so many at most, or as many as take WAIT."""
+        deadline, seen = time.monotonic() + WAIT, 0
+        while not condition():
+            problem = f"problem: {self.session.problem!r}"
+            assert not frames or seen < frames, f"not within {frames} frames; {problem}"
+            assert frames or time.monotonic() < deadline, f"not within {WAIT} s; {problem}"
             self.ctx.yield_()
-        raise AssertionError(f"not within {frames} frames; problem: {self.session.problem!r}")
+            seen += 1
 
     def settle(self) -> None:
         """Let the window take in all edits, and get samples."""

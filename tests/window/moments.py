@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable
+from itertools import count
 from typing import Any
 
 from imgui_bundle import imgui
@@ -96,7 +97,7 @@ MOMENTS: dict[str, Act] = {
 
 def run(moment: str) -> int:
     """The window, with the moment in it."""
-    act, frames = MOMENTS[moment], iter(range(10_000))
+    act, frames = MOMENTS[moment], count()
     opened, made = Window._open, Window._params
 
     def open_and_act(window: Window) -> None:

@@ -46,7 +46,7 @@ class CheckedWindow:
         if process is None:
             return 0
         try:
-            process.communicate(timeout=60)
+            process.communicate(timeout=250)
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
