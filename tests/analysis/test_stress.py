@@ -99,9 +99,9 @@ def test_a_broken_guarantee_ends_with_code_1_and_its_place(
     stable, naive = "s2 / (1.0 + sqrt(1.0 - s2))", "1.0 - sqrt(1.0 - s2)"
     shaders = tmp_path / "shaders"
     shutil.copytree(folder("shaders_glsl"), shaders)
-    text = (shaders / "light.glsl").read_text()
+    text = (shaders / "lights/sampling.glsl").read_text()
     assert stable in text
-    (shaders / "light.glsl").write_text(text.replace(stable, naive))
+    (shaders / "lights/sampling.glsl").write_text(text.replace(stable, naive))
     monkeypatch.setattr(glsl, "folder", lambda _name: shaders)
     assert run("lamp", "distance", "-o", tmp_path, "--json") == 1
     told = json.loads(capsys.readouterr().out)

@@ -88,7 +88,7 @@ def test_contenders_take_turns_with_seeds_of_their_own() -> None:
 FLAT_AND_SLOW = """
 import numpy as np
 from glrt.image import Image
-from glrt.lab.peer import serve
+from bench.peer import serve
 
 def render(request):
     shape = request.height, request.width, 3

@@ -19,8 +19,8 @@ from tests.support.system_packages import needs_package
 DRAW = """
 import sys
 import numpy as np
-from glrt.context import open_context
-from glrt.library import load
+from glrt.gpu.context import open_context
+from glrt.image.sources import load
 from tests.mixture import everything
 from tests.renders import METHODS, rendered
 
@@ -109,9 +109,9 @@ def test_hidden_window_shows_the_same_picture(
 def test_egl_and_osmesa_take_turns_in_one_process(tmp_path: Path) -> None:
     needs_package(bool(find_library("OSMesa")), "libosmesa6")
     code = """
-from glrt.context import open_context
-from glrt.library import load
-from glrt.renderer import Renderer
+from glrt.gpu.context import open_context
+from glrt.image.sources import load
+from glrt.rendering.renderer import Renderer
 
 def rendered(context):
     return Renderer(load("cornell"), context=context, width=16, height=16)

@@ -8,11 +8,11 @@ import moderngl
 import numpy as np
 import pytest
 
-from glrt.gpu.glsl import read
+from glrt.gpu.glsl import expanded, read
 from glrt.gpu.program import TILE
 from glrt.gpu.structs import read_constants, read_structs, record
 
-SCENE = read("scene.glsl")
+SCENE = expanded("structs/scene.glsl")
 STRUCTS = read_structs(SCENE)
 AWKWARD = """
 struct Inner { vec3 a; uint b; vec2 c; };

@@ -13,7 +13,7 @@ from glrt.image.tonemap import BAND, CURVES, encode_srgb, expose, expose_and_enc
 from glrt.settings import ToneMap
 from tests.conftest import CallGlsl
 
-GLSL = read("tonemap.glsl")
+GLSL = read("passes/tonemap.glsl")
 every_tonemap = pytest.mark.parametrize("tonemap", get_args(ToneMap))
 
 FRAGMENT = """

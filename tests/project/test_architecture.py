@@ -7,6 +7,7 @@ from pathlib import Path
 from statistics import median
 
 import glrt
+from glrt.gpu.glsl import shader_files
 from glrt.resources import folder
 
 PACKAGE = Path(glrt.__file__).parent
@@ -21,11 +22,10 @@ ENTRIES = {
     "trace.comp",
     "trace.vert",
     "trace.frag",
-    "blocks.glsl",
     "display.frag",
     "display.vert",
-} | {"mix.frag", "false_colors.frag"}
-NOT_OF_A_PATH = {*ENTRIES, "tonemap.glsl"}
+} | {"weighting.frag", "false_colors.frag"}
+NOT_OF_A_PATH = {*ENTRIES, "passes/tonemap.glsl", "trace.glsl", "structs/scene.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
@@ -105,7 +105,8 @@ def uses(tree: ast.AST, library: str) -> bool:
 
 def glsl_files() -> dict[str, str]:
     """Shader files without their comments, line for line."""
-    return {path.name: bare(path.read_text()) for path in folder("shaders_glsl").iterdir()}
+    root = folder("shaders_glsl")
+    return {str(path.relative_to(root)): bare(path.read_text()) for path in shader_files()}
 
 
 def path_files() -> dict[str, str]:
@@ -187,17 +188,18 @@ def test_libraries_that_are_slow_to_import_wait_until_they_are_used() -> None:
 
 
 def test_files_are_short() -> None:
-    shaders = [path for path in folder("shaders_glsl").rglob("*") if path.is_file()]
     outside = [file for name in ("bench", "tools") for file in (ROOT / name).rglob("*.py")]
-    lengths = {str(f): len(f.read_text().splitlines()) for f in [*sources(), *outside, *shaders]}
+    lengths = {
+        str(f): len(f.read_text().splitlines()) for f in [*sources(), *outside, *shader_files()]
+    }
     assert {name: n for name, n in lengths.items() if n > MOST_LINES_OF_A_FILE} == {}
 
 
 def test_functions_fit_a_screen_and_most_are_shorter_than_ten_lines() -> None:
     python = [python_functions(file) for file in sources()]
     shaders = {name: functions(text) for name, text in glsl_files().items()}
-    assert shaders["warp.glsl"]["sample_disk"] == 6
-    assert shaders["sampler.glsl"]["make_sampler"] == 3
+    assert shaders["sampling/warp.glsl"]["sample_disk"] == 6
+    assert shaders["sampling/sampler.glsl"]["make_sampler"] == 3
     lengths = [found.values() for found in (*python, *shaders.values())]
     assert max(chain.from_iterable(lengths)) <= MOST_LINES_OF_A_FUNCTION
     assert median(chain.from_iterable(lengths)) < 10
@@ -240,7 +242,7 @@ def test_path_code_holds_no_preprocessor_switch() -> None:
 
 def test_random_numbers_are_drawn_from_the_sampler_alone() -> None:
     for name, text in path_files().items():
-        if name not in ("rng.glsl", "sobol.glsl", "sampler.glsl"):
+        if name.split("/")[0] != "sampling":
             assert re.findall(r"pcg_hash|unit_float|\bdimension\b", text) == [], name
             assert set(re.findall(r"next_\dd\(([^)]*)\)", text)) <= {"rng"}, name
 

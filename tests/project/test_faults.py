@@ -133,11 +133,13 @@ def test_a_kernel_that_the_driver_refuses_exits_4_with_file_and_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     read = glsl.read
-    broken = read("light.glsl") + "\nvec3 broken() { return nonsense; }\n"
-    monkeypatch.setattr(glsl, "read", lambda name: broken if name == "light.glsl" else read(name))
+    broken = read("lights/sampling.glsl") + "\nvec3 broken() { return nonsense; }\n"
+    monkeypatch.setattr(
+        glsl, "read", lambda name: broken if name == "lights/sampling.glsl" else read(name)
+    )
     assert main(["render", "sky", *SMALL, "-o", str(tmp_path / "a.png")]) == 4
     said = one_paragraph(capsys.readouterr().err)
-    assert f"light.glsl:{broken.count(chr(10))}" in said
+    assert f"lights/sampling.glsl:{broken.count(chr(10))}" in said
     assert "nonsense" in said
     assert not list(tmp_path.iterdir())
 

@@ -12,11 +12,13 @@ from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
+from glrt.gpu.struct_arrays import FILE
 from glrt.image.film_state import nothing_gathered
 from glrt.image.sources import load
 from glrt.methods.features import needs_of
 from glrt.rendering.film import Exposure, Extent, Film, standard_error
 from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.rendering.pipelines import scene_text, upload
 from glrt.settings import settings_for
 from tests.support.builders import lamp, scene_of, sphere
 from tests.support.numerics import Array
@@ -40,11 +42,11 @@ Step = Callable[[Film, int], None]
 def step(ctx: moderngl.Context) -> Iterator[Step]:
     """`step(film, samples)`: one dispatch of the kernel for ROOM, and the swap after it."""
     settings = settings_for(ROOM.render, sampler="independent")
-    kernel = Kernel(ctx, Source("trace.comp", needs_of(ROOM, settings).constants()))
     arrays = pack_scene(ROOM)
-    counts = {name: len(rows) for name, rows in arrays.items()}
-    data = {name: rows.tobytes() or bytes(rows.itemsize) for name, rows in arrays.items()}
-    buffers = {name: ctx.buffer(rows) for name, rows in {**data, "Lost": bytes(4)}.items()}
+    counts = {struct: len(rows) for struct, rows in arrays.items()}
+    texts = {FILE: scene_text(ctx, arrays, "generic")}
+    kernel = Kernel(ctx, Source("trace.comp", needs_of(ROOM, settings).constants(), texts=texts))
+    buffers = {**upload(ctx, arrays, "generic"), "Lost": ctx.buffer(bytes(4))}
 
     def dispatch(film: Film, samples: int) -> None:
         frame = pack_frame(ROOM, settings, counts, film.samples, samples)

@@ -14,7 +14,7 @@ from tests.support.builders import lamp, plane, quad, scene_of
 from tests.support.numerics import Array, dot, float32, unit_square
 from tests.support.renders import assert_mean, rendered, whole
 
-NEE = {"WEIGHT_BOTH": False}
+NEE = {"QUADS_BY_AREA": False}
 LAMPS: dict[str, list[list[float]]] = {  # edges
     "rectangle": [[1.3, 0, 0], [0, 0, 0.7]],
     "tube": [[0, 0, 9.0], [0.01, 0, 0]],

@@ -29,8 +29,7 @@ def object_buffer(scene: Scene) -> bytes:
     """Every shape in a row of one kind: spheres, planes, quads, as the kernel numbers them."""
     arrays = pack_scene(scene)
     return b"".join(
-        _objects(kind, arrays[f"{kind.capitalize()}s"], position)
-        for kind, position in _POSITIONS.items()
+        _objects(kind, arrays[kind.capitalize()], position) for kind, position in _POSITIONS.items()
     ) or bytes(struct("Object").itemsize)
 
 

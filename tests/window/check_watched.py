@@ -32,7 +32,7 @@ def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
 def a_shader_that_is_broken_on_disk_is_told_and_the_old_kernel_goes_on(hand: Hand) -> None:
     """The files are a copy: see tests/view/test_window.py."""
     session = hand.session
-    for name, word in (("path.glsl", "undeclared"), ("display.frag", "undeclared")):
+    for name, word in (("integrators/path.glsl", "undeclared"), ("display.frag", "undeclared")):
         file = folder("shaders_glsl") / name
         whole = file.read_text()
         number = whole.count("\n") + 1
