@@ -15,7 +15,7 @@ def compile_log(*stages: tuple[int, str]) -> str:
 
     Text that the driver refuses is an AssertionError with its message.
     """
-    gl = _library()
+    gl = library()
     program = gl.glCreateProgram()
     shaders = [_compile(gl, stage, text) for stage, text in stages]
     for shader, _ in shaders:
@@ -53,7 +53,7 @@ def _tell(gl: ctypes.CDLL, kind: str, name: int, status: int) -> str:
     return log
 
 
-def _library() -> ctypes.CDLL:
+def library() -> ctypes.CDLL:
     try:
         return ctypes.CDLL("libGL.so.1")
     except OSError:

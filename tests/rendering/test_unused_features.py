@@ -1,0 +1,120 @@
+"""A scene that does not use a feature gets the program that it got before there was one.
+
+The driver's program, as it gives it out: without the functions of a feature that the scene leaves
+out, it is the same to the byte, but for the hash of the source.
+"""
+
+import ctypes
+import re
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.gpu.context import Context
+from glrt.gpu.glsl import read
+from glrt.image.sources import load
+from glrt.rendering.pipelines import PLAIN, Variant
+from glrt.rendering.renderer import Renderer
+from tests.support.driver_log import library
+
+_FORMATS, _LENGTH = 0x87FE, 0x8741  # NUM_PROGRAM_BINARY_FORMATS, PROGRAM_BINARY_LENGTH
+HASH_BYTES = 32  # how far apart two places of one hash that differ may lie
+
+# A file of functions, a scene that leaves them out, and the settings with which it does.
+UNUSED: dict[str, tuple[str, dict[str, Any]]] = {
+    "bsdfs/dielectric.glsl": ("lens", {}),
+    "bsdfs/metal.glsl": ("lamps", {}),
+    "shapes/sphere_tree.glsl": ("cornell", {}),
+    "shapes/plane.glsl": ("weekend", {}),
+    "shapes/quad.glsl": ("weekend", {}),
+    "lights/quad_solid_angle.glsl": ("cornell", {}),
+    "lights/choice.glsl": ("weekend", {}),
+    "lights/sampling.glsl": ("cornell", {"method": "naive"}),
+    "film/layers.glsl": ("cornell", {}),
+    "sampling/sobol.glsl": ("lamps", {"sampler": "independent"}),
+}
+
+
+def emptied(glsl: str) -> str:
+    """A file whose functions return nothing in particular."""
+    head = r"^(\w+) (\w+\([^;{}]*\))\s*(?:\{[^\n]*\}$|\{.*?^\})"
+    text = re.sub(r"[ ]*//[^\n]*", "", glsl)
+
+    def stub(match: re.Match[str]) -> str:
+        kind, rest = match[1], match[2]
+        body = "" if kind == "void" else f"{kind} nothing; return nothing; "
+        return f"{kind} {rest} {{ {body}}}"
+
+    return re.sub(head, stub, text, flags=re.MULTILINE | re.DOTALL)
+
+
+def program_of(context: Context, scene: str, variant: Variant, **settings: Any) -> Any:
+    """What the driver made of a kernel, (n,) uint8."""
+    size = {"width": 32, "height": 32}
+    renderer = Renderer(
+        load(scene), context=context, tier="baked", variant=variant, **size, **settings
+    )
+    gl, length, kind = library(), ctypes.c_int(), ctypes.c_uint()
+    with context.gl:
+        number = renderer._tracer.turns.kernel._program.glo
+        gl.glGetProgramiv(number, _LENGTH, ctypes.byref(length))
+        data = ctypes.create_string_buffer(length.value)
+        gl.glGetProgramBinary(number, length, None, ctypes.byref(kind), data)
+    renderer.release()
+    return np.frombuffer(data.raw, np.uint8)
+
+
+@pytest.fixture(autouse=True)
+def binaries(context: Context) -> None:
+    """A driver that gives its programs out."""
+    count = ctypes.c_int()
+    with context.gl:
+        library().glGetIntegerv(_FORMATS, ctypes.byref(count))
+    if not context.is_software or not count.value:
+        pytest.skip("this driver gives out no programs, or none that could be compared")
+
+
+def commented(text: str) -> Variant:
+    return Variant(texts={"sampling/hash.glsl": f"{read('sampling/hash.glsl')}// {text}\n"})
+
+
+def differing(programs: Iterable[Any]) -> Any:
+    """Where programs of one length differ, from the first to the last byte of each stretch."""
+    first, *others = programs
+    places = np.flatnonzero(np.any([first != other for other in others], axis=0))
+    known = np.zeros(len(first), bool)
+    for left, right in zip(places[:-1], places[1:], strict=True):
+        known[left : right + 1 if right - left <= HASH_BYTES else left + 1] = True
+    known[places] = True
+    return known
+
+
+@pytest.mark.parametrize("file", UNUSED)
+def test_functions_that_a_scene_leaves_out_change_no_byte(context: Context, file: str) -> None:
+    scene, settings = UNUSED[file]
+    plain = program_of(context, scene, PLAIN, **settings)
+    comments = [program_of(context, scene, commented(text), **settings) for text in "abc"]
+    without = Variant(texts={file: emptied(read(file))})
+    found = program_of(context, scene, without, **settings)
+    assert len(found) == len(plain)
+    hashes = differing([plain, *comments])
+    assert hashes.sum() < 200, "of a hundred thousand"
+    beyond = np.flatnonzero((found != plain) & ~hashes)
+    assert len(beyond) <= 3, beyond  # bytes at the ends of the hashes, alike in all by chance
+
+
+def test_functions_that_a_scene_uses_do(context: Context) -> None:
+    plain = program_of(context, "lamps", PLAIN)
+    for file in ("bsdfs/matte.glsl", "lights/sampling.glsl"):
+        other = program_of(context, "lamps", Variant(texts={file: emptied(read(file))}))
+        assert len(other) != len(plain) or np.sum(other != plain) > 1000, file
+
+
+def test_a_file_is_emptied_of_code_alone() -> None:
+    text = "const int A = 1;\nstruct S { int a; };\nint f(int x) {\n    return x;  // y\n}\nS g() { return S(1); }\n"
+    assert emptied(text) == (
+        "const int A = 1;\nstruct S { int a; };\nint f(int x) { int nothing; return nothing; }\n"
+        "S g() { S nothing; return nothing; }\n"
+    )
