@@ -1,4 +1,4 @@
-"""What the programs of `python -m glrt.lab` have in common."""
+"""What the programs of `python -m bench` have in common."""
 
 import argparse
 import os
@@ -26,7 +26,7 @@ def machine(*renderers: str) -> str:
 
 def parser_of(name: str, about: str | None) -> argparse.ArgumentParser:
     """Of `python -m bench.NAME`."""
-    return argparse.ArgumentParser(prog=f"python -m glrt.lab.{name}", description=about)
+    return argparse.ArgumentParser(prog=f"python -m bench.{name}", description=about)
 
 
 def add_rounds(parser: argparse.ArgumentParser, size: int, rounds: int) -> None:

@@ -87,8 +87,8 @@ def test_contenders_take_turns_with_seeds_of_their_own() -> None:
 
 FLAT_AND_SLOW = """
 import numpy as np
-from glrt.image import Image
-from glrt.lab.peer import serve
+from glrt import Image
+from bench.peer import serve
 
 def render(request):
     shape = request.height, request.width, 3

@@ -22,8 +22,8 @@ SERVER = """
 import os, sys
 import numpy as np
 from glrt.errors import SceneError
-from glrt.image import Image
-from glrt.lab.peer import Request, serve
+from glrt import Image
+from bench.peer import Request, serve
 
 def render(request):
     print("noise of a library")
