@@ -1,6 +1,6 @@
 """Measurements of speed, memory and noise, of glrt and of its rivals. Not part of the wheel.
 
-Programs, `python -m bench.NAME`; each has `--help`:
+Programs, `python -m bench.NAME`; `--help` tells what they take:
 
 - against: is this checkout slower than another commit?
 - gpu: every way to render on this machine, against the first: the one for a new GPU

@@ -9,6 +9,7 @@ The exit code is 1 if a way fails or is not right. Memory is that of the process
 
 import argparse
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -215,15 +216,21 @@ def _routes() -> tuple[list[tuple[str, int]], list[str]]:
     """Those that open here, and lines about what their drivers do."""
     routes, lines = [], []
     for one in examine_all():
+        name = f"{one.route} {one.device}" if one.device else one.route
         if not one.opens:
-            reason = one.found.get("open", {}).get("error", one.end)
-            lines += [f"- {one.route}: does not open ({reason})"]
+            error = str(one.found.get("open", {}).get("error", one.end))
+            lines += [f"- {name} does not open: {error.removeprefix(f'{one.route}: ')}"]
             continue
         routes.append((one.route, one.device))
         opening = one.found["open"]
-        lines += [f"- {one.route} {one.device}: {opening['renderer']}, {opening['version']}"]
-        lines += [f"  - {' '.join(line.split())}" for line in findings(one.found.get("self_test"))]
+        lines += [f"- {name}: {opening['renderer']}, OpenGL {opening['version']}"]
+        lines += [f"  - {_item(line)}" for line in findings(one.found.get("self_test"))]
     return routes, [*lines, ""]
+
+
+def _item(line: str) -> str:
+    """A line of the doctor, whose label stands in a column of its own."""
+    return re.sub(r"\s{2,}", ": ", line.strip(), count=1)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -160,6 +160,6 @@ def test_routes_that_open_are_told(
     monkeypatch.setattr(gpu, "examine_all", lambda: found)
     assert main(["--scenes", "sky", "-o", str(tmp_path / "new")]) == 1
     printed = capsys.readouterr().out
-    assert "- egl 0: Painter, 4.1\n  - the self-test needs compute shaders" in printed
-    assert "- window: does not open (window: no display)" in printed
+    assert "- egl: Painter, OpenGL 4.1\n  - the self-test needs compute shaders" in printed
+    assert "- window does not open: no display\n" in printed
     assert printed.count("| sky | egl |") == 4
