@@ -1,8 +1,8 @@
 """Another commit of this repository as a folder of its own, for a while."""
 
 import subprocess
-import tarfile
 import tempfile
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -33,12 +33,12 @@ def exported(commit: str, repository: Path = ROOT) -> Iterator[Path]:
     An export, not a worktree: git need not know of it, nor forget it after a crash.
     """
     with tempfile.TemporaryDirectory(prefix="glrt-commit-") as folder:
-        archive = Path(folder, "archive.tar")
+        archive = Path(folder, "archive.zip")
         done = _git(repository, "archive", f"--output={archive}", commit)
         if done.returncode:
             raise RenderError(f"git cannot export {commit}: {done.stderr.strip()}")
-        with tarfile.open(archive) as files:
-            files.extractall(folder, filter="data")
+        with zipfile.ZipFile(archive) as files:
+            files.extractall(folder)
         archive.unlink()
         yield Path(folder)
 
