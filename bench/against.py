@@ -30,7 +30,7 @@ from glrt.settings import MAX_SAMPLES, Method
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
 PROGRAM = Path(__file__).with_name("against_side.py")
 TRIAL_SEEDS = 1 << 31  # from here on: rounds have the seeds from 1 on
-LEAST_TRIAL = 1 / 4  # of a run's seconds: shorter trials tell little about it
+LEAST_TRIAL = 1 / 2  # of a run's seconds: shorter trials tell little about it
 
 
 class Side:
@@ -127,12 +127,14 @@ def _round(both: tuple[Side, Side], number: int, samples: int) -> tuple[Any, Any
 
 def samples_for(both: Sequence[Side], seconds: float) -> int:
     """How many samples a pixel take the slower side about so long; a warm-up, too."""
-    samples = 1
-    for seed in count(TRIAL_SEEDS):
-        runs = [side.ask("render", samples=samples, seed=seed) for side in both]
-        taken: float = max(run["seconds"] for run in runs)
-        if taken >= LEAST_TRIAL * seconds or samples >= MAX_SAMPLES:
-            break
+    samples, seeds = 1, count(TRIAL_SEEDS)
+
+    def trial(side: Side) -> float:
+        """The faster of two runs: in the first ones drivers warm up, and dispatches begin small."""
+        runs = [side.ask("render", samples=samples, seed=next(seeds)) for _ in range(2)]
+        return min(float(run["seconds"]) for run in runs)
+
+    while (taken := max(map(trial, both))) < LEAST_TRIAL * seconds and samples < MAX_SAMPLES:
         samples *= 2
     return max(1, min(round(samples * seconds / taken), MAX_SAMPLES))
 
