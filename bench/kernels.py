@@ -171,7 +171,7 @@ def _print(parsed: argparse.Namespace) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = parser_of("bench", __doc__)
+    parser = parser_of("kernels", __doc__)
     add = parser.add_argument
     scenes = ["cornell", "lamps", "metals", "sky", "weekend"]
     add("--scenes", nargs="+", metavar="NAME", default=scenes)

@@ -7,7 +7,6 @@ through files. So glrt never imports them, and a crash of theirs ends them alone
 import json
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -17,6 +16,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from bench.processes import Process
 from glrt.errors import GlrtError, RenderError
 from glrt.image.image import Image
 from glrt.scene.scene import Scene
@@ -58,13 +58,9 @@ class Peer:
         """Start it; RenderError, with the reason that it gave, if it does not get ready."""
         _remove_forgotten_folders()
         self._folder = tempfile.TemporaryDirectory(prefix=PREFIX)
-        self._log = Path(self._folder.name, "log")
-        with self._log.open("w") as log:
-            self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True
-            )
+        self._process = Process(command, Path(self._folder.name, "log"))
         try:
-            self.name = str(self._answer()["name"])  # with its version
+            self.name = str(self._process.answer()["name"])  # with its version
         except RenderError:
             self.close()
             raise
@@ -72,35 +68,13 @@ class Peer:
     def render(self, request: Request) -> tuple[Image, float]:
         """The picture, and the seconds that it took; RenderError if there is none."""
         output = Path(self._folder.name, "picture.exr")
-        assert self._process.stdin
-        try:
-            print(json.dumps({**asdict(request), "output": str(output)}), file=self._process.stdin)
-            self._process.stdin.flush()
-        except BrokenPipeError:
-            raise self._ended() from None
-        answer = self._answer()
-        if "error" in answer:
-            raise RenderError(answer["error"])
+        answer = self._process.ask({**asdict(request), "output": str(output)})
         return Image.load(output), answer["seconds"]
 
     def close(self) -> None:
         """End the program."""
-        self._process.kill()
-        self._process.communicate()
+        self._process.close()
         self._folder.cleanup()
-
-    def _answer(self) -> dict[str, Any]:
-        assert self._process.stdout
-        line = self._process.stdout.readline()
-        if not line:
-            raise self._ended()
-        answer: dict[str, Any] = json.loads(line)
-        return answer
-
-    def _ended(self) -> RenderError:
-        code = self._process.wait()
-        said = self._log.read_text(errors="replace").strip().splitlines()
-        return RenderError(said[-1] if said else f"it ended with exit code {code}")
 
 
 def _remove_forgotten_folders() -> None:

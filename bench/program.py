@@ -1,22 +1,31 @@
-"""What the programs of `python -m glrt.lab` have in common."""
+"""What the programs of `python -m bench` have in common."""
 
 import argparse
 import os
 import sys
 from collections.abc import Callable, Iterable
 
+from glrt import signals
 from glrt.errors import GlrtError
+from glrt.signals import PLAIN, handled, interrupt
 from glrt.version import VERSION
 
 
-def exit_code_of(work: Callable[[], None]) -> int:
-    """Do it; what is wrong is told in one paragraph on stderr, with the exit code of its kind."""
+def exit_code_of(work: Callable[[], int | None]) -> int:
+    """Do it, and return what it returns, or 0.
+
+    What is wrong is told in one paragraph on stderr, with the exit code of its kind; so are Ctrl-C
+    and SIGTERM, which let it clean up.
+    """
     try:
-        work()
+        with handled(interrupt):
+            return work() or 0
     except GlrtError as error:
         print(f"glrt: {' '.join(str(error).split())}", file=sys.stderr)
         return error.exit_code
-    return 0
+    except KeyboardInterrupt as error:
+        print(f"glrt: {PLAIN}", file=sys.stderr)
+        return signals.exit_code_of(error)
 
 
 def machine(*renderers: str) -> str:
@@ -26,15 +35,18 @@ def machine(*renderers: str) -> str:
 
 def parser_of(name: str, about: str | None) -> argparse.ArgumentParser:
     """Of `python -m bench.NAME`."""
-    return argparse.ArgumentParser(prog=f"python -m glrt.lab.{name}", description=about)
+    return argparse.ArgumentParser(prog=f"python -m bench.{name}", description=about)
 
 
-def add_rounds(parser: argparse.ArgumentParser, size: int, rounds: int) -> None:
+def add_rounds(
+    parser: argparse.ArgumentParser, size: int, rounds: int, least_rounds: int = 2
+) -> None:
     """`--size` and `--rounds`, with these defaults."""
     told = f"pixels a side (default: {size})"
-    parser.add_argument("--size", type=_at_least(1), default=size, metavar="N", help=told)
-    told = f"runs of each, 2 or more (default: {rounds})"
-    parser.add_argument("--rounds", type=_at_least(2), default=rounds, metavar="N", help=told)
+    parser.add_argument("--size", type=at_least(1), default=size, metavar="N", help=told)
+    told = f"runs of each, {least_rounds} or more (default: {rounds})"
+    rounds_type = at_least(least_rounds)
+    parser.add_argument("--rounds", type=rounds_type, default=rounds, metavar="N", help=told)
 
 
 def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:
@@ -50,7 +62,9 @@ def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:
     parser.add_argument("tables", nargs="*", type=known, default=names, metavar="TABLE", help=told)
 
 
-def _at_least(least: int) -> Callable[[str], int]:
+def at_least(least: int) -> Callable[[str], int]:
+    """The type of an option: a whole number from `least` on."""
+
     def number(text: str) -> int:
         if (value := int(text)) < least:
             raise argparse.ArgumentTypeError(f"{value} is less than {least}")

@@ -87,7 +87,7 @@ def test_contenders_take_turns_with_seeds_of_their_own() -> None:
 
 FLAT_AND_SLOW = """
 import numpy as np
-from glrt.image import Image
+from glrt import Image
 from bench.peer import serve
 
 def render(request):

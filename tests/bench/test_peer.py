@@ -22,7 +22,7 @@ SERVER = """
 import os, sys
 import numpy as np
 from glrt.errors import SceneError
-from glrt.image import Image
+from glrt import Image
 from bench.peer import Request, serve
 
 def render(request):

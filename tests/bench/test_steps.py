@@ -6,9 +6,9 @@ import pytest
 from bench.efficiency import Row, Way, renderer_of, scene_of
 from bench.shader_edits import Edit, edited
 from bench.steps import BY_FLUX, STARTS, TABLES, by_start, main, roulette
-from glrt.accel import light_clusters
 from glrt.gpu.context import Context
 from glrt.image.image import Image
+from glrt.rendering import pack_lights
 from tests.support.renders import assert_agree, same
 
 EDITS = {tuple(way.edits) for table in TABLES.values() for way in table.values()} - {()}
@@ -43,9 +43,7 @@ def test_edits_do_what_they_are_named_for(
     assert same(picture(context, Way({}, roulette("0.25"))), plain)
     assert same(picture(context, Way({}, roulette("0.25", 1000))), never)
     by_flux = picture(context, Way({}, BY_FLUX))
-    monkeypatch.setattr(
-        light_clusters, "_center", lambda _: (np.zeros(3), 2.0**40)
-    )  # none is nearer
+    monkeypatch.setattr(pack_lights, "_center", lambda _: (np.zeros(3), 2.0**40))  # none is nearer
     assert same(by_flux, picture(context, PLAIN))
 
 

@@ -1,0 +1,228 @@
+"""Is this checkout slower than another commit? Both render the same scenes, in turns.
+
+Each side is a process that stays: it imports glrt from its own files, compiles once per scene, and
+renders on request, to the same seeds. A ratio is the time of this checkout over that of the other
+in the same round, until the picture is read back. `bench.ratios` says how intervals are made. Both
+compile with empty caches. The exit code is 1 where all scenes together are slower, else 0; of
+single scenes an interval leaves out the truth once in twenty times.
+"""
+
+import argparse
+import json
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, dataclass
+from itertools import count
+from pathlib import Path
+from typing import Any, get_args
+
+from bench.checkouts import commit_of, exported, state_of
+from bench.processes import ROOT, Process, environment_of
+from bench.program import add_rounds, exit_code_of, machine, parser_of
+from bench.ratios import LEAST_ROUNDS, Ratio, ratio_of, ratio_over
+from glrt import files
+from glrt.errors import RenderError
+from glrt.scene.catalog import find
+from glrt.settings import MAX_SAMPLES, Method
+
+SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
+PROGRAM = Path(__file__).with_name("against_side.py")
+TRIAL_SEEDS = 1 << 31  # from here on: rounds have the seeds from 1 on
+LEAST_TRIAL = 1 / 2  # of a run's seconds: shorter trials tell little about it
+
+
+class Side:
+    """The process of one checkout."""
+
+    def __init__(self, name: str, process: Process) -> None:
+        """Of a process that was started."""
+        self.name, self._process = name, process
+        self.glrt = Path(self._told(process.answer)["glrt"])
+
+    def ask(self, do: str, **words: Any) -> dict[str, Any]:
+        """The answer to a request; RenderError says which side failed."""
+        return self._told(lambda: self._process.ask({"do": do, **words}))
+
+    def _told(self, answer: Any) -> dict[str, Any]:
+        try:
+            found: dict[str, Any] = answer()
+            return found
+        except RenderError as error:
+            raise RenderError(f"{self.name}: {error}") from None
+
+
+@dataclass(frozen=True)
+class Row:
+    """What was measured of one scene, of this checkout and of the other."""
+
+    scene: str
+    samples: int  # a pixel, of each run
+    these: list[float]  # seconds, one a round
+    others: list[float]
+    compile_seconds: tuple[float, float]
+    peak_bytes: tuple[int, int]  # of the processes, so far
+    equal: bool  # to the bit, all pictures
+
+    @property
+    def ratio(self) -> Ratio:
+        """Of the times."""
+        return ratio_of(self.these, self.others)
+
+
+@contextmanager
+def sides(commit: str, threads: int | None) -> Iterator[tuple[Side, Side]]:
+    """This checkout and a commit, each with a process; both are ended afterwards."""
+    with ExitStack() as stack:
+        other = stack.enter_context(exported(commit))
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="glrt-against-")))
+        this = _started(stack, "this checkout", ROOT, folder / "this", threads)
+        yield this, _started(stack, commit, other, folder / "other", threads)
+
+
+def _started(
+    stack: ExitStack, name: str, checkout: Path, folder: Path, threads: int | None
+) -> Side:
+    folder.mkdir()
+    environment = environment_of(checkout, folder)
+    if threads:
+        environment["LP_NUM_THREADS"] = str(threads)
+    # -P: else modules of bench beside the program could be taken for those of Python.
+    process = Process([sys.executable, "-P", str(PROGRAM)], folder / "log", environment)
+    stack.callback(process.close)
+    side = Side(name, process)
+    if not side.glrt.is_relative_to(checkout):
+        raise RenderError(f"{name}: it imports {side.glrt}, which is not of {checkout}.")
+    return side
+
+
+def measure(
+    both: tuple[Side, Side], scene: str, size: int, method: str, rounds: int, seconds: float
+) -> tuple[Row, str]:
+    """Interleave both sides in one scene; a run takes about `seconds`. Also the renderer's name."""
+    settings = {"scene": str(find(scene).resolve()), "size": size, "method": method}
+    opened = [side.ask("open", **settings) for side in both]
+    samples = samples_for(both, seconds)
+    runs = [_round(both, number, samples) for number in range(rounds)]
+    closed = [side.ask("close") for side in both]
+    row = Row(
+        scene=scene,
+        samples=samples,
+        these=[this["seconds"] for this, _ in runs],
+        others=[other["seconds"] for _, other in runs],
+        compile_seconds=(opened[0]["compile_seconds"], opened[1]["compile_seconds"]),
+        peak_bytes=(closed[0]["peak_bytes"], closed[1]["peak_bytes"]),
+        equal=all(this["sha256"] == other["sha256"] for this, other in runs),
+    )
+    return row, opened[0]["renderer"]
+
+
+def _round(both: tuple[Side, Side], number: int, samples: int) -> tuple[Any, Any]:
+    """One run of each; the side that is first changes from round to round."""
+    this, other = both if number % 2 == 0 else both[::-1]
+    first, second = (side.ask("render", samples=samples, seed=1 + number) for side in (this, other))
+    return (first, second) if number % 2 == 0 else (second, first)
+
+
+def samples_for(both: Sequence[Side], seconds: float) -> int:
+    """How many samples a pixel take the slower side about so long; a warm-up, too."""
+    samples, seeds = 1, count(TRIAL_SEEDS)
+
+    def trial(side: Side) -> float:
+        """The faster of two runs: in the first ones drivers warm up, and dispatches begin small."""
+        runs = [side.ask("render", samples=samples, seed=next(seeds)) for _ in range(2)]
+        return min(float(run["seconds"]) for run in runs)
+
+    while (taken := max(map(trial, both))) < LEAST_TRIAL * seconds and samples < MAX_SAMPLES:
+        samples *= 2
+    return max(1, min(round(samples * seconds / taken), MAX_SAMPLES))
+
+
+def table(rows: Sequence[Row]) -> Iterator[str]:
+    """The rows as Markdown, and one over all scenes."""
+    yield "| scene | samples | time, this / other | this | other | compile | pictures | verdict |"
+    yield "|---|---|---|---|---|---|---|---|"
+    for row in rows:
+        run = [f"{sorted(times)[len(times) // 2]:.3f} s" for times in (row.these, row.others)]
+        compiled = "{:.2f} s / {:.2f} s".format(*row.compile_seconds)
+        yield (
+            f"| {row.scene} | {row.samples} | {row.ratio} | {' | '.join(run)} | {compiled} "
+            f"| {_alike(row.equal)} | {row.ratio.verdict} |"
+        )
+    whole = overall(rows)
+    seconds = zip(*(row.compile_seconds for row in rows), strict=True)
+    compiled = "{:.2f} s / {:.2f} s".format(*map(sum, seconds))
+    yield (
+        f"| all | | {whole} | | | {compiled} | {_alike(all(row.equal for row in rows))} "
+        f"| {whole.verdict} |"
+    )
+
+
+def overall(rows: Sequence[Row]) -> Ratio:
+    """Over all scenes."""
+    return ratio_over([(row.these, row.others) for row in rows])
+
+
+def _alike(equal: bool) -> str:
+    return "equal to the bit" if equal else "differ"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m bench.against`; returns the exit code."""
+    parsed = _parser().parse_args(arguments)
+    return exit_code_of(lambda: _print(parsed))
+
+
+def _print(parsed: argparse.Namespace) -> int:
+    for scene in parsed.scenes:
+        find(scene)  # what is unknown is told before anything starts
+    commit = commit_of(parsed.commit)
+    versions = f"this: {state_of()}; other: {commit}"
+    found = _measured(parsed, commit)
+    rows, renderer = [row for row, _ in found], found[0][1]
+    threads = f", LP_NUM_THREADS={parsed.threads}" if parsed.threads else ""
+    size, run = f"{parsed.size} x {parsed.size} pixels", f"about {parsed.seconds:g} s"
+    work = f"{size}, {parsed.method}, {parsed.rounds} rounds of {run}"
+    place = machine(renderer) + threads
+    print(f"{place}, {work}\n{versions}\n")
+    print("\n".join(table(rows)))
+    peaks = [f"{peak / 2**20:.0f} MiB" for peak in rows[-1].peak_bytes]
+    verdict = overall(rows).verdict
+    print(f"\npeak memory: this {peaks[0]}, other {peaks[1]}\n{verdict}")
+    if parsed.json:
+        _save(parsed.json, rows, place=place, work=work, versions=versions, verdict=verdict)
+    return int(verdict == "slower")
+
+
+def _measured(parsed: argparse.Namespace, commit: str) -> list[tuple[Row, str]]:
+    found = []
+    with sides(commit, parsed.threads) as both:
+        for scene in parsed.scenes:
+            print(f"{scene} ...", file=sys.stderr)
+            one = measure(both, scene, parsed.size, parsed.method, parsed.rounds, parsed.seconds)
+            found.append(one)
+    return found
+
+
+def _save(file: Path, rows: Sequence[Row], **words: str) -> None:
+    told = [{**asdict(row), "ratio": row.ratio._asdict()} for row in rows]
+    figures = {**words, "ratio": overall(rows)._asdict(), "rows": told}
+    files.write_text(file, json.dumps(figures, indent=1) + "\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = parser_of("against", __doc__)
+    add = parser.add_argument
+    add("commit", metavar="COMMIT", help="a hash, a branch or a tag")
+    add("--scenes", nargs="+", metavar="NAME", default=SCENES)
+    add("--method", choices=get_args(Method), default="mis")
+    add_rounds(parser, size=256, rounds=30, least_rounds=LEAST_ROUNDS)
+    add("--seconds", type=float, default=1.0, metavar="S", help="of a run (default: 1)")
+    add("--threads", type=int, metavar="N", help="LP_NUM_THREADS of both (default: as it is)")
+    add("--json", type=Path, metavar="FILE", help="the figures for programs")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

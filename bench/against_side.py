@@ -1,0 +1,81 @@
+"""One side of `bench.against`: a process that renders by the glrt of one checkout.
+
+It is run by path, with PYTHONPATH naming that checkout, which may be much older than this file: so
+it imports the public names of glrt alone, and nothing of bench. Requests and answers are lines of
+JSON, as in `bench.processes`.
+"""
+
+import hashlib
+import json
+import os
+import re
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import glrt
+
+
+class Side:
+    """What answers the requests, each a method."""
+
+    def open(self, scene: str, **settings: Any) -> dict[str, Any]:
+        """Compile for a scene; a context of its own belongs to it."""
+        settings = {"width": settings["size"], "height": settings["size"], **settings}
+        del settings["size"]
+        self._renderer = glrt.Renderer(glrt.load(scene), tier="baked", **settings)
+        return {
+            "compile_seconds": self._renderer.compile_seconds,
+            "renderer": str(self._renderer.context.renderer),
+        }
+
+    def render(self, samples: int, seed: int) -> dict[str, Any]:
+        """A picture from an empty film: the seed must be another than that of the last one."""
+        start = time.perf_counter()
+        self._renderer.update(seed=seed)
+        radiance = self._renderer.render(samples).image().radiance
+        seconds = time.perf_counter() - start
+        return {"seconds": seconds, "sha256": hashlib.sha256(radiance.tobytes()).hexdigest()}
+
+    def close(self) -> dict[str, Any]:
+        """Free the scene."""
+        self._renderer.release()
+        return {"peak_bytes": peak_bytes()}
+
+
+def peak_bytes() -> int:
+    """The most memory that this process has held.
+
+    By Linux's own figure where there is one: getrusage counts the starting process as well.
+    """
+    status = Path("/proc/self/status")
+    found = re.search(r"VmHWM:\s*(\d+) kB", status.read_text()) if status.exists() else None
+    if found:
+        return int(found[1]) * 1024
+    import resource  # not on Windows
+
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+
+
+def main() -> None:
+    """Answer until stdin ends."""
+    answers = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)  # whatever a library prints must not come between
+
+    def answer(words: dict[str, Any]) -> None:
+        print(json.dumps(words), file=answers, flush=True)
+
+    side = Side()
+    answer({"glrt": glrt.__file__})
+    for line in sys.stdin:
+        words = json.loads(line)
+        try:
+            answer(getattr(side, words.pop("do"))(**words))
+        except Exception as error:  # of another commit: its classes are not ours
+            answer({"error": f"{type(error).__name__}: {' '.join(str(error).split())}"})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,76 @@
+"""Programs that stay and answer: a request is a line of JSON on stdin, its answer one on stdout."""
+
+import json
+import os
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from glrt.errors import RenderError
+
+ROOT = Path(__file__).resolve().parent.parent  # of this checkout
+
+
+class Process:
+    """A program that was started."""
+
+    def __init__(
+        self, command: Sequence[str], log: Path, environment: Mapping[str, str] | None = None
+    ) -> None:
+        """Start it; what it writes to stderr goes to `log`."""
+        self._log = log
+        with log.open("w") as errors:
+            self._process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                text=True,
+                env=environment,
+            )
+
+    def ask(self, words: Mapping[str, Any]) -> dict[str, Any]:
+        """The answer to a request; RenderError if it is an error, or if the program has ended."""
+        assert self._process.stdin
+        try:
+            print(json.dumps(words), file=self._process.stdin, flush=True)
+        except BrokenPipeError:
+            raise self._ended() from None
+        answer = self.answer()
+        if "error" in answer:
+            raise RenderError(answer["error"])
+        return answer
+
+    def answer(self) -> dict[str, Any]:
+        """The next answer; RenderError if the program has ended."""
+        assert self._process.stdout
+        line = self._process.stdout.readline()
+        if not line:
+            raise self._ended()
+        answer: dict[str, Any] = json.loads(line)
+        return answer
+
+    def close(self) -> None:
+        """End the program."""
+        self._process.kill()
+        self._process.communicate()
+
+    def _ended(self) -> RenderError:
+        code = self._process.wait()
+        said = self._log.read_text(errors="replace").strip().splitlines()
+        return RenderError(said[-1] if said else f"it ended with exit code {code}")
+
+
+def environment_of(checkout: Path, caches: Path) -> dict[str, str]:
+    """In which Python imports glrt from a checkout, and drivers compile every kernel anew.
+
+    `caches` is an empty folder; what drivers keep there goes with it.
+    """
+    path = [str(checkout), *filter(None, [os.environ.get("PYTHONPATH")])]
+    return {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(path),
+        "MESA_SHADER_CACHE_DIR": str(caches),
+        "__GL_SHADER_DISK_CACHE_PATH": str(caches),  # NVIDIA's
+    }

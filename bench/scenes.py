@@ -1,0 +1,255 @@
+"""Scenes drawn from a seed: rooms and open floors with balls, panels and lamps of many sizes.
+
+    python -m bench.scenes SEED [-o FILE.toml]
+
+The same seed is the same scene on every machine: chance is that of PCG64, and numbers have five
+digits after the point. Lengths are in scene units, of which a room is 2 to 3 high.
+"""
+
+import argparse
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bench.dice import Dice
+from bench.placing import DIGITS, SMALLEST, Ball, Free, Point, Space
+from bench.program import at_least, exit_code_of, parser_of
+from glrt.scene.scene import Scene
+from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.scene.toml_writer import toml_lines, write_scene
+
+Table = dict[str, Any]
+
+MOST_SHAPES, MOST_LAMPS = 60, 12
+LAMP_SIZES = SMALLEST, 100 * SMALLEST  # radius or half an edge
+BODY_SIZES = 0.06, 0.6
+LENS_CHANCE = 1 / 3
+TURNED = {"position", "look_at", "up", "center", "point", "normal", "corner", "edge_u", "edge_v"}
+
+
+class Builder(Free):
+    """A scene that grows."""
+
+    def __init__(self, dice: Dice, space: Space, eye: Point) -> None:
+        """Empty, with the camera at `eye`."""
+        super().__init__(dice, space, eye)
+        self.materials: dict[str, Table] = {}
+        self.objects: list[Table] = []
+
+    def add(self, material: str, **shape: Any) -> None:
+        """An object."""
+        self.objects.append({**shape, "material": material})
+
+
+def random_scene(seed: int) -> Scene:
+    """The scene of a seed."""
+    return parse_scene(random_tables(seed), f"seed {seed}")
+
+
+def random_tables(seed: int) -> Table:
+    """The same as in a file."""
+    dice = Dice(seed)
+    space = Space(dice.within(1.4, 2.6), dice.within(2.0, 3.0), dice.within(1.8, 3.2))
+    is_room = dice.chance(0.5)
+    # In a room just inside the front wall; in front of an open floor outside of it.
+    distance = space.depth - 0.25 if is_room else space.depth + dice.within(0.5, 2.0)
+    side = dice.within(-0.5, 0.5) * space.half_width
+    eye = (side, dice.within(0.6, 0.75 * space.height), distance)
+    builder = Builder(dice, space, eye)
+    _add_palette(builder)
+    _add_walls(builder, is_room)
+    first = _add_subject(builder)
+    _add_lamps(builder, dice.count(1, MOST_LAMPS), is_room)
+    rest = MOST_SHAPES - len(builder.objects)
+    for _ in range(dice.count(1, rest + 1) - 1):
+        _add_body(builder)
+    data = {
+        "title": f"Drawn from seed {seed}",
+        "camera": _camera(dice, eye, first),
+        "render": {"width": 320, "height": 240, "samples": 64, "bounces": dice.count(4, 12)},
+        "background": _background(dice, is_room),
+        "materials": builder.materials,
+        "objects": builder.objects,
+    }
+    turn = dice.within(0, 2 * math.pi) if dice.chance(0.5) else 0.0
+    tables: Table = _rounded(_turned(data, turn))
+    return tables
+
+
+def _add_palette(builder: Builder) -> None:
+    """Materials for bodies: of each type one or more."""
+    dice, materials = builder.dice, builder.materials
+    for number in range(dice.count(2, 5)):
+        materials[f"matte {number + 1}"] = {"type": "lambertian", "color": _color(dice, 0.1, 0.9)}
+    for number in range(dice.count(1, 3)):
+        roughness = dice.one_of([0.0, dice.within(0.05, 0.3), dice.within(0.3, 1.0)])
+        metal = {"type": "metal", "color": _color(dice, 0.5, 0.95), "roughness": roughness}
+        materials[f"metal {number + 1}"] = metal
+    for number in range(dice.count(1, 2)):
+        materials[f"glass {number + 1}"] = {"type": "dielectric", "ior": dice.within(1.2, 2.4)}
+
+
+def _color(dice: Dice, low: float, high: float) -> list[float]:
+    return [dice.within(low, high) for _ in range(3)]
+
+
+def _add_walls(builder: Builder, is_room: bool) -> None:
+    """Six planes, one of them sometimes of metal, or a floor and sometimes a wall behind it."""
+    dice, (half_width, height, depth) = builder.dice, builder.space
+    for name in ("floor", "walls", "left wall", "right wall"):
+        level = dice.within(0.4, 0.75)  # hardly any colour: each bounce would deepen it
+        color = _color(dice, level - 0.1, level + 0.1)
+        builder.materials[name] = {"type": "lambertian", "color": color}
+    if not is_room and dice.chance(0.4):
+        wide, deep = half_width + 0.5, depth + 0.5
+        edges = {"edge_u": [0, 0, 2 * deep], "edge_v": [2 * wide, 0, 0]}
+        builder.add("floor", shape="quad", corner=[-wide, 0, -deep], **edges)
+    else:
+        builder.add("floor", shape="plane", point=[0, 0, 0], normal=[0, 1, 0])
+    back = "metal 1" if dice.chance(0.2) else "walls"
+    if is_room or dice.chance(0.3):
+        builder.add(back, shape="plane", point=[0, 0, -depth], normal=[0, 0, 1])
+    if is_room:
+        builder.add("walls", shape="plane", point=[0, height, 0], normal=[0, -1, 0])
+        builder.add("walls", shape="plane", point=[0, 0, depth], normal=[0, 0, -1])
+        builder.add("left wall", shape="plane", point=[-half_width, 0, 0], normal=[1, 0, 0])
+        builder.add("right wall", shape="plane", point=[half_width, 0, 0], normal=[-1, 0, 0])
+
+
+def _add_subject(builder: Builder) -> Point:
+    """A ball in the middle, which the camera looks at; where it is."""
+    ball = builder.place(builder.dice.within(0.3, 0.5), wide=0.3)
+    assert ball, "the middle is empty yet"
+    builder.add(_any_material(builder), shape="sphere", center=ball.center, radius=ball.radius)
+    return ball.center
+
+
+def _any_material(builder: Builder, *excluded: str) -> str:
+    names = [name for name in builder.materials if name.split()[0] in ("matte", "metal", "glass")]
+    return builder.dice.one_of([name for name in names if name.split()[0] not in excluded])
+
+
+def _add_body(builder: Builder) -> None:
+    """A ball or a panel, on the floor or in the air; none where there is no room left."""
+    dice = builder.dice
+    height = dice.within(0.3, builder.space.height) if dice.chance(0.3) else None
+    ball = builder.place(dice.decades(*BODY_SIZES), height)
+    if ball and dice.chance(0.7):
+        material = _any_material(builder)
+        builder.add(material, shape="sphere", center=ball.center, radius=ball.radius)
+    elif ball:
+        builder.add(_any_material(builder, "glass"), shape="quad", **_panel(dice, ball))
+
+
+def _panel(dice: Dice, ball: Ball, is_level: bool = False) -> Table:
+    """A rectangle or a parallelogram within a ball, level or turned anyhow."""
+    along, other = np.array(dice.direction()), np.array(dice.direction())
+    if is_level:
+        along, other = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+    normal = np.cross(along, other)
+    across = np.cross(normal, along) / np.linalg.norm(normal)
+    slant = dice.within(-0.5, 0.5) if dice.chance(0.3) else 0.0
+    u = along * ball.radius * dice.within(0.5, 0.65)
+    v = (across + slant * along) * ball.radius * dice.within(0.2, 0.65) / (1 + abs(slant))
+    return {"corner": np.array(ball.center) - u - v, "edge_u": 2 * u, "edge_v": 2 * v}
+
+
+def _add_lamps(builder: Builder, count: int, is_room: bool) -> None:
+    """Balls in the air and panels, each with its share of the light that the place needs."""
+    half_width, height, depth = builder.space
+    lit = 8 * (half_width * (height + 2 * depth) + height * depth) if is_room else 150.0
+    irradiance = builder.dice.within(0.5, 1.0)  # of a first bounce
+    for number in range(count):
+        flux = irradiance * lit / count * builder.dice.within(0.4, 1.6)
+        _add_lamp(builder, f"lamp {number + 1}", flux)
+
+
+def _add_lamp(builder: Builder, name: str, flux: float) -> None:
+    """Of so much flux; none where there is no room left."""
+    dice = builder.dice
+    low, high = 0.35 * builder.space.height, builder.space.height
+    ball = builder.place(dice.decades(*LAMP_SIZES), dice.within(low, high))
+    if not ball:
+        return
+    if dice.chance(0.5):
+        shape: Table = {"shape": "sphere", "center": ball.center, "radius": ball.radius}
+        area = 4 * math.pi * ball.radius**2
+    else:
+        shape = {"shape": "quad", **_panel(dice, ball, dice.chance(0.4))}
+        area = 2 * float(np.linalg.norm(np.cross(shape["edge_u"], shape["edge_v"])))  # both sides
+    tint = np.array(_color(dice, 0.6, 1.0))
+    emission = tint / tint.mean() * flux / (math.pi * area)
+    builder.materials[name] = {"type": "light", "emission": emission}
+    if dice.chance(0.3):
+        builder.materials[name]["color"] = _color(dice, 0.0, 0.8)
+    builder.add(name, **shape)
+
+
+def _camera(dice: Dice, eye: Point, subject: Point) -> Table:
+    """It looks at the first ball or past it; a third has a lens, sharp at that ball or there."""
+    target = [place + dice.within(-0.3, 0.3) for place in subject]
+    camera: Table = {"position": eye, "look_at": target, "fov": dice.within(35, 70)}
+    if dice.chance(0.2):
+        camera["up"] = [dice.within(-0.3, 0.3), 1.0, 0.0]
+    if dice.chance(LENS_CHANCE):
+        camera["defocus_angle"] = dice.within(0.5, 5)
+        if dice.chance(0.5):
+            camera["focus_distance"] = math.dist(eye, subject)
+    return camera
+
+
+def _background(dice: Dice, is_room: bool) -> Table:
+    """Black in rooms, which nothing of it gets into, and above some floors; else a gradient."""
+    if is_room or dice.chance(0.35):
+        return {}
+    brightness = dice.decades(0.1, 1.2)
+    bottom, top = (
+        [brightness * part for part in _color(dice, 0.2, 1.0)] for _ in ("bottom", "top")
+    )
+    return {"bottom": bottom, "top": top}
+
+
+def _turned(value: Any, angle: float, key: str = "") -> Any:
+    """Tables whose points and directions are turned about the y axis."""
+    if isinstance(value, dict):
+        return {name: _turned(item, angle, name) for name, item in value.items()}
+    if key == "objects":
+        return [_turned(item, angle) for item in value]
+    if key not in TURNED:
+        return value
+    x, y, z = value
+    cos, sin = math.cos(angle), math.sin(angle)
+    return [cos * x + sin * z, y, cos * z - sin * x]
+
+
+def _rounded(value: Any) -> Any:
+    """Tables as in a file, with numbers of few digits."""
+    if isinstance(value, dict):
+        return {name: _rounded(item) for name, item in value.items()}
+    if isinstance(value, list | tuple | np.ndarray):
+        return [_rounded(item) for item in value]
+    return round(float(value), DIGITS) + 0.0 if isinstance(value, float) else value
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m bench.scenes`; returns the exit code."""
+    parser = parser_of("scenes", __doc__)
+    parser.add_argument("seed", type=at_least(0), metavar="SEED", help="a whole number from 0 on")
+    parser.add_argument("-o", dest="file", type=Path, metavar="FILE", help="default: print it")
+    parsed = parser.parse_args(arguments)
+    return exit_code_of(lambda: _write(parsed))
+
+
+def _write(parsed: argparse.Namespace) -> None:
+    scene = random_scene(parsed.seed)
+    if parsed.file:
+        write_scene(scene, parsed.file)
+    else:
+        print("\n".join(toml_lines(scene_to_dict(scene))).strip())
+
+
+if __name__ == "__main__":
+    sys.exit(main())
