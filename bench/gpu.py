@@ -26,9 +26,8 @@ from bench.processes import ROOT, environment_of
 from bench.program import at_least, exit_code_of, machine, parser_of
 from glrt import files
 from glrt.doctor.report import examine_all, findings
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.image import Pixels
-from glrt.rendering.pipelines import Resolved
+from glrt.rendering.pipelines import Resolved, Tier
 
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
 TIERS: tuple[Tier, ...] = ("generic", "baked")

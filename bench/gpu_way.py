@@ -18,9 +18,9 @@ import numpy as np
 from bench.against_side import peak_bytes
 from bench.dispatches import longest
 from glrt.gpu.context import Context, Pipeline, open_context, open_device
-from glrt.gpu.struct_arrays import Tier
 from glrt.image.image import Pixels
 from glrt.image.sources import load
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 
 SEEDS = 1, 2  # of the pictures; the first one warms up

@@ -2,9 +2,13 @@
 
 import argparse
 
-from glrt.cli.options import SCENE, add_context, add_settings
+from glrt.cli.options import SCENE, add_context, add_pipeline, add_settings
 from glrt.cli.request import check_limit, scene_and_settings
+from glrt.methods.features import contents_of, explain
 from glrt.methods.omissions import left_out, omissions
+from glrt.scene.limits import cautions
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
 
 DESCRIPTION = (
     "Say what the kernel for a scene contains and leaves out, and why; with --error, the "
@@ -23,18 +27,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="E",
         help="measure which method and how many bounces suffice for this relative RMS error",
     )
+    parser.add_argument(
+        "--kernel",
+        action="store_true",
+        help="print the shader that the driver gets for this scene, and nothing else",
+    )
     add_context(parser)
+    add_pipeline(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """`glrt inspect`: what the kernel contains and leaves out."""
-    from glrt.gpu.driver_checks import LLVMPIPE_ROUNDS
-    from glrt.methods.features import contents_of, explain
-    from glrt.rendering.schedule import iterations_per_sample
-    from glrt.scene.limits import cautions
-
+    """What the kernel contains and leaves out, its text, or what suffices for an error."""
     scene, settings = scene_and_settings(arguments)
-    print(f"{arguments.scene}: {scene.title or 'no title'}")
+    if arguments.kernel:
+        print(_kernel(arguments, scene, settings), end="")
+        return 0
+    _explain(arguments.scene, scene, settings)
+    if arguments.error is not None:
+        from glrt.analysis.method_choice.advice import advise
+
+        check_limit("error", arguments.error)
+        advise(arguments, scene, settings)
+    return 0
+
+
+def _explain(name: str, scene: Scene, settings: Settings) -> None:
+    from glrt.gpu.driver_checks import LLVMPIPE_ROUNDS
+    from glrt.rendering.schedule import iterations_per_sample
+
+    print(f"{name}: {scene.title or 'no title'}")
     print(f"method {settings.method}, {settings.bounces} bounces, {len(scene.objects)} objects\n")
     for feature in explain(scene, settings):
         print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
@@ -48,9 +69,19 @@ def run(arguments: argparse.Namespace) -> int:
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")
-    if arguments.error is not None:
-        from glrt.analysis.method_choice.advice import advise
 
-        check_limit("error", arguments.error)
-        advise(arguments, scene, settings)
-    return 0
+
+def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> str:
+    """The shader that traces paths, as `glrt render` gives it to the driver."""
+    from glrt.gpu.context import open_context
+    from glrt.rendering.renderer import Renderer
+
+    context = open_context(arguments.context, arguments.pipeline)
+    try:
+        pipeline = arguments.pipeline
+        renderer = Renderer(scene, settings, context, tier="baked", pipeline=pipeline)
+        text = renderer.shaders[-1].text
+        renderer.release()
+        return text
+    finally:
+        context.gl.release()

@@ -11,6 +11,7 @@ import numpy as np
 
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
+from glrt.gpu.glsl import Source
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe, traced
 from glrt.image.resume import fitting
@@ -95,6 +96,11 @@ class Renderer:
     def tier(self) -> Tier:
         """Where the kernel that stays through edits finds its shapes."""
         return self._tracer.uploaded.tier
+
+    @property
+    def shaders(self) -> list[Source]:
+        """The shaders of that kernel, as the driver got them; the last one traces paths."""
+        return self._tracer.uploaded.shaders
 
     @property
     def most_samples(self) -> int:

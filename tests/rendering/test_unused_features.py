@@ -7,6 +7,7 @@ out, it is the same to the byte, but for the hash of the source.
 import ctypes
 import re
 from collections.abc import Iterable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -51,7 +52,7 @@ def emptied(glsl: str) -> str:
 
 def program_of(context: Context, scene: str, variant: Variant, **settings: Any) -> Any:
     """What the driver made of a kernel, (n,) uint8."""
-    size = {"width": 32, "height": 32}
+    size: dict[str, Any] = {"width": 32, "height": 32}
     renderer = Renderer(
         load(scene), context=context, tier="baked", variant=variant, **size, **settings
     )
@@ -84,7 +85,7 @@ def differing(programs: Iterable[Any]) -> Any:
     first, *others = programs
     places = np.flatnonzero(np.any([first != other for other in others], axis=0))
     known = np.zeros(len(first), bool)
-    for left, right in zip(places[:-1], places[1:], strict=True):
+    for left, right in pairwise(places):
         known[left : right + 1 if right - left <= HASH_BYTES else left + 1] = True
     known[places] = True
     return known
