@@ -23,8 +23,8 @@ COUNTS = (16, 32, 64, 300, 2000, 10_000)
 PARTS_BY_FLUX = [
     Edit(
         "lights/choice.glsl",
-        "    vec3 away",
-        "    if (index >= CLUSTERS) return cluster.probability;\n    vec3 away",
+        "    precise vec3 away",
+        "    if (index >= CLUSTERS) return cluster.probability;\n    precise vec3 away",
     )
 ]
 WAYS = {

@@ -5,7 +5,7 @@
 #include "structs/scene.glsl"
 #include "scene_arrays.glsl"
 #include "sampling/hash.glsl"
-#include "sampling/uniform.glsl"
+#include "sampling/unit_float.glsl"
 #include "sampling/sobol.glsl"
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"

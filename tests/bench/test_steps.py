@@ -43,7 +43,11 @@ def test_edits_do_what_they_are_named_for(
     assert same(picture(context, Way({}, roulette("0.25"))), plain)
     assert same(picture(context, Way({}, roulette("0.25", 1000))), never)
     by_flux = picture(context, Way({}, BY_FLUX))
-    monkeypatch.setattr(pack_lights, "_center", lambda _: (np.zeros(3), 2.0**40))  # none is nearer
+    far = {
+        kind: lambda lamp, body=body: body(lamp)._replace(center=np.zeros(3), reach2=2.0**40)
+        for kind, body in pack_lights.LAMPS.items()
+    }
+    monkeypatch.setattr(pack_lights, "LAMPS", far)  # none is nearer
     assert same(by_flux, picture(context, PLAIN))
 
 

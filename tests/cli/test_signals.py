@@ -14,6 +14,7 @@ import pytest
 from glrt import signals
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel, drawing
+from tests.support.kernel_text import written_for
 
 SAYS = "glrt: interrupted\n"
 NOTHING_RENDERED = "glrt: interrupted before anything was rendered\n"
@@ -111,8 +112,12 @@ class Compiler:
 @pytest.mark.parametrize(
     "compiled",
     [
-        lambda gl: Kernel(gl, Source("trace.comp")),
-        lambda gl: drawing(gl, Source("trace.vert"), Source("trace.frag")),
+        lambda gl: Kernel(gl, Source("trace.comp", texts=written_for())),
+        lambda gl: drawing(
+            gl,
+            Source("trace.vert", texts=written_for()),
+            Source("trace.frag", texts=written_for()),
+        ),
     ],
     ids=["compute", "fragment"],
 )

@@ -21,8 +21,8 @@ import sys
 import numpy as np
 from glrt.gpu.context import open_context
 from glrt.image.sources import load
-from tests.mixture import everything
-from tests.renders import METHODS, rendered
+from tests.support.mixed_scene import everything
+from tests.support.renders import METHODS, rendered
 
 route, file = sys.argv[1:]
 opened = open_context(route)

@@ -217,7 +217,7 @@ MUTANTS = [
     Mutant(
         "a uniform number can be 1",
         _edit(
-            "sampling/uniform.glsl",
+            "sampling/unit_float.glsl",
             "float(x >> 8u) * 5.9604644775390625e-8",
             "float(x) / 4294967295.0",
         ),

@@ -65,13 +65,13 @@ def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
     arrays = pack_scene(scene)
     counts = {struct: len(rows) for struct, rows in arrays.items()}
     recorder = "uint digest = 0u;\nuint draws = 0u;\n"
-    recorded = _recording(read("sampling/uniform.glsl"), "float")
+    recorded = _recording(read("sampling/unit_float.glsl"), "float")
     constants = {**needs_of(scene, settings).constants(), **_CONSTANTS}
     with context.gl as gl:
         texts = {
             "stages": _glsl_entry(),
             FILE: scene_text(gl, arrays, "generic"),
-            "sampling/uniform.glsl": recorder + recorded,
+            "sampling/unit_float.glsl": recorder + recorded,
         }
         kernel = Kernel(gl, Source("stages", constants, texts=texts))
         resources = upload(gl, arrays, "generic")
