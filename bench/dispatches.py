@@ -11,7 +11,7 @@ from bench.sphere_counts import crowd
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.schedule import INTERACTIVE, Rhythm
+from glrt.rendering.schedule import INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
 from glrt.scene.scene import Scene
 
@@ -48,9 +48,9 @@ def _timed() -> Iterator[list[float]]:
     seconds: list[float] = []
     work_on = Tracer.work_on
 
-    def timed(tracer: Tracer, remaining: int, rhythm: Rhythm, seconds_left: float) -> None:
+    def timed(tracer: Tracer, remaining: int, policy: DispatchPolicy, seconds_left: float) -> None:
         start = time.perf_counter()
-        work_on(tracer, remaining, rhythm, seconds_left)
+        work_on(tracer, remaining, policy, seconds_left)
         seconds.append(time.perf_counter() - start)
 
     with patch.object(Tracer, "work_on", timed):

@@ -17,7 +17,7 @@ INTERVAL = 60.0  # seconds between two saves: what a power cut may cost
 SHARE = 0.05  # of the time, at most, that saving takes
 
 
-class Keeper:
+class Autosave:
     """Saves a picture under all its names, each file whole or not at all."""
 
     def __init__(self, outputs: Sequence[str], clock: Callable[[], float] = time.monotonic) -> None:

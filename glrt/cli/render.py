@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from glrt import signals
-from glrt.cli.autosave import Keeper
+from glrt.cli.autosave import Autosave
 from glrt.cli.options import AUTO, SCENE, add_context, add_pipeline, add_settings, is_automatic
 from glrt.cli.process import fail, peak_bytes, since_start
 from glrt.cli.request import Order, opened, order
@@ -91,15 +91,15 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interruption) -> int:
     limits = wanted.limits
-    renderer, keeper = opened(wanted, arguments), Keeper(arguments.outputs)
+    renderer, autosave = opened(wanted, arguments), Autosave(arguments.outputs)
     begun = renderer.samples
     setup = since_start() - renderer.compile_seconds
     start = time.perf_counter()
-    with _watch(arguments, limits, keeper, begun) as watch:
+    with _watch(arguments, limits, autosave, begun) as watch:
         try:
             image, understatement = render_to_limit(renderer, limits, interruption, watch)
         except RenderError as error:
-            raise RenderError(f"{error} {keeper.advice}".strip()) from error
+            raise RenderError(f"{error} {autosave.advice}".strip()) from error
     seconds = {
         "setup": setup,
         "compile": renderer.compile_seconds,
@@ -108,7 +108,7 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
     if image is None:
         return fail(signals.NOTHING, _signal_code(interruption))
     estimate = image.error
-    keeper.keep(image)
+    autosave.keep(image)
     _tell(arguments, renderer, begun, seconds, estimate)
     if interruption.signal is not None:
         text = f"interrupted after {renderer.samples} samples, which are saved"
@@ -139,11 +139,11 @@ def _signal_code(interruption: Interruption) -> int:
 
 @contextmanager
 def _watch(
-    arguments: argparse.Namespace, limits: Limits, keeper: Keeper, begun: int
+    arguments: argparse.Namespace, limits: Limits, autosave: Autosave, begun: int
 ) -> Iterator[Watch]:
     """What is called after each dispatch: saves now and then, and shows progress on a terminal."""
     if arguments.quiet or not sys.stderr.isatty():
-        yield keeper.after
+        yield autosave.after
         return
     from glrt.cli.progress import progress_bar
 
@@ -151,7 +151,7 @@ def _watch(
 
         def watch(renderer: Renderer) -> None:
             show(renderer)
-            keeper.after(renderer)
+            autosave.after(renderer)
 
         yield watch
 

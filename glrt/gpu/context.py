@@ -8,7 +8,7 @@ import ctypes
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import takewhile
@@ -75,27 +75,9 @@ class Context:
                 "smaller picture, or a --crop, may do."
             )
 
-    @contextmanager
-    def checked(self, what: str) -> Iterator[None]:
-        """RenderError where the driver finds an error in what is done inside.
-
-        What others left in this context is no fault of it.
-        """
-        self._take_errors()
-        try:
-            yield
-        except moderngl.Error as error:
-            raise RenderError(f"the driver refuses {what}: {error}") from error
-        if errors := self._take_errors():
-            raise RenderError(
-                f"the driver refuses {what}: {', '.join(errors)}. It may have run out of memory: a "
-                "smaller picture, or a --crop, takes less."
-            )
-
-    def _take_errors(self) -> list[str]:
-        """The flags that are raised; a driver may keep some, and each look lowers one."""
-        flags = (self.gl.error for _ in range(MOST_FLAGS))
-        return [*takewhile(lambda flag: flag != "GL_NO_ERROR", flags)]
+    def checked(self, what: str) -> AbstractContextManager[None]:
+        """`checked` of this context."""
+        return checked(self.gl, what)
 
     @cached_property
     def _reset_status(self) -> Callable[[], int]:
@@ -105,6 +87,30 @@ class Context:
         loader = self.gl.mglo._context  # moderngl has no method for it
         address = loader.load_opengl_function("glGetGraphicsResetStatus")
         return ctypes.CFUNCTYPE(ctypes.c_uint)(address) if address else lambda: 0
+
+
+@contextmanager
+def checked(gl: moderngl.Context, what: str) -> Iterator[None]:
+    """RenderError where the driver finds an error in what is done inside.
+
+    Errors that others left in this context are dropped first.
+    """
+    _take_errors(gl)
+    try:
+        yield
+    except moderngl.Error as error:
+        raise RenderError(f"the driver refuses {what}: {error}. {_SMALLER}") from error
+    if errors := _take_errors(gl):
+        raise RenderError(f"the driver refuses {what}: {', '.join(errors)}. {_SMALLER}")
+
+
+_SMALLER = "It may be out of memory, or at its limits: a smaller picture, or a --crop, takes less."
+
+
+def _take_errors(gl: moderngl.Context) -> list[str]:
+    """The flags that are raised; a driver may keep some, and each look lowers one."""
+    flags = (gl.error for _ in range(MOST_FLAGS))
+    return [*takewhile(lambda flag: flag != "GL_NO_ERROR", flags)]
 
 
 def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Context:

@@ -18,7 +18,7 @@ VARIANCE, PART = "film.variance", "film.part"
 DROPPED, MISSING, BEGUN = "film.dropped", "film.missing", "film.begun"
 
 
-class Gathered(NamedTuple):
+class FilmState(NamedTuple):
     """Of each pixel of a film; arrays (H, W) float32, or as noted."""
 
     variance: Array  # (H, W, 3): of one observation
@@ -28,21 +28,21 @@ class Gathered(NamedTuple):
     begun: Array  # how many those are
 
 
-def nothing_gathered(height: int, width: int) -> Gathered:
+def empty_state(height: int, width: int) -> FilmState:
     """Zeros, which take no memory before they are written over."""
     pixels, colors = (height, width), (height, width, 3)
     shapes = colors, pixels, pixels, colors, pixels
-    return Gathered(*(np.zeros(shape, np.float32) for shape in shapes))
+    return FilmState(*(np.zeros(shape, np.float32) for shape in shapes))
 
 
-def keep(film: Gathered, rows: slice, part: Gathered) -> None:
+def keep(film: FilmState, rows: slice, part: FilmState) -> None:
     """Put some rows in their place; zeros are left, so that what is rare takes little memory."""
     for array, band in zip(film, part, strict=True):
         if band.any():
             array[rows] = band
 
 
-def to_channels(film: Gathered, stderr: Array, samples: int, block: int) -> Channels:
+def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Channels:
     """Channels that `from_channels` reads back; `block` are the samples of an observation.
 
     Arrays (H, W, 3) and (H, W), in float32 and uint32.
@@ -61,7 +61,7 @@ def to_channels(film: Gathered, stderr: Array, samples: int, block: int) -> Chan
 
 def from_channels(
     channels: Mapping[str, NDArray[Any]], stderr: Array, samples: int, block: int
-) -> Gathered | None:
+) -> FilmState | None:
     """What `to_channels` was given; None where a channel is missing or has another size.
 
     `channels` are planes (H, W), as `film.variance.R` and `film.dropped`.
@@ -80,7 +80,7 @@ def from_channels(
     units = (folded >> 1).view(np.int32) ^ -(folded & 1).view(np.int32)
     near = _variance(stderr, observations, is_whole).view(np.int32)
     variance = (near + units).view(np.float32)
-    return Gathered(variance, dropped, observations, part, begun)
+    return FilmState(variance, dropped, observations, part, begun)
 
 
 def _variance(stderr: Array, observations: Array, is_whole: bool) -> Array:

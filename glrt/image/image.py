@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from glrt import files
 from glrt.error.estimate import relative_error
 from glrt.errors import SceneError, UsageError
-from glrt.image.film_state import Gathered, from_channels, to_channels
+from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
 from glrt.settings import Settings, ToneMap
@@ -32,15 +32,15 @@ class Image:
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
-    recipe. `gathered` is what a render needs to go on from it, if that is known. Raises ValueError
-    for arrays of another shape or type.
+    recipe. `film_state` is what a render needs to go on from it, if that is known. Raises
+    ValueError for arrays of another shape or type.
     """
 
     radiance: Pixels
     stderr: Pixels
     samples: int
     recipe: Recipe | None = None
-    gathered: Gathered | None = None
+    film_state: FilmState | None = None
 
     def __post_init__(self) -> None:
         for pixels in (self.radiance, self.stderr):
@@ -103,9 +103,9 @@ class Image:
         if self.recipe:
             header[RECIPE_KEY] = self.recipe.to_json()
         channels: dict[str, NDArray[Any]] = {"RGB": self.radiance, "stderr": self.stderr}
-        if self.recipe and self.gathered:
+        if self.recipe and self.film_state:
             block = self.recipe.settings.block
-            channels |= to_channels(self.gathered, self.stderr, self.samples, block)
+            channels |= to_channels(self.film_state, self.stderr, self.samples, block)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
         OpenEXR.File(header, contiguous).write(str(path))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from glrt.errors import UsageError
-from glrt.image.film_state import Gathered
+from glrt.image.film_state import FilmState
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.scene.toml import scene_to_dict
@@ -24,7 +24,7 @@ def recipe_to_resume(image: Image) -> Recipe:
         )
     if image.recipe.traced:
         raise UsageError("it was relit in the window: a sum of layers, which it does not hold")
-    if image.gathered is None:
+    if image.film_state is None:
         raise UsageError(
             "it holds no state of a film: another renderer or an older glrt wrote it, or another "
             "program saved it anew"
@@ -32,7 +32,7 @@ def recipe_to_resume(image: Image) -> Recipe:
     return image.recipe
 
 
-def fitting(image: Image, wanted: Recipe) -> Gathered:
+def fitting(image: Image, wanted: Recipe) -> FilmState:
     """What the film of a picture had gathered, if a render by the recipe `wanted` would gather it.
 
     Title and samples of the scene may differ, and settings that cost nothing. Raises UsageError
@@ -43,8 +43,8 @@ def fitting(image: Image, wanted: Recipe) -> Gathered:
     if differences:
         more = f" ({len(differences) - 1} more differ)" if len(differences) > 1 else ""
         raise UsageError(f"{differences[0]}{more}")
-    assert image.gathered is not None
-    return image.gathered
+    assert image.film_state is not None
+    return image.film_state
 
 
 def _differences(recipe: Recipe, wanted: Recipe) -> Iterator[str]:

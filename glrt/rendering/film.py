@@ -1,13 +1,15 @@
 """What has been gathered: running mean and variance of each pixel, in ping-pong textures."""
 
 from collections.abc import Iterator
+from contextlib import ExitStack
 from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
 
 from glrt.errors import RenderError, UsageError
-from glrt.image.film_state import Gathered
+from glrt.gpu.context import checked
+from glrt.image.film_state import FilmState
 
 Array = np.ndarray[Any, np.dtype[np.float32]]
 BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
@@ -33,10 +35,10 @@ class Exposure(NamedTuple):
     share: Array  # (H, W): of all finite samples, those in `part`
     layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
 
-    def gathered(self, samples: int) -> Gathered:
+    def state(self, samples: int) -> FilmState:
         """All but mean and layers, with so many samples a pixel."""
         begun = np.rint(self.share * (samples - self.dropped))
-        return Gathered(self.variance, self.dropped, self.observations, self.part, begun)
+        return FilmState(self.variance, self.dropped, self.observations, self.part, begun)
 
 
 class Film:
@@ -116,7 +118,7 @@ class Film:
         rows = max(1, BAND_PIXELS // self.size[0])
         return (slice(first, first + rows) for first in range(0, self.size[1], rows))
 
-    def write(self, samples: int, mean: Array, gathered: Gathered) -> None:
+    def write(self, samples: int, mean: Array, film_state: FilmState) -> None:
         """Take up what another film has read: so many samples of each pixel.
 
         UsageError for a film with layers, which no picture holds.
@@ -124,9 +126,9 @@ class Film:
         if self.extent.layers:
             raise UsageError("layers of light are kept here, which a picture does not hold")
         rows = {
-            "mean": np.dstack([mean, gathered.dropped]),
-            "variance": np.dstack([gathered.variance, gathered.observations]),
-            "block": np.dstack([gathered.part, gathered.begun]),
+            "mean": np.dstack([mean, film_state.dropped]),
+            "variance": np.dstack([film_state.variance, film_state.observations]),
+            "block": np.dstack([film_state.part, film_state.begun]),
         }
         for name, texture in self._pairs[0].items():
             texture.write(np.ascontiguousarray(rows[name], np.float32))
@@ -149,15 +151,11 @@ class Film:
 
     def _texture(self, across: int, down: int) -> moderngl.Texture:
         width, height = self.size
-        problem = f"no room on the driver for a film of {width} x {height} pixels; render a --crop"
-        _ = self._gl.error  # what others left in this context is no fault of the film
-        try:
-            texture = self._gl.texture((across, down), 4, dtype="f4")
-        except moderngl.Error as error:
-            raise RenderError(f"{problem} ({error})") from error
-        if (state := self._gl.error) != "GL_NO_ERROR":
-            texture.release()
-            raise RenderError(f"{problem} ({state})")
+        with ExitStack() as refused:
+            with checked(self._gl, f"a film of {width} x {height} pixels"):
+                texture = self._gl.texture((across, down), 4, dtype="f4")
+                refused.callback(texture.release)
+            refused.pop_all()
         return texture
 
     def _check_exposed(self) -> None:

@@ -9,13 +9,13 @@ from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.rendering.pipelines import compiled
-from glrt.rendering.schedule import Portion, Schedule
+from glrt.rendering.schedule import DispatchRange, Schedule
 
 AnyKernel = Kernel | FragmentKernel
-Dispatch = Callable[[AnyKernel, Portion], None]
+Dispatch = Callable[[AnyKernel, DispatchRange], None]
 
 
-class Turns:
+class KernelSwitch:
     """The kernel whose turn it is, and what is known of its dispatches."""
 
     def __init__(
@@ -56,7 +56,7 @@ class Turns:
         kernel = compiled(self._context.gl, shaders)
         try:
             with self._context.checked("a shader"):
-                dispatch(kernel, Portion(0, 0, 1))  # drivers compile here; it adds nothing
+                dispatch(kernel, DispatchRange(0, 0, 1))  # drivers compile here; it adds nothing
                 self._context.finish()
         except RenderError:
             kernel.release()

@@ -19,7 +19,7 @@ from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_
 from glrt.rendering.display import displayed
 from glrt.rendering.film import Film
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
-from glrt.rendering.schedule import HEADLESS, INTERACTIVE, Rhythm
+from glrt.rendering.schedule import HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
 from glrt.rendering.weighting import Mixer, mixed
 from glrt.scene.scene import Scene
@@ -95,12 +95,12 @@ class Renderer:
     @property
     def tier(self) -> Tier:
         """Where the kernel that stays through edits finds its shapes."""
-        return self._tracer.uploaded.tier
+        return self._tracer.buffers.tier
 
     @property
     def shaders(self) -> list[Source]:
         """The shaders of that kernel, as the driver got them; the last one traces paths."""
-        return self._tracer.uploaded.shaders
+        return self._tracer.buffers.shaders
 
     @property
     def most_samples(self) -> int:
@@ -110,7 +110,7 @@ class Renderer:
     @property
     def compile_seconds(self) -> float:
         """What that kernel took to compile."""
-        return self._tracer.turns.compile_seconds
+        return self._tracer.switch.compile_seconds
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
@@ -156,7 +156,7 @@ class Renderer:
     @property
     def is_baked(self) -> bool:
         """Whether the kernel that runs has the shapes written into it."""
-        return self.tier == "baked" or self._tracer.turns.is_passed
+        return self.tier == "baked" or self._tracer.switch.is_passed
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
@@ -199,14 +199,14 @@ class Renderer:
         """The picture so far, with its standard error and its recipe; `weights` show it so."""
         weights = weights or self.plan.weights
         with self.context.gl:
-            radiance, stderr, gathered = mixed(self.film, weights)
-        return Image(radiance, stderr, self.samples, self._recipe(weights), gathered)
+            radiance, stderr, film_state = mixed(self.film, weights)
+        return Image(radiance, stderr, self.samples, self._recipe(weights), film_state)
 
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
-        gathered = fitting(image, self._recipe((ONE,)))
+        film_state = fitting(image, self._recipe((ONE,)))
         with self.context.gl:
-            self._tracer.resume(image.samples, image.radiance, gathered)
+            self._tracer.resume(image.samples, image.radiance, film_state)
         return self
 
     def display(self) -> np.ndarray[Any, Any]:
@@ -239,6 +239,6 @@ class Renderer:
             traced=traced(self.plan, weights),
         )
 
-    def _work(self, remaining: int, rhythm: Rhythm, seconds: float = math.inf) -> None:
+    def _work(self, remaining: int, policy: DispatchPolicy, seconds: float = math.inf) -> None:
         with self.context.gl:
-            self._tracer.work_on(remaining, rhythm, seconds)
+            self._tracer.work_on(remaining, policy, seconds)

@@ -31,7 +31,7 @@ HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)
 _GOLDEN = 0.618
 
 
-class Rhythm(NamedTuple):
+class DispatchPolicy(NamedTuple):
     """How often a render stops: to be told to end, or to show what it has."""
 
     limit: float  # seconds that no dispatch may exceed: drivers end those of some seconds
@@ -41,8 +41,8 @@ class Rhythm(NamedTuple):
 
 # Dispatches are planned for half of their limit. In a window it is edits that end a frame, which
 # begin the picture anew: nothing is lost then.
-HEADLESS = Rhythm(0.5, 1 / 8, math.inf)
-INTERACTIVE = Rhythm(0.1, 1 / 4, 1.0)
+HEADLESS = DispatchPolicy(0.5, 1 / 8, math.inf)
+INTERACTIVE = DispatchPolicy(0.1, 1 / 4, 1.0)
 
 
 def iterations_per_sample(
@@ -110,7 +110,7 @@ def stride_of(tiles: int) -> int:
     return next(stride for stride in count(start) if math.gcd(stride, tiles) == 1)
 
 
-class Portion(NamedTuple):
+class DispatchRange(NamedTuple):
     """What one dispatch does: `samples` samples of each pixel in tiles `first` and following."""
 
     samples: int
@@ -118,10 +118,10 @@ class Portion(NamedTuple):
     tiles: int
 
 
-def whole_frame(samples: int, tiles: int) -> list[Portion]:
+def whole_frame(samples: int, tiles: int) -> list[DispatchRange]:
     """All tiles in as few dispatches as every driver takes."""
     starts = range(0, tiles, MOST_TILES)
-    return [Portion(samples, first, min(MOST_TILES, tiles - first)) for first in starts]
+    return [DispatchRange(samples, first, min(MOST_TILES, tiles - first)) for first in starts]
 
 
 class Schedule:
@@ -143,7 +143,7 @@ class Schedule:
         return self._samples * self._done / self._tiles
 
     def drop(self) -> None:
-        """Forget the frame that has begun: the next portion starts another."""
+        """Forget the frame that has begun: the next part starts another."""
         self._samples = self._done = 0
 
     def restart(self, tiles: int, most_samples: int, bounces: int) -> None:
@@ -161,36 +161,36 @@ class Schedule:
         self._most = most_samples
         self.drop()
 
-    def next_portion(
-        self, remaining: int, seconds: float, held: int = 0, rhythm: Rhythm = HEADLESS
-    ) -> Portion:
+    def next_dispatch(
+        self, remaining: int, seconds: float, held: int = 0, policy: DispatchPolicy = HEADLESS
+    ) -> DispatchRange:
         """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds.
 
-        The picture has `held` samples. Of a frame that has begun, `rhythm` changes nothing.
+        The picture has `held` samples. Of a frame that has begun, `policy` changes nothing.
         """
         if self._samples > remaining:
             self.drop()
         if not self._done:
             at_once = self._fitting(seconds, self._cost) / self._tiles
-            together = min(held * rhythm.share, MOST_TOGETHER)
+            together = min(held * policy.share, MOST_TOGETHER)
             if self._cost:
-                together = min(together, rhythm.patience / (self._cost * self._tiles))
+                together = min(together, policy.patience / (self._cost * self._tiles))
             self._samples = max(1, min(int(max(at_once, together)), self._most, remaining))
         left = self._tiles - self._done
         is_alone = self._samples == 1 and self._cost_alone
         fitting = self._fitting(seconds, self._cost_alone if is_alone else self._cost)
         most = min(MOST_TILES, max(1, int(fitting / self._samples)))
         dispatches = math.ceil(left / most)
-        return Portion(self._samples, self._done, math.ceil(left / dispatches))
+        return DispatchRange(self._samples, self._done, math.ceil(left / dispatches))
 
-    def record(self, portion: Portion, seconds: float) -> bool:
+    def record(self, part: DispatchRange, seconds: float) -> bool:
         """Learn from a dispatch; whether it completed the frame."""
-        work = portion.samples * portion.tiles
+        work = part.samples * part.tiles
         self._tried = max(self._tried, work)
         self._cost = max(seconds, 1e-9) / work
-        if portion.samples == 1:
+        if part.samples == 1:
             self._cost_alone = self._cost
-        self._done += portion.tiles
+        self._done += part.tiles
         is_complete = self._done == self._tiles
         if is_complete:
             self.drop()

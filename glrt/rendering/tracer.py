@@ -6,20 +6,20 @@ from contextlib import ExitStack
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
-from glrt.image.film_state import Gathered
+from glrt.image.film_state import FilmState
 from glrt.methods.light_layers import Plan
 from glrt.rendering.film import Array, Extent, Film
-from glrt.rendering.kernel_switch import AnyKernel, Turns
+from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import (
-    Portion,
-    Rhythm,
+    DispatchPolicy,
+    DispatchRange,
     Schedule,
     iterations_per_sample,
     most_samples,
     whole_frame,
 )
-from glrt.rendering.upload import Uploaded
+from glrt.rendering.upload import SceneBuffers
 from glrt.settings import Cost
 
 
@@ -40,21 +40,21 @@ class Tracer:
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
-            self.uploaded: Uploaded = Uploaded(
-                context, plan, options, before.uploaded if before else None
+            self.buffers: SceneBuffers = SceneBuffers(
+                context, plan, options, before.buffers if before else None
             )
-            refused.callback(self.uploaded.release)
+            refused.callback(self.buffers.release)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if before and self.uploaded.has_kernel_of(before.uploaded):
-                self.turns: Turns = before.turns
+            if before and self.buffers.has_kernel_of(before.buffers):
+                self.switch: KernelSwitch = before.switch
             else:
                 if before:
-                    before.turns.schedule.drop()  # the first dispatch writes to its frame
-                self.turns = self._compiled()
+                    before.switch.schedule.drop()  # the first dispatch writes to its frame
+                self.switch = self._compiled()
             refused.pop_all()
 
     def followed_by(self, plan: Plan) -> tuple["Tracer", Cost]:
@@ -63,22 +63,22 @@ class Tracer:
         As the constructor raises, with this as it was.
         """
         after = Tracer(self._context, plan, self._options, self)
-        self.uploaded.release()
+        self.buffers.release()
         if after.film is not self.film:
             self.film.release()
         after.film.restart()
-        if after.turns is not self.turns:
-            self.turns.release()
+        if after.switch is not self.switch:
+            self.switch.release()
             return after, Cost.RECOMPILE
-        if not after.uploaded.has_shapes_of(self.uploaded):
-            self.turns.take_back()
-        self.turns.schedule.restart(after._tiles, after.most_samples, plan.settings.bounces)
+        if not after.buffers.has_shapes_of(self.buffers):
+            self.switch.take_back()
+        self.switch.schedule.restart(after._tiles, after.most_samples, plan.settings.bounces)
         return after, Cost.RESTART
 
     @property
     def work(self) -> float:
         """Samples a pixel, and the share that is done of those in the frame that has begun."""
-        return self.film.samples + self.turns.schedule.begun
+        return self.film.samples + self.switch.schedule.begun
 
     @property
     def tier(self) -> str:
@@ -87,66 +87,66 @@ class Tracer:
         Drivers of software do not: then it is that of the kernel that stays through edits.
         """
         if self._context.is_software or not self._tiers:
-            return self.uploaded.tier
+            return self.buffers.tier
         return " and ".join(sorted(self._tiers))
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
-        self.turns.schedule.drop()
+        self.switch.schedule.drop()
         self.film.restart()
         self._tiers.clear()
 
-    def resume(self, samples: int, mean: Array, gathered: Gathered) -> None:
+    def resume(self, samples: int, mean: Array, film_state: FilmState) -> None:
         """Take up what another film has read, by a kernel of the same tier."""
-        self.turns.schedule.drop()
-        self.film.write(samples, mean, gathered)
-        self._tiers = {self.uploaded.tier}
+        self.switch.schedule.drop()
+        self.film.write(samples, mean, film_state)
+        self._tiers = {self.buffers.tier}
 
     def bake(self) -> bool:
         """Go on by a kernel that has the shapes written in; False where there is none."""
-        shaders = None if self.turns.is_passed else self.uploaded.baked()
+        shaders = None if self.switch.is_passed else self.buffers.baked()
         if shaders:
-            self.turns.pass_to(shaders, self._dispatch)
+            self.switch.pass_to(shaders, self._dispatch)
         return shaders is not None
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
-        self.turns.schedule.drop()
+        self.switch.schedule.drop()
         target = self.film.samples + samples
         while self.film.samples < target:
             self._at_once(min(self.most_samples, target - self.film.samples))
 
-    def work_on(self, remaining: int, rhythm: Rhythm, seconds: float) -> None:
+    def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
         """One dispatch that the schedule plans; all those of a frame read the same source."""
-        schedule, planned = self.turns.schedule, min(seconds, rhythm.limit / 2)
-        portion = schedule.next_portion(remaining, planned, self.film.samples, rhythm)
+        schedule, planned = self.switch.schedule, min(seconds, policy.limit / 2)
+        part = schedule.next_dispatch(remaining, planned, self.film.samples, policy)
         start = time.perf_counter()
-        self._dispatch(self.turns.kernel, portion)
+        self._dispatch(self.switch.kernel, part)
         self._context.finish()
         taken = time.perf_counter() - start
-        if self._fits(portion.samples) and schedule.record(portion, taken):
-            self._advance(portion.samples)
+        if self._fits(part.samples) and schedule.record(part, taken):
+            self._advance(part.samples)
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for part in (self.film, self.turns, self.uploaded):
+        for part in (self.film, self.switch, self.buffers):
             part.release()
 
-    def _compiled(self) -> Turns:
+    def _compiled(self) -> KernelSwitch:
         schedule = Schedule(self._tiles, self.most_samples)
-        return Turns(self._context, self.uploaded.shaders, schedule, self._dispatch)
+        return KernelSwitch(self._context, self.buffers.shaders, schedule, self._dispatch)
 
     def _at_once(self, samples: int) -> None:
         """Samples of every pixel at once; none if they prove too many."""
-        for portion in whole_frame(samples, self._tiles):
-            self._dispatch(self.turns.kernel, portion)
+        for part in whole_frame(samples, self._tiles):
+            self._dispatch(self.switch.kernel, part)
         self._context.finish()
         if self._fits(samples):
             self._advance(samples)
 
     def _advance(self, samples: int) -> None:
         self.film.advance(samples)
-        self._tiers.add("baked" if self.turns.is_passed else self.uploaded.tier)
+        self._tiers.add("baked" if self.switch.is_passed else self.buffers.tier)
 
     def _fits(self, samples: int) -> bool:
         """Whether no sample of this frame was lost to the loop limit, or fewer would not help.
@@ -154,15 +154,15 @@ class Tracer:
         Rays through a tree take as many rounds as they take. A frame that lost some is done again
         with fewer samples at once; what is lost then is counted on the film.
         """
-        if self._rounds is None or not self.uploaded.lost_any() or samples == 1:
+        if self._rounds is None or not self.buffers.lost_any() or samples == 1:
             return True
         self.most_samples = samples // 2
-        self.turns.schedule.limit(self.most_samples)
+        self.switch.schedule.limit(self.most_samples)
         return False
 
-    def _dispatch(self, kernel: AnyKernel, portion: Portion) -> None:
+    def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
         images, first = self.film.images(), self.film.samples
-        self.uploaded.dispatch(kernel, images, self._plan, first, portion, self._tiles)
+        self.buffers.dispatch(kernel, images, self._plan, first, part, self._tiles)
 
 
 def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:

@@ -16,15 +16,19 @@ from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pipelines import KernelOptions, Tier, scene_text, sources, tier_for, upload
-from glrt.rendering.schedule import Portion, stride_of
+from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.scene.scene import Scene
 
 
-class Uploaded:
+class SceneBuffers:
     """What a kernel reads of a scene, beside the film."""
 
     def __init__(
-        self, context: Context, plan: Plan, options: KernelOptions, before: "Uploaded | None" = None
+        self,
+        context: Context,
+        plan: Plan,
+        options: KernelOptions,
+        before: "SceneBuffers | None" = None,
     ) -> None:
         """Give the driver the scene of a plan; the tier is another if the scene is too large.
 
@@ -61,11 +65,11 @@ class Uploaded:
         tier = tier_for(self._arrays, "baked")
         return None if tier == self.tier else self._shaders(self._texts_of(tier))
 
-    def has_kernel_of(self, other: "Uploaded") -> bool:
+    def has_kernel_of(self, other: "SceneBuffers") -> bool:
         """Whether the kernel of one scene does for the other."""
         return (self._constants, self._texts) == (other._constants, other._texts)
 
-    def has_shapes_of(self, other: "Uploaded") -> bool:
+    def has_shapes_of(self, other: "SceneBuffers") -> bool:
         """Whether constants written for one scene do for the other: to the last bit."""
         return all(same_rows(self._arrays[name], other._arrays[name]) for name in NUMBERED)
 
@@ -75,14 +79,14 @@ class Uploaded:
         images: Images,
         plan: Plan,
         first_sample: int,
-        portion: Portion,
+        part: DispatchRange,
         tiles: int,
     ) -> None:
-        """Let a kernel add a portion's samples, from `first_sample` on, of a picture of `tiles`."""
-        numbers = first_sample, portion.samples, portion.first, stride_of(tiles)
+        """Let a kernel add a part's samples, from `first_sample` on, of a picture of `tiles`."""
+        numbers = first_sample, part.samples, part.first, stride_of(tiles)
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers))
         kernel.bind(self._resources, images)
-        kernel.run_tiles(portion.tiles)
+        kernel.run_tiles(part.tiles)
 
     def lost_any(self) -> bool:
         """Whether a kernel has lost samples to the loop limit since this was last asked."""
@@ -112,7 +116,7 @@ class Uploaded:
         return sources(self._options.pipeline, self._constants, texts)
 
 
-def _packed(scene: Scene, contents: Contents, before: Uploaded | None) -> Arrays:
+def _packed(scene: Scene, contents: Contents, before: SceneBuffers | None) -> Arrays:
     """The arrays of a scene; what those from before hold of it is not computed again."""
     if before and before._scene == scene:
         return before._arrays

@@ -5,14 +5,14 @@ import numpy as np
 
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
-from glrt.image.film_state import Gathered, keep, nothing_gathered
+from glrt.image.film_state import FilmState, empty_state, keep
 from glrt.methods.light_layers import MOST_LAYERS, NONE, Weights, are_trivial
 from glrt.rendering.film import Array, Exposure, Film, standard_error
 
 _VERSION = "410 core"
 
 
-def mixed(film: Film, weights: Weights) -> tuple[Array, Array, Gathered | None]:
+def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]:
     """Radiance and its standard error, (H, W, 3) float32 each, of a film under weights.
 
     And what the film has gathered beside them: None if they do not tell its mean, or not alone.
@@ -20,13 +20,13 @@ def mixed(film: Film, weights: Weights) -> tuple[Array, Array, Gathered | None]:
     width, height = film.size
     radiance, error = np.empty((2, height, width, 3), np.float32)
     is_all = are_trivial(weights) and not film.extent.layers
-    gathered = nothing_gathered(height, width) if is_all else None
+    film_state = empty_state(height, width) if is_all else None
     for rows in film.bands():
         exposure = film.read(rows)
         radiance[rows], error[rows] = _mixed(exposure, weights)
-        if gathered:
-            keep(gathered, rows, exposure.gathered(film.samples))
-    return radiance, error, gathered
+        if film_state:
+            keep(film_state, rows, exposure.state(film.samples))
+    return radiance, error, film_state
 
 
 def _mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:

@@ -88,7 +88,7 @@ vec3 point_light(Vertex vertex, Ray from, int shape) {
     precise PointLamp lamp = point_lamp(shape);
     precise vec3 to_center = lamp.center - from.origin;
     precise float distance = length(to_center);
-    if (shape == from.leaves || distance == 0.0) return vec3(0.0);
+    if (shape == from.origin_shape || distance == 0.0) return vec3(0.0);
     from.direction = to_center / distance;
     precise vec3 wi = to_local(vertex.frame, from.direction);
     if (wi.z <= 0.0) return vec3(0.0);

@@ -27,8 +27,8 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
 }
 
-// Direct light from one sampled point, scattered towards wo. The direction of `from` is ignored.
-vec3 direct_light(Vertex vertex, Ray from, LightSample light) {
+// Direct light from one sampled point, scattered towards wo.
+vec3 direct_light(Vertex vertex, LightSample light) {
     if (light.pdf == 0.0) return vec3(0.0);
     precise vec3 wi = to_local(vertex.frame, light.ray.direction);
     if (wi.z <= 0.0) return vec3(0.0);
@@ -85,7 +85,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
     if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
     if (MODEL == COOK) {
         precise LightSample light = sample_light(from, total_weight(from), rng);
-        precise vec3 direct = weight * direct_light(vertex, from, light);
+        precise vec3 direct = weight * direct_light(vertex, light);
         gather(path, direct, light.layer, path.depth + 1);
         return;
     }
@@ -111,7 +111,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     precise float lamps = total_weight(ray);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
-        precise vec3 direct = path.scale * path.throughput * direct_light(vertex, ray, light);
+        precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light);
         gather(path, direct, light.layer, path.depth + 1);
     }
     precise Scattering next = sample_material(vertex, side > 0.0, rng);

@@ -8,7 +8,7 @@
 // it leaves, where that is alone.
 float cluster_weight(int index, Ray ray) {
     precise Cluster cluster = cluster_at(index);
-    if (cluster.shape == ray.leaves) return 0.0;
+    if (cluster.shape == ray.origin_shape) return 0.0;
     precise vec3 away = cluster.center - ray.origin;
     precise float weight = cluster.probability / max(dot(away, away), cluster.reach2);
     return weight;

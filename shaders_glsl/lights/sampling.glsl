@@ -34,7 +34,7 @@ Quad quad_of(Light light) {
 // Whether sampling may find this lamp from the ray's origin.
 bool is_sampled(int index, Ray ray) {
     precise Light light = light_at(index);
-    if (light.shape == ray.leaves) return false;
+    if (light.shape == ray.origin_shape) return false;
     if (is_of_sphere(light)) {
         precise Sphere sphere = sphere_at(light.shape);
         return cone_of_sphere(sphere.center - ray.origin, sphere.radius) > 0.0;
@@ -80,7 +80,7 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u, float lamps) {
     precise Sphere sphere = sphere_at(shape);
     precise vec3 to_center = sphere.center - ray.origin;
     precise float one_minus_cos = cone_of_sphere(to_center, sphere.radius);
-    if (one_minus_cos == 0.0 || shape == ray.leaves) return no_light_sample(ray);
+    if (one_minus_cos == 0.0 || shape == ray.origin_shape) return no_light_sample(ray);
     precise vec3 local = sample_cone(one_minus_cos, u);
     precise vec3 direction = normalized(frame_around(normalized(to_center)) * local);
     ray.direction = direction;

@@ -14,7 +14,7 @@ Hit find_plane(Ray ray, Hit hit, bool any) {
         int shape = first_plane() + i;
         precise Plane plane = plane_at(i);
         precise float t = plane_distance(ray, plane.point, plane.normal);
-        if (t > 0.0 && t < hit.distance && shape != ray.leaves) {
+        if (t > 0.0 && t < hit.distance && shape != ray.origin_shape) {
             hit = Hit(t, shape);
             if (any) return hit;
         }

@@ -14,7 +14,7 @@ Hit find_quad(Ray ray, Hit hit, int ignored, bool any) {
     for (; i < quad_count(); ++i) {
         int shape = first_quad() + i;
         precise float t = quad_distance(ray, quad_at(i));
-        if (t > 0.0 && t < hit.distance && shape != ray.leaves && shape != ignored) {
+        if (t > 0.0 && t < hit.distance && shape != ray.origin_shape && shape != ignored) {
             hit = Hit(t, shape);
             if (any) return hit;
         }

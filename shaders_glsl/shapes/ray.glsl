@@ -3,6 +3,6 @@
 struct Ray {
     vec3 origin;
     vec3 direction;  // unit
-    int leaves;      // the shape that it starts on, or NO_SHAPE
+    int origin_shape;  // the shape that it starts on, or NO_SHAPE
     bool inward;     // whether it runs into the sphere that it starts on
 };

@@ -10,7 +10,7 @@ float sphere_distance(Ray ray, Sphere sphere, int shape) {
     precise vec3 beside = to_center - along * ray.direction;
     precise float r2 = sphere.radius * sphere.radius;
     precise float discriminant = r2 - dot(beside, beside);
-    if (shape == ray.leaves) {
+    if (shape == ray.origin_shape) {
         precise float chord = 2.0 * along;  // twice the way to its middle: along the rim, roots are all noise
         return ray.inward ? chord : 0.0;
     }

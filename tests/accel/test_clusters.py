@@ -219,7 +219,7 @@ def test_a_lamp_that_is_a_cluster_is_not_chosen_where_it_was_just_left(
     u = random.uniform(size=(2**12, 3))
     origin = np.tile([49.9, 0, 0], (len(u), 1))
     for left, share in ((0, 0.0), (1, 0.99)):
-        setup = f"{FROM} from.leaves = {left}; float total = total_weight(from);"
+        setup = f"{FROM} from.origin_shape = {left}; float total = total_weight(from);"
         args = {"setup": setup, "scene": scene, "origin": origin, "u": u}
         shape = call_glsl("light_at(choose_light(from, total, u)).shape", "int", **args)
         assert np.mean(shape == 0) == pytest.approx(share, abs=0.01)

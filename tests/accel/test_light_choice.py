@@ -141,7 +141,7 @@ def test_another_lamp_compiles_where_lamps_are_weighed(context: Context) -> None
 def test_the_lamp_just_left_is_not_chosen(call_glsl: CallGlsl) -> None:
     scene, u = balls(3), (np.arange(64) + 0.5) / 64
     for left in range(3):
-        setup = f"{FROM} from.leaves = {left}; {CHOSEN}"
+        setup = f"{FROM} from.origin_shape = {left}; {CHOSEN}"
         args = {"setup": setup, "origin": np.zeros((64, 3)), "u": u}
         chosen = call_glsl("index", "int", scene=scene, **args)
         assert set(chosen.tolist()) == {0, 1, 2} - {left}

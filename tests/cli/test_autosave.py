@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from glrt.cli import autosave
-from glrt.cli.autosave import INTERVAL, SHARE, Keeper
+from glrt.cli.autosave import INTERVAL, SHARE, Autosave
 from glrt.errors import RenderError
 from glrt.image.image import Image
 from tests.support.images import picture
@@ -28,9 +28,9 @@ class Fake:
         return picture()
 
 
-def looked(fake: Fake, outputs: list[Path], until: float, step: float = 1.0) -> Keeper:
-    """A keeper that is called every `step` seconds up to a time."""
-    keeping = Keeper([str(output) for output in outputs], lambda: fake.now)
+def looked(fake: Fake, outputs: list[Path], until: float, step: float = 1.0) -> Autosave:
+    """A autosave that is called every `step` seconds up to a time."""
+    keeping = Autosave([str(output) for output in outputs], lambda: fake.now)
     renderer: Any = fake
     while fake.now < until:
         fake.now += step
@@ -99,7 +99,7 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_a_picture_whose_folder_is_gone_is_saved_elsewhere(tmp_path: Path, temporary: Path) -> None:
     with pytest.raises(RenderError, match=r"gone/a\.png.*The picture is in .*\.exr\.$"):
-        Keeper([str(tmp_path / "gone" / "a.png")]).keep(picture())
+        Autosave([str(tmp_path / "gone" / "a.png")]).keep(picture())
     (saved,) = temporary.iterdir()
     assert Image.load(saved).samples == picture().samples
 
@@ -109,7 +109,7 @@ def test_what_can_be_written_is_written_and_an_exr_is_enough(
 ) -> None:
     outputs = [tmp_path / "gone" / "a.png", tmp_path / "a.exr", tmp_path / "a.npy"]
     with pytest.raises(RenderError, match=r"gone/a\.png.*exr file is saved"):
-        Keeper([str(output) for output in outputs]).keep(picture())
+        Autosave([str(output) for output in outputs]).keep(picture())
     assert outputs[1].exists()
     assert outputs[2].exists()
     assert not list(temporary.iterdir())
@@ -120,4 +120,4 @@ def test_without_any_room_only_the_reason_is_told(
 ) -> None:
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
     with pytest.raises(RenderError, match=r"another place\.$"):
-        Keeper([str(tmp_path / "gone" / "a.exr")]).keep(picture())
+        Autosave([str(tmp_path / "gone" / "a.exr")]).keep(picture())

@@ -9,7 +9,7 @@ import pytest
 
 from glrt.errors import UsageError
 from glrt.gpu.context import Context
-from glrt.image.film_state import Gathered, from_channels, to_channels
+from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting
@@ -90,12 +90,12 @@ def test_any_film_comes_back_from_its_channels(samples: int) -> None:
     variance[0] = [0, 1e-45, 3.4e38]
     begun = random.integers(0, 16, size).astype(np.float32) * (samples % block > 0)
     part = variance[::-1] * (samples % block > 0)
-    film = Gathered(variance, dropped, observations.astype(np.float32), part, begun)
+    film = FilmState(variance, dropped, observations.astype(np.float32), part, begun)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         stderr = np.sqrt(variance / (film.observations[..., None] - 1)).astype(np.float32)
     back = from_channels(planes(to_channels(film, stderr, samples, block)), stderr, samples, block)
     assert back is not None
-    for name in Gathered._fields:
+    for name in FilmState._fields:
         assert same_bits(getattr(back, name), getattr(film, name)), name
 
 
@@ -116,7 +116,7 @@ def test_what_a_picture_keeps_for_it_takes_a_tenth_of_the_file(
     """Between observations; within one, the variance itself is kept."""
     image = taken(context, 32, width=64, height=64).image()
     image.save(tmp_path / "a.exr")
-    replace(image, gathered=None).save(tmp_path / "b.exr")
+    replace(image, film_state=None).save(tmp_path / "b.exr")
     sizes = [(tmp_path / name).stat().st_size for name in ("a.exr", "b.exr")]
     assert sizes[1] < sizes[0] < 1.1 * sizes[1]
 
@@ -141,13 +141,13 @@ def recipe_of(image: Image, **changes: Any) -> Recipe:
     [("samples", 1000), ("exposure", 2.0), ("tonemap", "aces")],
 )
 def test_what_changes_no_sample_may_change(begun: Image, name: str, value: Any) -> None:
-    assert fitting(begun, recipe_of(begun, **{name: value})) is begun.gathered
+    assert fitting(begun, recipe_of(begun, **{name: value})) is begun.film_state
 
 
 def test_title_and_wished_samples_of_a_scene_may_change(begun: Image) -> None:
     wishes = ROOM.render.model_copy(update={"samples": 7})
     scene = ROOM.model_copy(update={"title": "another", "render": wishes})
-    assert fitting(begun, recipe_of(begun, scene=scene)) is begun.gathered
+    assert fitting(begun, recipe_of(begun, scene=scene)) is begun.film_state
 
 
 @pytest.mark.parametrize(
@@ -202,11 +202,11 @@ def test_a_picture_that_lost_a_channel_is_refused(begun: Image, tmp_path: Path) 
     with OpenEXR.File(str(tmp_path / "a.exr"), separate_channels=True) as file:
         recipe = file.header()["glrt"]
         channels = {name: channel.pixels for name, channel in file.channels().items()}
-    assert Image.load(tmp_path / "a.exr").gathered
+    assert Image.load(tmp_path / "a.exr").film_state
     for lost in ("film.variance.G", "film.part.B", "film.begun"):
         rest = {name: pixels for name, pixels in channels.items() if name != lost}
         OpenEXR.File({"glrt": recipe}, rest).write(str(tmp_path / "b.exr"))
-        assert Image.load(tmp_path / "b.exr").gathered is None
+        assert Image.load(tmp_path / "b.exr").film_state is None
 
 
 def test_a_relit_picture_is_refused(context: Context) -> None:

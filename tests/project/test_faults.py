@@ -21,7 +21,7 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.schedule import HEADLESS, Portion, Rhythm
+from glrt.rendering.schedule import HEADLESS, DispatchPolicy, DispatchRange
 from glrt.settings import Settings
 
 SMALL = ["--width", "24", "--height", "16", "--samples", "64"]
@@ -72,10 +72,10 @@ def test_a_folder_removed_during_a_render_costs_no_picture(
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     work = Renderer._work
 
-    def remove(self: Renderer, remaining: int, rhythm: Rhythm) -> None:
+    def remove(self: Renderer, remaining: int, policy: DispatchPolicy) -> None:
         if folder.exists():
             folder.rmdir()
-        work(self, remaining, rhythm)
+        work(self, remaining, policy)
 
     monkeypatch.setattr(Renderer, "_work", remove)
     assert main(["render", "sky", *SMALL, "-o", str(folder / "a.png")]) == 4
@@ -96,7 +96,7 @@ def test_no_memory_for_a_film_exits_4_before_it_renders(tmp_path: Path) -> None:
     )
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert done.returncode == 4
-    assert "no room on the driver for a film of 16384 x 16384" in one_paragraph(done.stderr)
+    assert "the driver refuses a film of 16384 x 16384" in one_paragraph(done.stderr)
     assert not list(tmp_path.iterdir())
 
 
@@ -216,13 +216,13 @@ def test_dispatches_that_take_too_long_become_smaller(
     """A driver that has become a thousand times slower is given a thousandth of the work."""
     renderer = Renderer(load("sky"), context=context, width=64, height=64)
     planned: list[int] = []
-    record = renderer._tracer.turns.schedule.record
+    record = renderer._tracer.switch.schedule.record
 
-    def slow(portion: Portion, _: float) -> bool:
-        planned.append(portion.samples * portion.tiles)
-        return record(portion, portion.samples * portion.tiles * HEADLESS.limit / 40)
+    def slow(part: DispatchRange, _: float) -> bool:
+        planned.append(part.samples * part.tiles)
+        return record(part, part.samples * part.tiles * HEADLESS.limit / 40)
 
-    monkeypatch.setattr(renderer._tracer.turns.schedule, "record", slow)
+    monkeypatch.setattr(renderer._tracer.switch.schedule, "record", slow)
     renderer.render(4)
     assert planned[0] <= 16, "nothing is known yet"
     assert all(work <= 20 for work in planned[1:]), "half of the limit"

@@ -13,7 +13,7 @@ from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.image.film_state import nothing_gathered
+from glrt.image.film_state import empty_state
 from glrt.image.sources import load
 from glrt.methods.features import needs_of
 from glrt.rendering.film import Exposure, Extent, Film, standard_error
@@ -160,7 +160,7 @@ def test_a_film_that_finds_no_room_gives_back_what_it_has_taken(
         return taken[-1]
 
     monkeypatch.setattr(moderngl.Context, "texture", staticmethod(texture))
-    with pytest.raises(RenderError, match="no room"):
+    with pytest.raises(RenderError, match="the driver refuses"):
         Film(ctx, Extent(ctx.info["GL_MAX_TEXTURE_SIZE"] // 2, 1, layers=3))
     assert len(taken) == 3
     assert all(isinstance(found.mglo, moderngl.InvalidObject) for found in taken)
@@ -169,7 +169,7 @@ def test_a_film_that_finds_no_room_gives_back_what_it_has_taken(
 def test_dropped_samples_are_counted_to_the_last_one(film: Film) -> None:
     """Their sum over the pixels has more digits than a float32."""
     dropped = np.arange(2.0**20 - WIDTH * HEIGHT, 2.0**20, dtype=np.float32)
-    nothing = nothing_gathered(HEIGHT, WIDTH)._replace(dropped=dropped.reshape(HEIGHT, WIDTH))
+    nothing = empty_state(HEIGHT, WIDTH)._replace(dropped=dropped.reshape(HEIGHT, WIDTH))
     film.write(1 << 20, np.zeros((HEIGHT, WIDTH, 3), np.float32), nothing)
     assert film.dropped() == int(dropped.sum(dtype=np.float64))
 
@@ -197,8 +197,8 @@ def test_reading_a_picture_takes_little_memory_beside_it(
         held, peak = tracemalloc.get_traced_memory()
         tracemalloc.stop()
     assert error
-    assert image.gathered
-    size = sum(array.nbytes for array in (image.radiance, image.stderr, *image.gathered))
+    assert image.film_state
+    size = sum(array.nbytes for array in (image.radiance, image.stderr, *image.film_state))
     assert size <= held <= peak < 1.15 * size
 
 
@@ -212,7 +212,7 @@ def test_an_empty_film_can_not_be_read(film: Film, step: Step) -> None:
 
 
 def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> None:
-    with pytest.raises(RenderError, match="no room on the driver for a film of 1000000 x 1"):
+    with pytest.raises(RenderError, match="the driver refuses a film of 1000000 x 1"):
         Film(ctx, Extent(1_000_000, 1))
 
 

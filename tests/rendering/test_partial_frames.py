@@ -21,8 +21,8 @@ from tests.support.renders import rendered, rendering, same
 def tiny_dispatches(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every dispatch takes one tile and one sample."""
     monkeypatch.setattr(schedule_module, "FIRST_TILES", 1)
-    for name, rhythm in (("HEADLESS", HEADLESS), ("INTERACTIVE", INTERACTIVE)):
-        monkeypatch.setattr(renderer_module, name, rhythm._replace(limit=1e-12))
+    for name, policy in (("HEADLESS", HEADLESS), ("INTERACTIVE", INTERACTIVE)):
+        monkeypatch.setattr(renderer_module, name, policy._replace(limit=1e-12))
 
 
 SHAPES: list[dict[str, Any]] = [

@@ -11,7 +11,7 @@ from glrt.errors import RenderError, UsageError
 from glrt.gpu.context import Context, open_context
 from glrt.gpu.program import Kernel
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.upload import Uploaded
+from glrt.rendering.upload import SceneBuffers
 from tests.support.builders import box_of_quads, lamp, plane, quad, room_of_planes, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.mixed_scene import OBJECTS, everything
@@ -217,13 +217,13 @@ def test_a_renderer_that_is_refused_leaves_no_context_open(
         return opened[-1]
 
     monkeypatch.setattr("glrt.rendering.renderer.open_context", opening)
-    with pytest.raises(RenderError, match="no room"):
+    with pytest.raises(RenderError, match="the driver refuses"):
         Renderer(everything(), layering="groups", width=16384, height=16)
     assert isinstance(opened[0].gl.mglo, moderngl.InvalidObject)
 
 
 def test_a_context_that_was_given_stays_open_when_a_renderer_is_refused(context: Context) -> None:
-    with pytest.raises(RenderError, match="no room"):
+    with pytest.raises(RenderError, match="the driver refuses"):
         Renderer(everything(), None, context, layering="groups", width=16384, height=16)
     assert rendered(everything(), context, 1).samples == 1
 
@@ -243,7 +243,7 @@ def test_an_error_of_the_driver_ends_a_render_before_it_begins(
         context.gl.enable_direct(0x1234)
     with rendering(everything(), context) as plain:
         plain.render(1)
-        whole = {"kernel": (Kernel, "run_tiles"), "scene": (Uploaded, "_upload")}[place]
+        whole = {"kernel": (Kernel, "run_tiles"), "scene": (SceneBuffers, "_upload")}[place]
         uploading = getattr(*whole)
         monkeypatch.setattr(*whole, fails)
         with pytest.raises(RenderError, match=r"the driver refuses .* GL_INVALID_ENUM"):

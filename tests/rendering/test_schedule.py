@@ -14,19 +14,19 @@ from glrt.rendering.schedule import (
     INTERACTIVE,
     MOST_TILES,
     MOST_TOGETHER,
-    Portion,
-    Rhythm,
+    DispatchPolicy,
+    DispatchRange,
     Schedule,
     stride_of,
     whole_frame,
 )
 
-Device = Callable[[Portion], float]  # seconds for a portion
+Device = Callable[[DispatchRange], float]  # seconds for a part
 
 
 def device(cost: float, latency: float = 1e-4) -> Device:
     """Seconds: `cost` a tile and sample, after a latency."""
-    return lambda portion: latency + cost * portion.tiles * portion.samples
+    return lambda part: latency + cost * part.tiles * part.samples
 
 
 def frames(
@@ -34,17 +34,17 @@ def frames(
     seconds_for: Device,
     samples: int,
     budget: float = 0.25,
-    rhythm: Rhythm = HEADLESS,
-) -> list[list[tuple[Portion, float]]]:
+    policy: DispatchPolicy = HEADLESS,
+) -> list[list[tuple[DispatchRange, float]]]:
     """The dispatches of each frame and what they took, to so many samples."""
     done = 0
-    all_frames: list[list[tuple[Portion, float]]] = [[]]
+    all_frames: list[list[tuple[DispatchRange, float]]] = [[]]
     while done < samples:
-        portion = schedule.next_portion(samples - done, budget, done, rhythm)
-        seconds = seconds_for(portion)
-        all_frames[-1].append((portion, seconds))
-        if schedule.record(portion, seconds):
-            done += portion.samples
+        part = schedule.next_dispatch(samples - done, budget, done, policy)
+        seconds = seconds_for(part)
+        all_frames[-1].append((part, seconds))
+        if schedule.record(part, seconds):
+            done += part.samples
             all_frames.append([])
     return all_frames[:-1]
 
@@ -53,7 +53,7 @@ def frames(
 @pytest.mark.parametrize("cost", [1e-8, 1e-3])
 def test_a_frame_covers_every_block_once_with_the_same_samples(tiles: int, cost: float) -> None:
     for frame in frames(Schedule(tiles, 50), device(cost), 60):
-        portions = [portion for portion, _ in frame]
+        portions = [part for part, _ in frame]
         ends = [0, *(p.first + p.tiles for p in portions)]
         assert [p.first for p in portions] == ends[:-1]
         assert ends[-1] == tiles
@@ -70,8 +70,8 @@ def test_no_dispatch_exceeds_its_limit_though_tiles_differ(
     """A part of the picture costs up to 1.8 times another, and a sample of a tile up to 2 ms."""
     rng = np.random.default_rng(5)
 
-    def uneven(portion: Portion) -> float:
-        return device(cost)(portion) * rng.uniform(0.6, 1.08)
+    def uneven(part: DispatchRange) -> float:
+        return device(cost)(part) * rng.uniform(0.6, 1.08)
 
     for frame in frames(Schedule(tiles, 1000), uneven, 5, limit / 2):
         assert max(seconds for _, seconds in frame) <= limit
@@ -89,9 +89,9 @@ def test_a_dispatch_of_a_fast_picture_takes_many_samples() -> None:
     assert all(after <= GROWTH * before for before, after in pairwise(counts))
 
 
-def lanes(portion: Portion) -> float:
+def lanes(part: DispatchRange) -> float:
     """A sample alone takes 2.5 times as long as one of many: lanes wait for its longest path."""
-    return 1e-4 * portion.tiles * (portion.samples + 1.5)
+    return 1e-4 * part.tiles * (part.samples + 1.5)
 
 
 def test_frames_of_a_slow_picture_get_more_samples_as_it_has_more() -> None:
@@ -120,7 +120,7 @@ def test_a_picture_that_begins_anew_is_planned_by_what_a_single_sample_takes() -
     first = frames(schedule, lanes, 1)[0]
     assert max(seconds for _, seconds in first) <= 0.2502
     schedule.restart(4096, 1000, bounces=1)
-    assert schedule.next_portion(1, 0.25).tiles <= FIRST_TILES
+    assert schedule.next_dispatch(1, 0.25).tiles <= FIRST_TILES
 
 
 def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
@@ -134,25 +134,25 @@ def test_the_next_picture_of_a_kernel_begins_with_what_is_known() -> None:
     """As a camera that moves wants it: each frame is another picture."""
     schedule = Schedule(1000, 64)
     schedule.restart(1000, 64, bounces=5)
-    assert schedule.next_portion(64, 1.0).tiles <= FIRST_TILES
-    while not schedule.record(portion := schedule.next_portion(1, 1.0), 1e-4 * FIRST_TILES):
+    assert schedule.next_dispatch(64, 1.0).tiles <= FIRST_TILES
+    while not schedule.record(part := schedule.next_dispatch(1, 1.0), 1e-4 * FIRST_TILES):
         pass
-    tried = portion.tiles
+    tried = part.tiles
     schedule.restart(250, 64, bounces=5)
-    assert schedule.next_portion(1, 1.0).tiles == min(250, GROWTH * tried)
+    assert schedule.next_dispatch(1, 1.0).tiles == min(250, GROWTH * tried)
     schedule.restart(250, 64, bounces=6)
-    assert schedule.next_portion(1, 1.0).tiles <= FIRST_TILES, "longer paths: who knows"
+    assert schedule.next_dispatch(1, 1.0).tiles <= FIRST_TILES, "longer paths: who knows"
 
 
 def test_a_frame_of_more_samples_than_are_left_is_dropped() -> None:
     schedule = Schedule(100_000, 100)
     frames(schedule, device(1e-9), 200)
-    begun = schedule.next_portion(50, 1.0)
-    assert begun == Portion(50, 0, 50_000)
+    begun = schedule.next_dispatch(50, 1.0)
+    assert begun == DispatchRange(50, 0, 50_000)
     schedule.record(begun, 0.01)
     assert schedule.begun == 25
-    assert schedule.next_portion(50, 1.0) == Portion(50, 50_000, 50_000)
-    assert schedule.next_portion(3, 1.0) == Portion(3, 0, 50_000)
+    assert schedule.next_dispatch(50, 1.0) == DispatchRange(50, 50_000, 50_000)
+    assert schedule.next_dispatch(3, 1.0) == DispatchRange(3, 0, 50_000)
     assert schedule.begun == 0
 
 
@@ -171,5 +171,5 @@ def test_tiles_of_a_dispatch_lie_all_over_the_picture() -> None:
 
 
 def test_a_whole_frame_is_as_few_dispatches_as_every_driver_takes() -> None:
-    assert whole_frame(3, 4096) == [Portion(3, 0, 4096)]
-    assert whole_frame(1, 70_000) == [Portion(1, 0, 65_535), Portion(1, 65_535, 4465)]
+    assert whole_frame(3, 4096) == [DispatchRange(3, 0, 4096)]
+    assert whole_frame(1, 70_000) == [DispatchRange(1, 0, 65_535), DispatchRange(1, 65_535, 4465)]

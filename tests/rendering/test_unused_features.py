@@ -58,7 +58,7 @@ def program_of(context: Context, scene: str, variant: Variant, **settings: Any) 
     )
     gl, length, kind = library(), ctypes.c_int(), ctypes.c_uint()
     with context.gl:
-        number = renderer._tracer.turns.kernel._program.glo
+        number = renderer._tracer.switch.kernel._program.glo
         gl.glGetProgramiv(number, _LENGTH, ctypes.byref(length))
         data = ctypes.create_string_buffer(length.value)
         gl.glGetProgramBinary(number, length, None, ctypes.byref(kind), data)

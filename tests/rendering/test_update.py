@@ -162,7 +162,7 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
         renderer.advance(0.0, 9)
         assert renderer.work > 2
         before = renderer.scene, renderer.settings, renderer.plan
-        with pytest.raises(RenderError, match="no room"):
+        with pytest.raises(RenderError, match="the driver refuses"):
             renderer.update(RESTARTING["a turn"], width=16384)
         with monkeypatch.context() as patch:
             patch.setattr(kernel_switch, "compiled", refuse)

@@ -200,6 +200,6 @@ def test_a_lens_of_no_size_gives_the_pinhole_to_the_last_bit(call_glsl: CallGlsl
 
 def test_camera_rays_leave_no_shape(call_glsl: CallGlsl) -> None:
     args = {"pixel": np.zeros((4, 2)), "seed": np.arange(4, dtype=np.uint32)}
-    found = call_glsl("ray.leaves", "int", setup=SETUP, scene=seen_by(LENS), **args)
+    found = call_glsl("ray.origin_shape", "int", setup=SETUP, scene=seen_by(LENS), **args)
     assert np.all(found == -1)
     assert not call_glsl("ray.inward", "bool", setup=SETUP, scene=seen_by(LENS), **args).any()
