@@ -8,10 +8,10 @@ SCENE ?= cornell
 BOOTSTRAP = "$(PYTHON)" tools/bootstrap.py
 IN_ENVIRONMENT = .venv/bin/python -m
 
-.PHONY: help render view test check gallery bench charts mutants clean
+.PHONY: help render view test check reference gallery bench charts mutants clean
 
 help: ## show this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-9s %s\n", $$1, $$2}' Makefile
 
 render: ## render scenes/cornell.toml to cornell.png
 	@$(BOOTSTRAP) render
@@ -30,6 +30,10 @@ check: ## look over the source: ruff and mypy
 	$(IN_ENVIRONMENT) ruff check
 	$(IN_ENVIRONMENT) ruff format --check
 	$(IN_ENVIRONMENT) mypy
+
+reference: ## write the pages of docs/reference/ that follow from the program
+	@$(BOOTSTRAP) render
+	.venv/bin/python tools/reference.py
 
 gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
