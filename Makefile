@@ -49,9 +49,9 @@ bench: ## measure how fast the kernel, its variants and the window are, and othe
 	$(IN_ENVIRONMENT) bench.rivals
 	$(IN_ENVIRONMENT) bench.efficiency
 
-charts: ## measure error against time on six scenes that separate the methods, into docs/chart/
+charts: ## measure error against time on six scenes that separate the methods, into docs/results/chart/
 	@$(BOOTSTRAP) test
-	.venv/bin/glrt chart scenes/methods/*.toml -o docs/chart
+	.venv/bin/glrt chart scenes/methods/*.toml -o docs/results/chart
 
 mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
 	@$(BOOTSTRAP) test
