@@ -15,7 +15,7 @@ from glrt.error.estimate import DARK
 
 Pixels = NDArray[np.float32]
 
-DOUBTFUL = 2.0  # times the estimate: docs/stress.md
+DOUBTFUL = 2.0  # times the estimate: docs/results/stress.md
 # Pixels without a vote, those that differ most: one at the rim of a lamp may see it in one part
 # alone, which says nothing of the rest.
 MUTE_SHARE, MUTE_LEAST = 1e-3, 3

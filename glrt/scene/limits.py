@@ -1,6 +1,6 @@
 """What of a scene lies beyond the digits of float32, or of the model: rendered, but not to trust.
 
-docs/truth.md says how far each limit was measured.
+docs/explanation/correctness.md says how far each limit was measured.
 """
 
 import math
