@@ -1,4 +1,4 @@
-"""Every scene by route and pipeline, for docs/results/platforms.md: `python -m tests.project.matrix`
+"""Every scene by route and pipeline, for docs/results/platforms.md: `python -m tests.project.matrix`.
 
 Each way draws every scene in a process of its own, by the tier of `glrt render`. A cell says `=`
 where radiance and standard error have the bits of the first way, else how far they lie apart: the
