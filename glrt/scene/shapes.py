@@ -1,4 +1,4 @@
-"""What there is to see: a frozen model for each kind of shape."""
+"""Shapes: a frozen model for each kind."""
 
 from typing import Annotated, Literal, Self
 
@@ -8,7 +8,7 @@ from glrt.scene.values import Direction, Length, Name, Tagged, Vector, are_paral
 
 
 class _Object(Tagged):
-    name: Name | None = Field(None, description="what to call the object in messages, one line")
+    name: Name | None = Field(None, description="name of the object in messages and the window")
     material: Name = Field(description="name of one of the materials")
 
 
@@ -16,30 +16,34 @@ class Sphere(_Object):
     """A sphere."""
 
     shape: Literal["sphere"] = Field("sphere", description="the kind of shape")
-    center: Vector = Field(description="its middle, x y z in scene units")
-    radius: Length = Field(description="its radius in scene units, above 0")
+    center: Vector = Field(description="centre, x y z in scene units")
+    radius: Length = Field(description="radius in scene units")
 
 
 class Plane(_Object):
-    """An infinite plane; of a dielectric, the half-space behind the normal is inside."""
+    """An infinite plane; the inside of a dielectric is the half-space behind the normal."""
 
     shape: Literal["plane"] = Field("plane", description="the kind of shape")
-    point: Vector = Field(description="any point on it, x y z in scene units")
-    normal: Direction = Field(description="a direction across it, of any length but zero")
+    point: Vector = Field(description="any point on the plane, x y z in scene units")
+    normal: Direction = Field(description="normal of the plane, of any length above 0")
 
 
 class Quad(_Object):
-    """A parallelogram whose normal lies along edge_u x edge_v."""
+    """A parallelogram; its normal is along edge_u x edge_v."""
 
     shape: Literal["quad"] = Field("quad", description="the kind of shape")
     corner: Vector = Field(description="one of its corners, x y z in scene units")
-    edge_u: Direction = Field(description="from the corner to its neighbour, in scene units")
-    edge_v: Direction = Field(description="from the corner to the other neighbour, in scene units")
+    edge_u: Direction = Field(description="vector from the corner to the next, in scene units")
+    edge_v: Direction = Field(
+        description="vector from the corner to the one before, in scene units"
+    )
 
     @model_validator(mode="after")
     def _has_an_area(self) -> Self:
         if are_parallel(self.edge_u, self.edge_v):
-            raise ValueError("edge_u and edge_v are parallel, so the quad is flat; turn one")
+            raise ValueError(
+                "edge_u and edge_v are parallel: the quad has no area; change one of them"
+            )
         return self
 
 

@@ -24,7 +24,7 @@ PAGES = [  # whose commands run
     *(DOCS / "how-to" / f"{name}.md" for name in ("choose-a-method", "compare", "resume")),
 ]
 SMALL = ("--width", "24", "--height", "16")
-QUICK = {"0.05": "0.5", "0.1": "0.5", "60": "1"}  # errors and seconds
+QUICK = {"0.05": "0.5", "0.1": "0.5"}  # errors
 
 
 def blocks(page: Path, language: str) -> list[str]:
