@@ -1,4 +1,4 @@
-"""`glrt inspect`: what a scene needs."""
+"""`glrt inspect`: show what a scene needs."""
 
 import argparse
 
@@ -7,8 +7,8 @@ from glrt.cli.request import check_limit, scene_and_settings
 from glrt.methods.omissions import left_out, omissions
 
 DESCRIPTION = (
-    "Say what the kernel for a scene contains and leaves out, and why; with --error, the "
-    "cheapest method and the fewest bounces that suffice."
+    "Show what the kernel for a scene contains and leaves out, and why; with --error, measure the "
+    "cheapest method and the fewest bounces that reach it."
 )
 EPILOG = ""
 
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--error",
         type=float,
         metavar="E",
-        help="measure which method and how many bounces suffice for this relative RMS error",
+        help="measure which method and how many bounces reach this relative RMS error",
     )
     add_context(parser)
 
@@ -42,8 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"\n{left_out(settings, missing)}")
     rounds = iterations_per_sample(scene, settings)
     print(
-        f"\nA sample takes {'about' if has_tree(scene) else 'up to'} {rounds:,} rounds of loops; "
-        f"llvmpipe ends those of a dispatch after {LLVMPIPE_ROUNDS:,}."
+        f"\nA sample takes {'about' if has_tree(scene) else 'up to'} {rounds:,} loop iterations; "
+        f"llvmpipe ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}."
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")

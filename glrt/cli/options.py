@@ -1,4 +1,4 @@
-"""What command lines share: the parser, and options generated from the models of settings."""
+"""The parser of commands, and options generated from the models of settings."""
 
 import argparse
 import re
