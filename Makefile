@@ -11,10 +11,10 @@ IN_ENVIRONMENT = .venv/bin/python -m
 # Who has no test left takes from who has most: modules are torn apart at a few places alone.
 IN_PROCESSES = -n auto --maxprocesses 8 --dist worksteal
 
-.PHONY: help render view test check gallery bench charts mutants clean
+.PHONY: help render view test check reference gallery bench charts mutants clean
 
 help: ## show this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-9s %s\n", $$1, $$2}' Makefile
 
 render: ## render scenes/cornell.toml to cornell.png
 	@$(BOOTSTRAP) render
@@ -34,6 +34,10 @@ check: ## look over the source: ruff and mypy
 	$(IN_ENVIRONMENT) ruff format --check
 	$(IN_ENVIRONMENT) mypy
 
+reference: ## write the pages of docs/reference/ that follow from the program
+	@$(BOOTSTRAP) render
+	.venv/bin/python tools/reference.py
+
 gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) bench.gallery
@@ -48,9 +52,9 @@ bench: ## measure how fast the kernel, its variants and the window are, and othe
 	$(IN_ENVIRONMENT) bench.rivals
 	$(IN_ENVIRONMENT) bench.efficiency
 
-charts: ## measure error against time on six scenes that separate the methods, into docs/chart/
+charts: ## measure error against time on six scenes that separate the methods, into docs/results/chart/
 	@$(BOOTSTRAP) test
-	.venv/bin/glrt chart scenes/methods/*.toml -o docs/chart
+	.venv/bin/glrt chart scenes/methods/*.toml -o docs/results/chart
 
 mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
 	@$(BOOTSTRAP) test

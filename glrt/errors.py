@@ -1,10 +1,10 @@
-"""What can go wrong, by who can mend it; each class knows the exit code of the commands."""
+"""The errors of glrt, by who can correct them; each class has the exit code of the commands."""
 
 
 class GlrtError(Exception):
     """An error with one paragraph for the user: what is wrong, where, and what to do.
 
-    What it quotes may come from a damaged file: it is kept fit for a terminal.
+    Control characters are removed: what it quotes may come from a damaged file.
     """
 
     exit_code = 4

@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all: written beside, then renamed; and files worth reading."""
+"""Write files whole or not at all, by a rename; and refuse files that are not to be read."""
 
 import os
 import secrets
@@ -36,8 +36,8 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
                 temporary.unlink(missing_ok=True)
     except _WRITE_FAILURES as error:
         raise RenderError(
-            f"Cannot write {path}: {reason(error)}. Nothing was written there; make room, or "
-            "choose another place."
+            f"Cannot write {path}: {reason(error)}. Nothing was written there; free some space, "
+            "or choose another place."
         ) from error
 
 
@@ -107,7 +107,7 @@ def _obstacle(path: Path) -> str | None:
     if not target.parent.is_dir():
         return f"there is no folder {path.parent}"
     if target.exists() and not target.is_file():
-        return "that is a folder or a device, not a file"
+        return "it is a folder or a device, not a file"
     if target.exists():
         target.open("ab").close()
     probe = _beside(target)

@@ -1,4 +1,4 @@
-"""Every render setting, once: default, range, unit, help and what a change of it costs.
+"""Every render setting, once: default, range, unit, help and the cost of a change.
 
 The command line, the panel and the kernel read these models; so does `[render]` in a scene.
 """
@@ -21,7 +21,7 @@ BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sample
 
 
 class Cost(StrEnum):
-    """What a change of a setting costs a running render."""
+    """What a change of a setting does to a running render."""
 
     FREE = "free"  # the display alone
     RELIGHT = "relight"  # weights of film layers: no sample is lost
@@ -31,11 +31,11 @@ class Cost(StrEnum):
 
 @dataclass(frozen=True)
 class Editable:
-    """What a widget must know of a field beside its limits: part of its annotation."""
+    """What a widget needs to know of a field beside its limits: part of its annotation."""
 
     cost: Cost = Cost.RESTART  # of an edit
     unit: str = ""
-    slider: tuple[float, float] | None = None  # the range worth dragging through
+    slider: tuple[float, float] | None = None  # a useful range for dragging
 
 
 def editable_of(field: FieldInfo) -> Editable:
@@ -50,24 +50,25 @@ class Frozen(BaseModel):
 
 
 class RenderSettings(Frozen):
-    """How a scene wants to be rendered: its `[render]` table."""
+    """Default settings of a scene: its `[render]` table."""
 
     width: Annotated[int, Editable(Cost.RESTART, "pixels", (16, 4096))] = Field(
-        512, description="width of the frame", ge=1, le=16384
+        512, description="width of the picture, before a crop", ge=1, le=16384
     )
     height: Annotated[int, Editable(Cost.RESTART, "pixels", (16, 4096))] = Field(
-        512, description="height of the frame", ge=1, le=16384
+        512, description="height of the picture, before a crop", ge=1, le=16384
     )
     samples: Annotated[int, Editable(Cost.FREE, "samples", (1, 65536))] = Field(
-        256, description="samples of each pixel", ge=1, le=MAX_SAMPLES
+        256, description="number of light paths traced through each pixel", ge=1, le=MAX_SAMPLES
     )
     bounces: Annotated[int, Editable(Cost.RESTART, "", (0, 32))] = Field(
         10, description="largest number of scattering events on a path", ge=0, le=1000
     )
     method: Annotated[Method, Editable(Cost.RECOMPILE)] = Field(
         "mis",
-        description="naive: scattering alone finds the lamps; nee: light sampling; mis: both, "
-        "weighted; phong, blinn, whitted, cook: older models, which leave light out",
+        description="how lamps are found; naive: by scattering alone; nee: by sampling a lamp at "
+        "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
+        "whitted, cook: lighting models before path tracing, which leave light out",
     )
 
 
@@ -76,22 +77,22 @@ Crop = tuple[Pixels, Pixels, Pixels, Pixels]
 
 
 class Settings(RenderSettings):
-    """Everything that a render can be told, beyond what the scene itself asks for."""
+    """All settings of a render: those of `[render]`, and those that a scene file cannot set."""
 
     crop: Annotated[Crop | None, Editable(Cost.RESTART, "pixels")] = Field(
-        None, description="the part of the frame to render: left, top, width, height"
+        None, description="the part of the picture to render: left, top, width, height"
     )
     sampler: Annotated[Sampler, Editable(Cost.RECOMPILE)] = Field(
         "sobol",
-        description="sobol: blocks of 16 samples that fill the space evenly; independent: any "
-        "random numbers",
+        description="sobol: blocks of 16 samples from scrambled Sobol' points, less noise; "
+        "independent: independent random numbers",
     )
     roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
-        description="end dim paths by Russian roulette: another variance, the same mean",
+        description="end dim paths at random (Russian roulette): faster, with the same mean",
     )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
-        0, description="chooses the random numbers", ge=0, le=0xFFFFFFFF
+        0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF
     )
     exposure: Annotated[float, Editable(Cost.FREE, "EV", (-8, 8))] = Field(
         0.0, description="brightness of PNG files and of the display", ge=-50, le=50
@@ -152,7 +153,7 @@ def settings_for(base: RenderSettings, **overrides: Any) -> Settings:
 
 
 def cost_of_change(before: Settings, after: Settings) -> Cost:
-    """The dearest class among the fields that differ."""
+    """The most expensive class among the fields that differ."""
     order = list(Cost)
     changed = [
         cost_of(name)
@@ -163,7 +164,7 @@ def cost_of_change(before: Settings, after: Settings) -> Cost:
 
 
 def cost_of(name: str) -> Cost:
-    """The class of a field of Settings."""
+    """The cost of a change of a field of Settings."""
     return editable_of(Settings.model_fields[name]).cost
 
 

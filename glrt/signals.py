@@ -1,4 +1,4 @@
-"""SIGINT and SIGTERM: how the command ends by them, from its first import to its last file."""
+"""SIGINT and SIGTERM: how they end the command, from its first import to its last file."""
 
 import signal
 import threading

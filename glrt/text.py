@@ -1,4 +1,4 @@
-"""Words and numbers of the user in messages: short, on one line, with the nearest known word."""
+"""Quote words and numbers of the user in messages: short, on one line, with the nearest match."""
 
 from collections.abc import Iterable
 from functools import lru_cache

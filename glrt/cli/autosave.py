@@ -1,4 +1,4 @@
-"""The files of a render: saved now and then, and in the end wherever there is room."""
+"""Save the files of a render, at intervals and at the end."""
 
 import secrets
 import shlex
@@ -37,7 +37,7 @@ class Autosave:
         except MemoryError as error:
             failures = [f"No memory to save the picture: {reason(error)}."]
         if failures:
-            tell(f"glrt: {failures[0]} The render goes on, and is saved again in the end.")
+            tell(f"glrt: {failures[0]} The render continues; it will be saved again at the end.")
         else:
             self.kept = renderer.samples
         now = self._clock()
@@ -59,7 +59,7 @@ class Autosave:
         name = shlex.quote(state)
         return (
             f"The first {self.kept} samples are saved: `glrt render --resume {name} -o {name}` "
-            "goes on from them."
+            "continues from them."
         )
 
     def _save(self, image: Image) -> list[str]:

@@ -1,7 +1,7 @@
-"""`glrt chart`: measure scenes, then draw and tell what each method reaches in which time.
+"""`glrt chart`: measure, chart and summarise what each method reaches in which time.
 
-Rounds are kept in DIR/NAME.rounds.json as they are made: the same command takes up there after
-an interruption, and one with more rounds adds to them.
+Rounds are kept in DIR/NAME.rounds.json as they are made: the same command continues from there
+after an interruption, and one with more rounds adds to them.
 """
 
 import argparse
@@ -23,12 +23,12 @@ from glrt.scene.scene import Scene
 from glrt.signals import INTERRUPTED
 
 DESCRIPTION = (
-    "Measure the error of every method against its time on some scenes; draw it (SVG, PNG), "
-    "list it (CSV, JSON) and tell what it shows (chart.md)."
+    "Measure the error of every method against its time; write charts (SVG, PNG), figures (CSV, "
+    "JSON) and a summary (chart.md)."
 )
 EPILOG = (
-    "The same command goes on after an interruption. References are kept in the user's cache "
-    "folder. Exit codes: 0 done, 2 bad usage or scene, or no matplotlib, 3 no usable OpenGL, "
+    "The same command continues after an interruption. References are kept in the user's cache "
+    "folder. Exit codes: 0 done, 2 wrong usage or scene, or no matplotlib, 3 no usable OpenGL, "
     "4 a render failed, 130 interrupted."
 )
 
@@ -36,17 +36,17 @@ EPILOG = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument("scenes", metavar="SCENE", nargs="+", help=SCENE)
-    parser.add_argument("-o", dest="output", metavar="DIR", required=True, help="folder to fill")
+    parser.add_argument("-o", dest="output", metavar="DIR", required=True, help="output folder")
     for name, default, kind, text in (
-        ("height", 64, int, "height of the frame in pixels"),
+        ("height", 64, int, "height of the pictures in pixels"),
         ("rounds", 5, int, "runs of each variant"),
-        ("seconds", 60.0, float, "time for the rounds of a scene; its reference takes up to half"),
+        ("seconds", 60.0, float, "time for the runs of a scene; its reference takes up to half"),
     ):
         metavar = "N" if kind is int else "S"
         note = f"{text} (default: {default:g})"
         parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
     add_context(parser)
-    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+    parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
 
 
 _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
@@ -66,8 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
                 page = _chart(scenes, plan, folder, arguments.context, tell_or_stop)
         except KeyboardInterrupt:
             print(
-                f"glrt: interrupted; the rounds that are done are kept in {folder}, and the same "
-                "command goes on from there.",
+                f"glrt: interrupted; the rounds so far are kept in {folder}, and the same command "
+                "continues from there.",
                 file=sys.stderr,
             )
             return INTERRUPTED + (interruption.signal or 0)

@@ -1,4 +1,4 @@
-"""`glrt compare`: files in, a report and an exit code out."""
+"""`glrt compare`: compare two image files; print a report, return an exit code."""
 
 import argparse
 import json
@@ -22,7 +22,7 @@ DESCRIPTION = (
 )
 EPILOG = (
     "At most a share ALPHA of equal pictures is called different. Exit codes: 0 same or "
-    "undecided, 1 different (with --strict, undecided too), 2 bad usage or files."
+    "undecided, 1 different (with --strict, undecided too), 2 wrong usage or files."
 )
 
 
@@ -32,10 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(name, metavar=name.upper(), help="an .exr or .npy file")
     for name in ("samples", "reference-samples"):
         whose = "REFERENCE" if name.startswith("reference") else "IMAGE"
-        text = f"samples a pixel of {whose}, if its file does not say it"
+        text = f"samples of each pixel of {whose}, where its file does not say"
         parser.add_argument(f"--{name}", type=int, metavar="N", help=text)
     parser.add_argument(
-        "--alpha", type=float, default=0.01, help="share of false alarms (default: %(default)s)"
+        "--alpha",
+        type=float,
+        default=0.01,
+        help="share of false alarms (default: %(default)s)",
     )
     parser.add_argument(
         "--bias",
@@ -43,9 +46,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=0.01,
         help='the relative difference that "same" must exclude (default: %(default)s)',
     )
-    parser.add_argument("--strict", action="store_true", help="exit 1 if undecided, too")
-    parser.add_argument("--picture", metavar="FILE", help="a .png that shows where they differ")
-    parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
+    parser.add_argument("--strict", action="store_true", help="exit with 1 if undecided, too")
+    parser.add_argument(
+        "--picture", metavar="FILE", help="a .png file that shows where they differ"
+    )
+    parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
 
 
 DIFFERENT = 1
@@ -71,7 +76,7 @@ def read(path: str, samples: int | None, option: str) -> Image:
     """An EXR or NPY file with its number of samples; UsageError if that is in neither place."""
     image = _read_npy(path) if path.lower().endswith(".npy") else Image.load(path)
     if image.samples and samples not in (None, image.samples):
-        raise UsageError(f"{path} has {image.samples} samples a pixel: leave out {option}.")
+        raise UsageError(f"{path} has {image.samples} samples a pixel already: leave out {option}.")
     if not image.samples and (samples is None or samples < 1):
         raise UsageError(
             f"{path}: this file does not say how many samples a pixel it has. Give {option} N."
@@ -91,11 +96,11 @@ def report(comparison: Comparison) -> str:
     rows = zip(CHANNELS, comparison.means, comparison.differences, strict=True)
     lines += [row(c, *(f"{m:.5g}" for m in means), *_percent(d)) for c, means, d in rows]
     if comparison.factors:
-        lines += ["", "weighed by their noise, which shows best a factor between the pictures:"]
+        lines += ["", "weighted by 1 / noise, which best shows a factor between the pictures:"]
         rest = zip(CHANNELS, comparison.factors, strict=True)
         lines += [row(c, "", "", *_percent(factor)) for c, factor in rest]
     else:
-        lines += ["", "The methods may differ: each picture is held to its own noise."]
+        lines += ["", "The methods may differ: each picture is judged by its own noise."]
     c = comparison
     return "\n".join(
         [
@@ -104,7 +109,7 @@ def report(comparison: Comparison) -> str:
             f"{BLOCK} x {BLOCK} blocks: spread {c.spread:.2f} of 1 expected; largest "
             f"{c.largest:+.2f} of {c.limit:.2f} allowed, {c.worst}",
             f"its worst pixel: {c.pixel}",
-            f"smallest difference that would have shown: {percent(c.shown)} of the picture",
+            f"smallest difference that would have been found: {percent(c.shown)} of the picture",
         ]
     )
 
@@ -150,7 +155,7 @@ def _plain(value: Any) -> Any:
 
 def _check_picture(path: str) -> None:
     if not path.lower().endswith(".png"):
-        raise UsageError(f"Cannot write {path}: the name given to --picture ends in .png.")
+        raise UsageError(f"Cannot write {path}: the file of --picture must end in .png.")
     files.check_writable(Path(path))
 
 
@@ -164,6 +169,6 @@ def _read_npy(path: str) -> Image:
         ) from None
     if not isinstance(pixels, np.ndarray) or pixels.dtype.kind != "f" or pixels.shape[2:] != (3,):
         raise UsageError(f"{path}: not an image: it must be an array (height, width, 3) of floats.")
-    with np.errstate(over="ignore"):  # beyond float32 is infinite, and told as such
+    with np.errstate(over="ignore"):  # beyond float32 is infinite, and reported as such
         radiance = pixels.astype(np.float32)
     return Image(radiance, np.full_like(radiance, np.nan), samples=0)

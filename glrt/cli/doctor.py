@@ -3,15 +3,15 @@
 import argparse
 
 DESCRIPTION = (
-    "Try every OpenGL route, each in a process of its own, and say which one is used. Exit "
-    "codes: 0, 3 if none works."
+    "Test every OpenGL route in a process of its own; say which one is used, and what to install "
+    "where none works. Exit codes: 0, 3 if none works."
 )
 EPILOG = ""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of the command."""
-    parser.add_argument("--json", action="store_true", help="one line of findings on stdout")
+    parser.add_argument("--json", action="store_true", help="print findings as one line of JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -1,4 +1,4 @@
-"""`glrt inspect`: what a scene needs."""
+"""`glrt inspect`: show what a scene needs."""
 
 import argparse
 
@@ -11,8 +11,8 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 DESCRIPTION = (
-    "Say what the kernel for a scene contains and leaves out, and why; with --error, the "
-    "cheapest method and the fewest bounces that suffice."
+    "Show what the kernel for a scene contains and leaves out, and why; with --error, measure the "
+    "cheapest method and the fewest bounces that reach it."
 )
 EPILOG = ""
 
@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--error",
         type=float,
         metavar="E",
-        help="measure which method and how many bounces suffice for this relative RMS error",
+        help="measure which method and how many bounces reach this relative RMS error",
     )
     parser.add_argument(
         "--kernel",
@@ -64,8 +64,8 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     rounds = iterations_per_sample(scene, settings)
     most = "about" if contents_of(scene).has_tree else "up to"
     print(
-        f"\nA sample takes {most} {rounds:,} rounds of loops; "
-        f"llvmpipe ends those of a dispatch after {LLVMPIPE_ROUNDS:,}."
+        f"\nA sample takes {most} {rounds:,} loop iterations; "
+        f"llvmpipe ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}."
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")

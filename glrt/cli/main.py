@@ -5,7 +5,7 @@ import sys
 from glrt.cli import process
 from glrt.cli.process import fail
 
-SMALLER = "A smaller picture, or a --crop, needs less."
+SMALLER = "Render a smaller picture or a --crop."
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -1,4 +1,4 @@
-"""What command lines share: the parser, and options generated from the models of settings."""
+"""The parser of commands, and options generated from the models of settings."""
 
 import argparse
 import re
@@ -46,14 +46,17 @@ def add_pipeline(parser: argparse.ArgumentParser) -> None:
         "--pipeline",
         choices=get_args(Pipeline),
         default="auto",
-        help="kind of shader; fragment needs OpenGL 4.1 alone; default: compute where it works",
+        help="kind of shader: compute needs OpenGL 4.3, fragment 4.1; auto: compute where it works",
     )
 
 
 def add_context(parser: argparse.ArgumentParser) -> None:
     """`--context`."""
     parser.add_argument(
-        "--context", choices=["auto", *sorted(ROUTES)], default="auto", help="OpenGL route"
+        "--context",
+        choices=["auto", *sorted(ROUTES)],
+        default="auto",
+        help="how OpenGL is opened",
     )
 
 
@@ -66,14 +69,14 @@ def add_settings(parser: argparse.ArgumentParser, *more_methods: str) -> None:
     for name, field in Settings.model_fields.items():
         unit = editable_of(field).unit
         options = _options(name, field.annotation, unit)
-        wish = "the scene's" if name in RenderSettings.model_fields else field.default
+        wish = "the scene's" if name in RenderSettings.model_fields else _shown(field.default)
         notes = "; ".join(filter(None, [unit, f"default: {wish}"]))
         text = f"{field.description} ({notes})".replace("%", "%%")
         if name == "method" and AUTO in more_methods:
             options["choices"] = [*options["choices"], AUTO]
             text += (
-                f"; {AUTO}: the cheapest that reaches --error, by a measurement of some seconds, "
-                "or of half of --time"
+                f"; {AUTO}: the cheapest that reaches --error, measured first for some seconds, "
+                "or for half of --time"
             )
         group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
     group.add_argument(
@@ -83,8 +86,15 @@ def add_settings(parser: argparse.ArgumentParser, *more_methods: str) -> None:
         action="append",
         type=_light,
         default=[],
-        help="intensity of a light group, from 0; may be repeated",
+        help="intensity of a light group, a factor from 0; may be repeated",
     )
+
+
+def _shown(default: Any) -> str:
+    """A default value in the words of a help text."""
+    if default is None:
+        return "the whole picture"
+    return ("on" if default else "off") if isinstance(default, bool) else str(default)
 
 
 def _options(name: str, annotation: Any, unit: str) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The process of a command: its start, its standard streams, its age and its memory."""
+"""The process of a command: start, standard streams, age and memory."""
 
 import gc
 import os

@@ -1,4 +1,4 @@
-"""`glrt render`: a scene to files, with figures and an exit code for scripts."""
+"""`glrt render`: render a scene to files, with figures and an exit code for scripts."""
 
 import argparse
 import json
@@ -22,20 +22,20 @@ from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.scene.limits import cautions
 from glrt.text import counted
 
-DESCRIPTION = "Render a scene without a window."
+DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (
     "The first limit reached of --samples, --time and --error ends the render; --time or "
-    "--error without --samples lifts the sample limit to 1048576. Ctrl-C saves what was "
-    "rendered; a long render saves every minute, and --resume goes on from its .exr. Exit "
-    "codes: 0 done, 1 --error not reached, 2 bad usage or scene, 3 no usable OpenGL, 4 the "
-    "render failed, 130 and 143 interrupted."
+    "--error without --samples raises the limit of samples to 1048576. Ctrl-C saves what was "
+    "rendered; a long render saves every minute; --resume continues from its .exr. Exit codes: "
+    "0 done, 1 --error not reached, 2 wrong usage or scene, 3 no usable OpenGL, 4 the render "
+    "failed, 130 and 143 interrupted."
 )
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument(
-        "scene", metavar="SCENE", nargs="?", help=f"{SCENE}; with --resume optional"
+        "scene", metavar="SCENE", nargs="?", help=f"{SCENE}; optional with --resume"
     )
     parser.add_argument(
         "-o",
@@ -43,31 +43,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         action="append",
         required=True,
-        help="the picture: .exr (radiance and its error), .png or .npy; may be repeated",
+        help="output: .exr (radiance and its standard error), .png or .npy; may be repeated",
     )
     add_settings(parser, AUTO)
     parser.add_argument(
-        "--time", type=float, metavar="SECONDS", help="stop after this process time"
+        "--time",
+        type=float,
+        metavar="SECONDS",
+        help="stop after this process time",
     )
     parser.add_argument(
-        "--error", type=float, metavar="E", help="stop at this relative RMS error: 0.02 is 2 %%"
+        "--error",
+        type=float,
+        metavar="E",
+        help="stop at this estimated relative RMS error (2 %%: 0.02)",
     )
     add_context(parser)
     add_pipeline(parser)
     parser.add_argument(
         "--resume",
         metavar="FILE.exr",
-        help="go on from this picture, by its scene and settings, up to --samples in all",
+        help="continue this picture, with its scene and settings, up to --samples in all",
     )
-    parser.add_argument("--json", action="store_true", help="one line of figures on stdout")
-    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+    parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
+    parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
 
 
 Watch = Callable[[Renderer], None]
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """The exit code says whether the picture is what was asked for."""
+    """The exit code says whether the picture meets what was asked for."""
     try:
         return _run(arguments)
     except KeyboardInterrupt as error:
@@ -124,7 +130,7 @@ def unreached(wanted: float, noise: float, estimate: float | None, samples: int)
     """What to say of an `--error`; of one for which `noise` is what a method's bias leaves room."""
     found = "unknown" if estimate is None else f"{estimate:.3g}"
     if noise < wanted:
-        found = f"its noise must be {noise:.3g}, beside what the method leaves out, and is {found}"
+        found = f"beside the bias of the method its noise must be {noise:.3g}, and is {found}"
     else:
         found = f"it is {found}"
     return (
@@ -180,8 +186,8 @@ def _tell(
         )
         if dropped := renderer.nonfinite():
             print(
-                f"{dropped:,} samples were dropped: they were not finite, or longer than the "
-                "driver runs loops. Where they are many the picture is biased: use fewer bounces.",
+                f"{dropped:,} samples were dropped: they were not finite, or exceeded the driver's "
+                "loop limit. If there are many, the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
     if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):

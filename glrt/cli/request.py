@@ -1,4 +1,4 @@
-"""What a command line orders: a scene, settings and limits, or to go on from a picture."""
+"""Turn a command line into a scene, settings and limits, or a picture to continue."""
 
 import argparse
 import time
@@ -134,11 +134,13 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
 def _check_samples(arguments: argparse.Namespace, taken: int, limits: Limits) -> None:
     if limits.samples < taken:
         raise UsageError(
-            f"it has {taken} samples, and --samples {limits.samples} is the number in all"
+            f"it has {taken} samples already; --samples {limits.samples} is the number in all"
         )
     is_given = any(getattr(arguments, name, None) for name in ("samples", "time", "error"))
     if limits.samples == MAX_SAMPLES > taken and not is_given:
-        raise UsageError("it was rendered without a limit of samples; give one, or --time, --error")
+        raise UsageError(
+            "it was rendered without a limit of samples; give --samples, --time or --error"
+        )
 
 
 @contextmanager
@@ -148,4 +150,4 @@ def _going_on(path: str) -> Iterator[None]:
         yield
     except UsageError as error:
         text = str(error).rstrip(".")
-        raise UsageError(f"Cannot go on from {path}: {text}. Or render it anew.") from None
+        raise UsageError(f"Cannot continue {path}: {text}. Render the scene anew.") from None

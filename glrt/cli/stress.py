@@ -1,4 +1,4 @@
-"""`glrt stress`: cases in; table, charts and an exit code out."""
+"""`glrt stress`: run cases; write a table and charts, return an exit code."""
 
 import argparse
 import json
@@ -18,11 +18,11 @@ from glrt.gpu.context import open_context
 from glrt.text import nearest, quoted
 
 DESCRIPTION = (
-    "Sweep into the places where methods fail: what glrt does beside the naive way, in charts "
-    "and a table, with a verdict for each case."
+    "Vary one parameter after the other to where path tracers fail, and compare glrt with a "
+    "naive implementation: charts, a table, and a verdict for each case."
 )
 EPILOG = (
-    "Exit codes: 0 all guarantees hold, 1 one is broken, 2 bad usage, 3 no usable OpenGL, 4 "
+    "Exit codes: 0 all guarantees hold, 1 one is broken, 2 wrong usage, 3 no usable OpenGL, 4 "
     "the render failed."
 )
 
@@ -30,11 +30,11 @@ EPILOG = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of the command."""
     add = parser.add_argument
-    add("cases", metavar="CASE", nargs="*", help="what to try (default: everything)")
-    add("-o", dest="folder", metavar="DIR", type=Path, help="folder for table and charts")
-    add("--quick", action="store_true", help="fewer samples: below two minutes on two cores")
-    add("--list", action="store_true", help="name the cases, and run none")
-    add("--json", action="store_true", help="one line of figures on stdout")
+    add("cases", metavar="CASE", nargs="*", help="case to run (default: all)")
+    add("-o", dest="folder", metavar="DIR", type=Path, help="output folder")
+    add("--quick", action="store_true", help="an eighth of the samples")
+    add("--list", action="store_true", help="list the cases and run none")
+    add("--json", action="store_true", help="print figures as one line of JSON")
     add_context(parser)
 
 
@@ -72,7 +72,7 @@ def known_cases(names: Sequence[str]) -> list[Case]:
 def _prepared(folder: Path | None, cases: Sequence[Case]) -> Path:
     """The folder, made and tried before anything is measured."""
     if folder is None:
-        raise UsageError("say where to put table and charts: glrt stress -o DIR.")
+        raise UsageError("the output folder is missing: glrt stress -o DIR.")
     check_matplotlib()
     charts = [f"{case.name}.svg" for case in cases]
     files.make_folder(folder, report.TABLE, report.FIGURES, report.OVERVIEW, *charts)

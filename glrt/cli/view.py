@@ -1,4 +1,4 @@
-"""`glrt view`: the window, or what to do where there can be none."""
+"""`glrt view`: open the window, or say what is missing for it."""
 
 import argparse
 
@@ -11,11 +11,11 @@ from glrt.settings import settings_for
 from glrt.signals import handled
 
 DESCRIPTION = (
-    "Show a scene in a window, and tune everything live. Closing the window saves nothing but "
-    "the window's own preferences; a picture is saved by its button."
+    "Show a scene in a window and change all its settings live. Closing the window saves only its "
+    "preferences; its buttons save pictures and scenes."
 )
 EPILOG = (
-    "Exit codes: 0 closed, 2 bad usage or scene, 3 no window or no usable OpenGL, 130 and 143 "
+    "Exit codes: 0 closed, 2 wrong usage or scene, 3 no window or no usable OpenGL, 130 and 143 "
     "interrupted."
 )
 

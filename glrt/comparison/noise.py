@@ -1,4 +1,4 @@
-"""How far two pictures lie apart in units of their noise, where noise may be rare and large.
+"""How far two pictures differ in units of their noise, where noise may be rare and large.
 
 Where few paths carry the light, dark means come with small errors: a pixel that was not hit claims
 to know its value exactly. A test against the errors that pictures claim finds a difference between

@@ -1,4 +1,4 @@
-"""What a comparison of two pictures found."""
+"""The result of a comparison of two pictures."""
 
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
@@ -41,26 +41,26 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What `compare` found; false in a condition if the pictures differ.
+    """The result of `compare`; false in a condition if the pictures differ.
 
-    A score is the number of standard errors of a normal distribution that would be as unlikely:
-    about 1 by chance. Pixels that are NaN or infinite are left out of all figures.
+    A score is the number of standard errors of a normal distribution that is as unlikely: about 1
+    by chance. Pixels that are NaN or infinite are left out of all figures.
     """
 
     verdict: Verdict
     reasons: tuple[str, ...]  # why they differ; empty otherwise
-    alpha: float  # equal pictures are called different at most so often
-    bias: float  # "same" says that so large a relative difference would have shown
+    alpha: float  # largest share of equal pictures that are called different
+    bias: float  # the relative difference that "same" excludes
     means: tuple[tuple[float, float], ...]  # of image and reference, for each channel
     differences: tuple[Interval, ...]  # of the means; all hold together at 1 - alpha
-    factors: tuple[Interval, ...]  # of quiet blocks above all; () if the methods may differ
+    factors: tuple[Interval, ...]  # of blocks weighted by 1 / noise; () if the methods may differ
     spread: float  # root mean square of the scores of blocks
     limit: float  # a block with a score beyond it differs
     largest: float  # score of the worst block
     worst: Place  # that block
     pixel: Place  # in it, the pixel that differs most
-    shown: float  # the smallest relative difference of a whole picture that would have shown
-    needs: int | None  # samples a pixel of both that would show `bias`; None: cannot be told
+    shown: float  # the smallest relative difference of a whole picture that is found
+    needs: int | None  # samples a pixel of both that would find `bias`; None: unknown
     alike: bool  # both draw their samples in the same way
     block_scores: Array  # (rows, columns, 3)
     pixel_scores: Array  # (H, W, 3), to locate alone: where hits are rare, they are no evidence

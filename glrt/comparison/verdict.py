@@ -28,11 +28,11 @@ def compare(
 ) -> Comparison:
     """Whether two renders of one size are the same picture up to their noise.
 
-    Equal pictures are called different with probability `alpha` at most. "same" says that a
-    relative difference of `bias` in the whole picture would have shown; else the verdict is
-    "undecided". Each needs its number of samples, and one of them its standard errors. `alike`:
-    both draw their samples in the same way; by default, the recipes tell. Raises `UsageError` for
-    pictures that cannot be compared.
+    Equal pictures are called different with probability `alpha` at most. "same" means that a
+    relative difference of `bias` in the whole picture would have been found; otherwise the
+    verdict is "undecided". Each needs its number of samples, and one of them its standard errors.
+    `alike`: both draw their samples in the same way; by default, the recipes say so. Raises
+    `UsageError` for pictures that cannot be compared.
     """
     for name, value in (("alpha", alpha), ("bias", bias)):
         if not LEAST <= value < 1:
@@ -56,7 +56,7 @@ def _check(image: Image, reference: Image) -> None:
     for name, picture in (("image", image), ("reference", reference)):
         if picture.samples < 1:
             raise UsageError(
-                f"the {name} does not say how many samples a pixel it has: tell it, by --samples "
+                f"the {name} does not say how many samples a pixel it has: give them by --samples "
                 "for the image and --reference-samples for the reference."
             )
 
@@ -66,8 +66,8 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
     va, vb = (np.where(broken, 0, np.square(i.stderr, dtype=float)) for i in (image, reference))
     if (np.isnan(va) & np.isnan(vb)).any():
         raise UsageError(
-            "neither picture knows its noise: one of them must be an .exr of glrt, of 32 samples "
-            "or more, or of 2 by --sampler independent."
+            "neither picture has standard errors: one of them must be an .exr of glrt, of at least "
+            "32 samples, or 2 with --sampler independent."
         )
     if alike is None:
         known = not (np.isnan(va) | np.isnan(vb)).any()

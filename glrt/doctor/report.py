@@ -170,13 +170,13 @@ def _furnace(finding: Finding | None) -> str:
 
 def _verdict(used: Used | None, examinations: list[Examination]) -> str:
     if not any(examination.works for examination in examinations):
-        wanted = "No route renders: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:"
+        wanted = "No route works: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:"
         return "\n".join([wanted, *remedies()])
     chosen = next((e for e in examinations if _is_of(e, used)), examinations[0])
     route = used.route if used else chosen.route
     if "compute" in chosen.found or not chosen.end:
         return f"`glrt render` uses {route}; --context chooses another, --pipeline the pipeline."
-    return f"`glrt render` uses {route}, whose compute shaders fail: take --pipeline fragment."
+    return f"`glrt render` uses {route}, whose compute shaders fail: use --pipeline fragment."
 
 
 def findings(found: Finding | None) -> list[str]:

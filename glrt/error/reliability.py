@@ -1,4 +1,4 @@
-"""Whether an estimated error can be trusted: do parts of a render differ as it says?
+"""Whether an estimated error can be trusted: whether parts of a render agree with it.
 
 A pixel that no rare bright sample has met does not know of them, and the error of one that has
 been met is divided by its own brightness. So the estimate is too small under fireflies. But two
@@ -15,7 +15,7 @@ from glrt.error.estimate import DARK
 
 Pixels = NDArray[np.float32]
 
-DOUBTFUL = 2.0  # times the estimate: docs/stress.md
+DOUBTFUL = 2.0  # times the estimate: docs/results/stress.md
 # Pixels without a vote, those that differ most: one at the rim of a lamp may see it in one part
 # alone, which says nothing of the rest.
 MUTE_SHARE, MUTE_LEAST = 1e-3, 3
@@ -50,5 +50,5 @@ def doubt(understatement: float | None, wanted: float | None) -> str:
     return (
         f"--error {wanted:g} may not be reached: parts of the samples differ {understatement:.2g} "
         "times as much as the estimated error says. A few samples carry much of the light "
-        "(fireflies), and pixels that they missed do not know of them. Ask for more --samples."
+        "(fireflies), and the estimate ignores the pixels that they missed. Use more --samples."
     )

@@ -1,4 +1,4 @@
-"""What a film has gathered beside its mean: with it a picture is rendered on, to the same bits.
+"""The state of a film beside its mean: a render continues from it to the same bits.
 
 An EXR file tells mean and standard error. From these alone the variance comes back to a few units
 in the last place. Those units are kept in channels of their own, and what is rarer, only where it

@@ -28,11 +28,11 @@ _EXR_MAGIC = b"\x76\x2f\x31\x01"
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """Radiance in linear sRGB, (H, W, 3) float32, row 0 on top, and how sure it is.
+    """Radiance in linear sRGB, (H, W, 3) float32, row 0 on top, with its standard error.
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
-    recipe. `film_state` is what a render needs to go on from it, if that is known. Raises
+    recipe. `film_state` is what a render needs to continue from it, if that is known. Raises
     ValueError for arrays of another shape or type.
     """
 
@@ -51,7 +51,7 @@ class Image:
 
     @property
     def error(self) -> float | None:
-        """Estimated relative RMS error (`relative_error`); None if it is unknown."""
+        """Estimated relative RMS error, of the noise alone; None if it is unknown."""
         return relative_error(self.radiance, self.stderr)
 
     def save(
@@ -62,9 +62,9 @@ class Image:
     ) -> None:
         """Write an EXR, PNG or NPY file, by suffix.
 
-        `exposure` in EV and `tonemap` are for PNG alone, by default those of the recipe. Raises
-        `UsageError` for another suffix, `RenderError` if the file cannot be written; an older file
-        is then as it was.
+        `exposure` in EV and `tonemap` apply to PNG alone, by default those of the recipe. Raises
+        `UsageError` for another suffix, `RenderError` if the file cannot be written; an existing
+        file is then unchanged.
         """
         writers: dict[str, Callable[[Path], None]] = {
             ".exr": self._write_exr,
@@ -75,9 +75,9 @@ class Image:
 
     @classmethod
     def load(cls, path: str | Path) -> "Image":
-        """Read an EXR file, glrt's or another's with channels R, G and B.
+        """Read an EXR file of glrt, or of another program with channels R, G and B.
 
-        Another's has no recipe, 0 samples, and NaN for `stderr`. Raises `UsageError` if there is
+        The latter has no recipe, 0 samples, and NaN for `stderr`. Raises `UsageError` if there is
         no such image, `SceneError` for a damaged recipe.
         """
         header, channels = _read_exr(Path(path))
@@ -148,8 +148,8 @@ def read_recipe(path: str | Path) -> Recipe:
     recipe = _parsed(text, path)
     if recipe is None:
         raise UsageError(
-            f"{path}: this picture carries no recipe: glrt did not render it, or another program "
-            "saved it anew. Give the scene file instead."
+            f"{path}: this picture has no recipe: glrt did not render it, or another program "
+            "saved it again. Give the scene file instead."
         )
     return recipe
 
@@ -163,7 +163,9 @@ def check_writable(path: str | Path) -> None:
 def _known_suffix(path: Path) -> str:
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise UsageError(f"Cannot write {path}: the name of an image ends in .exr, .png or .npy.")
+        raise UsageError(
+            f"Cannot write {path}: the name of an image must end in .exr, .png or .npy."
+        )
     return suffix
 
 
@@ -172,7 +174,7 @@ def _read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any],
     import OpenEXR
 
     if _first_bytes(path) != _EXR_MAGIC:
-        raise UsageError(f"{path}: not an EXR image, whatever its name; give one that is.")
+        raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
     try:
         file = OpenEXR.File(str(path), separate_channels=True, header_only=True)
         if not header_only:

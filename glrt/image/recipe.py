@@ -1,4 +1,4 @@
-"""What made a picture, whole, as JSON that travels in the picture's metadata."""
+"""The recipe of a picture: all that made it, as JSON in the picture's metadata."""
 
 import json
 from typing import Annotated, Any, Self
@@ -18,8 +18,8 @@ Factors = tuple[Factor, Factor, Factor]
 class Traced(Frozen):
     """The light that was gathered, where the picture is a sum of its layers under weights."""
 
-    scene: Scene = Field(description="the scene as its lamps shone when its light was gathered")
-    bounces: int = Field(description="the bounce limit then", ge=0, le=1000)
+    scene: Scene = Field(description="the scene with the lights that were traced")
+    bounces: int = Field(description="the bounce limit that was traced", ge=0, le=1000)
     layering: Layering = Field(description="what the layers hold: light groups, or path lengths")
     weights: tuple[Factors, ...] = Field(description="a factor for each channel of each layer")
 
@@ -54,9 +54,12 @@ class Recipe(Frozen):
     samples: int = Field(description="samples of each pixel taken", ge=0, le=MAX_SAMPLES)
     version: str = Field(description="version of glrt")
     renderer: str = Field(description="name of the OpenGL driver")
-    tier: str = Field("generic", description="where the kernel found its shapes, or two did")
+    tier: str = Field("generic", description="where the kernel, or each of two, found its shapes")
     pipeline: str = Field("compute", description="the kind of shader")
-    traced: Traced | None = Field(None, description="other light than the scene's, and weights")
+    traced: Traced | None = Field(
+        None,
+        description="the light that was traced, if it differs from the scene's, and its weights",
+    )
 
     @property
     def taken(self) -> Settings:

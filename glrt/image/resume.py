@@ -1,4 +1,4 @@
-"""Whether a picture can be rendered on, and what differs where it cannot."""
+"""Check whether a render can continue a picture, and name what differs."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -19,15 +19,15 @@ def recipe_to_resume(image: Image) -> Recipe:
     Raises UsageError, with what is missing.
     """
     if image.recipe is None:
-        raise UsageError(
-            "it carries no recipe: glrt did not render it, or another program saved it"
-        )
+        raise UsageError("it has no recipe: glrt did not render it, or another program saved it")
     if image.recipe.traced:
-        raise UsageError("it was relit in the window: a sum of layers, which it does not hold")
+        raise UsageError(
+            "its light was changed in the window: it lacks the layers that it was summed from"
+        )
     if image.film_state is None:
         raise UsageError(
-            "it holds no state of a film: another renderer or an older glrt wrote it, or another "
-            "program saved it anew"
+            "it has no film state: another renderer or an older glrt wrote it, or another program "
+            "saved it again"
         )
     return image.recipe
 

@@ -1,4 +1,4 @@
-"""What SCENE means on a command line: a scene file, a name, or a picture with its recipe."""
+"""Find the SCENE of a command line: a scene file, a name, or a picture with its recipe."""
 
 from pathlib import Path
 
@@ -13,9 +13,8 @@ from glrt.settings import Settings
 def load(source: str | Path) -> Scene:
     """The scene of a TOML file, of a name in the folder `scenes`, or of a rendered picture.
 
-    Names may lead into its folders, as `methods/glass` does.
-
-    A path comes first, then a name with or without `.toml`. Raises `SceneError` with one
+    A path comes first, then a name with or without `.toml`; a name may contain folders, as
+    `methods/glass`. Raises `SceneError` with one
     paragraph if there is no such scene or it is wrong, `UsageError` for a picture without recipe.
     """
     return load_recipe(source)[0]

@@ -1,4 +1,4 @@
-"""From radiance to the 8-bit colours of a screen; `shaders_glsl/passes/tonemap.glsl` is the twin.
+"""Tone curves: radiance to 8-bit sRGB, as `shaders_glsl/passes/tonemap.glsl` does.
 
 exposure -> tone curve -> sRGB encoding -> rounding. Colours are linear sRGB (Rec. 709 primaries);
 the last axis holds R, G, B.

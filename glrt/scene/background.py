@@ -1,4 +1,4 @@
-"""Light that arrives from infinity."""
+"""Light from infinitely far away."""
 
 from typing import Annotated, Self
 
@@ -9,19 +9,19 @@ from glrt.settings import Cost, Editable, Frozen
 
 
 class Background(Frozen):
-    """The light that arrives from infinity: one colour, or a vertical gradient."""
+    """Light from infinitely far away: one colour, or a vertical gradient."""
 
     color: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
-        description="radiance from every direction, 0 to 1e15 each; default black",
+        description="radiance from every direction; default: black",
     )
     bottom: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
-        description="radiance from straight below, 0 to 1e15 each; needs top",
+        description="radiance from straight below; needs top",
     )
     top: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
-        description="radiance from straight above, 0 to 1e15 each; needs bottom",
+        description="radiance from straight above; needs bottom",
     )
 
     @property
@@ -35,5 +35,5 @@ class Background(Frozen):
         if (self.bottom is None) != (self.top is None):
             raise ValueError("bottom and top go together; give both, or color alone")
         if self.color is not None and self.top is not None:
-            raise ValueError("color excludes bottom and top; give color alone, or both of these")
+            raise ValueError("color excludes bottom and top; give color alone, or bottom and top")
         return self

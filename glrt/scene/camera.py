@@ -1,4 +1,4 @@
-"""Where a scene is seen from."""
+"""The camera of a scene."""
 
 from typing import Annotated, Self
 
@@ -9,30 +9,30 @@ from glrt.settings import Cost, Editable, Frozen
 
 
 class Camera(Frozen):
-    """A pinhole or a thin lens."""
+    """A pinhole camera or a thin lens."""
 
-    position: Vector = Field(description="where the camera stands, x y z in scene units")
-    look_at: Vector = Field(description="the point in the middle of the frame, in scene units")
+    position: Vector = Field(description="position of the camera, x y z in scene units")
+    look_at: Vector = Field(description="the point in the middle of the picture, in scene units")
     up: Direction = Field(
-        (0.0, 1.0, 0.0), description="the direction that is up in the frame, of any length"
+        (0.0, 1.0, 0.0),
+        description="the direction that is up in the picture, of any length",
     )
     fov: Annotated[float, Editable(unit="degrees", slider=(1, 150))] = Field(
         45.0,
         gt=0,
         lt=180,
-        description="vertical angle of view in degrees, between 0 and 180",
+        description="vertical field of view",
     )
     focus_distance: Length | None = Field(
         None,
-        description="distance of the plane in focus along the view axis, in scene units, above 0; "
+        description="distance of the plane in focus along the view axis, in scene units; "
         "default: the distance to look_at",
     )
     defocus_angle: Annotated[float, Editable(Cost.RECOMPILE, "degrees", (0, 20))] = Field(
         0.0,
         ge=0,
         lt=180,
-        description="full angle of the lens seen from the point in focus, in degrees, "
-        "from 0 (a pinhole) to below 180",
+        description="full angle under which the point in focus sees the lens; 0: a pinhole",
     )
 
     @property

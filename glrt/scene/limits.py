@@ -1,6 +1,6 @@
-"""What of a scene lies beyond the digits of float32, or of the model: rendered, but not to trust.
+"""Warnings about scenes that exceed float32 or the model: rendered, but not to be trusted.
 
-docs/truth.md says how far each limit was measured.
+docs/explanation/correctness.md says how far each limit was measured.
 """
 
 import math
@@ -39,13 +39,13 @@ def _narrow_pixels(scene: Scene, settings: Settings) -> str:
         return ""
     return (
         f"camera.fov {number(scene.camera.fov)} at {settings.height} rows makes pixels of "
-        f"{angle:.1g} radians, finer than float32 tells directions apart ({FINEST_PIXEL:.1g}): "
-        "neighbours will be alike. Use fewer rows, or move the camera closer."
+        f"{angle:.1g} radians, finer than float32 resolves directions ({FINEST_PIXEL:.1g}): "
+        "neighbouring pixels may be equal. Use fewer rows, or move the camera closer."
     )
 
 
 def _huge_ball(scene: Scene) -> str:
-    """A ball's surface is known to a rounding of its radius, whatever stands before it."""
+    """The surface of a ball has the rounding error of its radius, however close the camera is."""
     balls = _balls(scene)
     ratio, worst = max(_size_ratios(scene, balls), default=(0.0, 0))
     if ratio <= HUGE:
@@ -53,8 +53,8 @@ def _huge_ball(scene: Scene) -> str:
     share = float(f"{100 * ratio * ROUNDING:.1g}")
     return (
         f"{_name(scene, balls[worst])}: its radius is {ratio:.1g} times the distance of the camera "
-        "from its surface, or the radius of a ball that touches it; float32 knows the surface to "
-        f"{share:g} % of that at best. Use a plane or a smaller ball."
+        "from its surface, or the radius of a ball that touches it; float32 resolves the surface "
+        f"to {share:g} % of that at best. Use a plane or a smaller ball."
     )
 
 
@@ -77,8 +77,8 @@ def _crossing_glass(scene: Scene) -> str:
         return ""
     return (
         f"{_name(scene, glass[first])} and {_name(scene, glass[second])} are glass and cross: "
-        "light that leaves one within the other is bent as if it came into air. Part them, let "
-        "them touch, or put one into the other."
+        "light that leaves one inside the other is refracted as if it entered air. Separate them, "
+        "let them touch, or put one inside the other."
     )
 
 
@@ -104,8 +104,8 @@ def _walled_in(scene: Scene) -> str:
         if not any(_reaches_into(ball, lamp) for lamp in lamps):
             return (
                 f"{_name(scene, index)}: the camera is inside this ball, which "
-                "is not glass and has no lamp inside: nothing outside is seen, and paths find no "
-                "light. Move the camera out, or put a lamp inside."
+                "is not glass and has no lamp inside: nothing outside is visible, and paths find "
+                "no light. Move the camera out, or put a lamp inside."
             )
     return ""
 

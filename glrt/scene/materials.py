@@ -1,4 +1,4 @@
-"""What surfaces are made of: a frozen model for each type of material.
+"""Materials of surfaces: a frozen model for each type.
 
 What the kernel knows of a type stands in shaders_glsl/bsdfs/ and glrt/rendering/pack_materials.py.
 docs/extending.md says how a type is added.
@@ -16,20 +16,20 @@ SMOOTHEST = 1e-8
 
 
 class Lambertian(Tagged):
-    """A matte surface that scatters alike in all directions."""
+    """A matte (Lambertian) surface."""
 
     type: Literal["lambertian"] = Field("lambertian", description="the kind of material")
     color: Color = Field(description="albedo, 0 to 1 each")
 
 
 class Metal(Tagged):
-    """A mirror, sharp or rough (GGX)."""
+    """Metal, smooth or rough (GGX)."""
 
     type: Literal["metal"] = Field("metal", description="the kind of material")
     color: Color = Field(description="reflectance, the same at all angles, 0 to 1 each")
     roughness: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         0.0,
-        description="from 0, a mirror, to 1; its square is the alpha of GGX",
+        description="0: a mirror; the alpha of GGX is its square",
     )
 
     @property
@@ -45,18 +45,18 @@ class Dielectric(Tagged):
     type: Literal["dielectric"] = Field("dielectric", description="the kind of material")
     ior: Annotated[Length, Editable(slider=(1, 3))] = Field(
         1.5,
-        description="index of refraction, inside over outside, above 0",
+        description="index of refraction, inside over outside",
     )
 
 
 class Light(Tagged):
-    """A lamp that emits alike in all directions, from both sides of its surface."""
+    """An area light: it emits evenly in all directions, from both sides of its surface."""
 
     type: Literal["light"] = Field("light", description="the kind of material")
-    emission: Radiance = Field(description="radiance at intensity 1, 0 to 1e15 each")
-    color: Color = Field(BLACK, description="albedo of the lamp itself, 0 to 1 each")
+    emission: Radiance = Field(description="radiance at intensity 1, 0 or more each")
+    color: Color = Field(BLACK, description="albedo of the lamp itself")
     group: Name | None = Field(
-        None, description="light group that it is dimmed with; default: the material's name"
+        None, description="light group whose intensity it follows; default: the material's name"
     )
 
 

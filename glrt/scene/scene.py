@@ -1,7 +1,7 @@
-"""A scene as a frozen value: what it is made of, and whether its parts fit together.
+"""A scene as a frozen value, and the checks that its parts fit together.
 
-The models, here and in `glrt.scene.parts`, state every default, range and meaning once; reading a
-file is the part of `glrt.scene.toml`.
+The models of this package state every default, range and meaning once; `glrt.scene.toml` reads
+files.
 """
 
 from collections.abc import Iterator, Mapping
@@ -25,7 +25,7 @@ Place = tuple[int | str, ...]
 
 
 class MisfitError(ValueError):
-    """Parts of a scene, each valid, that do not fit together: pairs of place and advice."""
+    """Valid parts of a scene that do not fit together: pairs of place and advice."""
 
     def __init__(self, problems: list[tuple[Place, str]]) -> None:
         self.problems = problems
@@ -33,7 +33,7 @@ class MisfitError(ValueError):
 
 
 class Scene(Frozen):
-    """Everything that a scene file says."""
+    """The contents of a scene file."""
 
     title: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]*$")] | None = Field(
         None, description="one sentence on one line, shown in the gallery"
@@ -41,17 +41,15 @@ class Scene(Frozen):
     format: int = Field(
         1, description="version of the scene format: 1", json_schema_extra={"const": 1}
     )
-    camera: Camera = Field(description="where the scene is seen from")
-    render: RenderSettings = Field(
-        RenderSettings(), description="how the scene wants to be rendered"
-    )
+    camera: Camera = Field(description="the camera")
+    render: RenderSettings = Field(RenderSettings(), description="default settings of the scene")
     background: Background = Field(
-        Background(), description="light from infinity, of the light group `background`"
+        Background(), description="light from infinitely far away; its light group is `background`"
     )
     materials: dict[Name, Material] = Field({}, description="materials by name")
     lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(
         {},
-        description="intensity of light groups, a factor from 0 to 1e15, each 1 by default",
+        description="intensity of each light group, a factor from 0 to 1e15; default: 1",
     )
     objects: tuple[Shape, ...] = Field(
         (), max_length=MAX_OBJECTS, description="the shapes, at most 65,536"
@@ -153,10 +151,10 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
-_GLASS_ADVICE = "a {} has no inside, so it cannot be dielectric; use a sphere or a plane"
+_GLASS_ADVICE = "a {} encloses nothing, so it cannot be dielectric; use a sphere or a plane"
 _SKY_ADVICE = (
-    "must not be 'background', the light group of the sky; give the lamp a group of its own, so "
-    "that each can be dimmed without the other"
+    "must not be 'background', the light group of the background; give the lamp another group, so "
+    "that each can be dimmed on its own"
 )
 
 

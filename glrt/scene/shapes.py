@@ -1,4 +1,4 @@
-"""What there is to see: a frozen model for each kind of shape, with its geometry for the host.
+"""Shapes: a frozen model for each kind, with its geometry for the host.
 
 What the kernel knows of a shape stands in shaders_glsl/shapes/ and glrt/rendering/pack_shapes.py.
 docs/extending.md says how a kind is added.
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 class Object(Tagged):
     """What every shape has: a name, a material, and answers about its geometry."""
 
-    name: Name | None = Field(None, description="what to call the object in messages, one line")
+    name: Name | None = Field(None, description="name of the object in messages and the window")
     material: Name = Field(description="name of one of the materials")
 
     has_inside: ClassVar[bool]  # whether it can be of glass
@@ -52,8 +52,8 @@ class Sphere(Object):
     """A sphere."""
 
     shape: Literal["sphere"] = Field("sphere", description="the kind of shape")
-    center: Vector = Field(description="its middle, x y z in scene units")
-    radius: Length = Field(description="its radius in scene units, above 0")
+    center: Vector = Field(description="centre, x y z in scene units")
+    radius: Length = Field(description="radius in scene units")
 
     has_inside = True
     anchor = "center"
@@ -86,11 +86,11 @@ class Sphere(Object):
 
 
 class Plane(Object):
-    """An infinite plane; of a dielectric, the half-space behind the normal is inside."""
+    """An infinite plane; the inside of a dielectric is the half-space behind the normal."""
 
     shape: Literal["plane"] = Field("plane", description="the kind of shape")
-    point: Vector = Field(description="any point on it, x y z in scene units")
-    normal: Direction = Field(description="a direction across it, of any length but zero")
+    point: Vector = Field(description="any point on the plane, x y z in scene units")
+    normal: Direction = Field(description="normal of the plane, of any length above 0")
 
     has_inside = True
     anchor = "point"
@@ -118,12 +118,14 @@ class Plane(Object):
 
 
 class Quad(Object):
-    """A parallelogram whose normal lies along edge_u x edge_v."""
+    """A parallelogram; its normal is along edge_u x edge_v."""
 
     shape: Literal["quad"] = Field("quad", description="the kind of shape")
     corner: Vector = Field(description="one of its corners, x y z in scene units")
-    edge_u: Direction = Field(description="from the corner to its neighbour, in scene units")
-    edge_v: Direction = Field(description="from the corner to the other neighbour, in scene units")
+    edge_u: Direction = Field(description="vector from the corner to the next, in scene units")
+    edge_v: Direction = Field(
+        description="vector from the corner to the one before, in scene units"
+    )
 
     has_inside = False
     anchor = "corner"
@@ -132,7 +134,9 @@ class Quad(Object):
     @model_validator(mode="after")
     def _has_an_area(self) -> Self:
         if are_parallel(self.edge_u, self.edge_v):
-            raise ValueError("edge_u and edge_v are parallel, so the quad is flat; turn one")
+            raise ValueError(
+                "edge_u and edge_v are parallel: the quad has no area; change one of them"
+            )
         return self
 
     @property

@@ -1,4 +1,4 @@
-"""What is wrong with a scene, in the words of someone who writes scene files.
+"""Messages about mistakes in a scene, in the terms of a scene file.
 
 pydantic says what does not validate, in its own terms; here its reports become sentences.
 """

@@ -1,4 +1,4 @@
-"""What the window's parts share, and the commands that buttons and keys give."""
+"""The state that the parts of the window share, and the commands of buttons and keys."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -210,7 +210,7 @@ class App:
         if all(abs(part) <= LARGEST for part in point):
             self.pivot = point
         else:
-            self.complain("That point is too far away to turn about.")
+            self.complain("That point is too far away for a pivot.")
 
     def save(self, path: str = "") -> None:
         """Write the picture, with its recipe, to a path, by default to the one in its text box."""

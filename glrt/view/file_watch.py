@@ -1,4 +1,4 @@
-"""Files that another program changes, found by looking at their times."""
+"""Watch files that other programs change, by their times."""
 
 from collections.abc import Iterable
 from pathlib import Path

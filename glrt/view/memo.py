@@ -1,4 +1,4 @@
-"""What follows from a scene, kept while the scene is the same: a frame asks for it each time."""
+"""Cache what follows from a scene, since each frame asks for it."""
 
 from collections.abc import Callable
 from functools import wraps

@@ -1,4 +1,4 @@
-"""The OpenGL context of the window, as moderngl wants it; and whether a window can be had."""
+"""The OpenGL context of the window for moderngl, and whether a window can be opened."""
 
 import ctypes
 import os
@@ -13,7 +13,7 @@ import moderngl
 from glrt.errors import ContextError
 from glrt.gpu.context import COMPUTE, FRAGMENT, Context, Pipeline
 
-INSTEAD = "Use `glrt render`, which needs none; `glrt doctor` tells which OpenGL works here."
+INSTEAD = "Use `glrt render`, which needs no window; `glrt doctor` shows which OpenGL works here."
 
 
 class WindowLoader:

@@ -150,7 +150,7 @@ def test_interruption_keeps_the_rounds_that_are_done(
     process.send_signal(signal.SIGINT)
     _, told = process.communicate(timeout=250)
     assert process.returncode == 130
-    assert "the same command goes on from there" in told
+    assert "the same command continues from there" in told
     assert json.loads(rounds.read_text())["rounds"]
 
 

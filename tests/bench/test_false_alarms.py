@@ -1,4 +1,4 @@
-"""The experiment behind docs/compare.md, and a part of it on real renders.
+"""The experiment behind docs/results/compare.md, and a part of it on real renders.
 
 Seeds are fixed; every statistical test fails by chance once in 10,000 seeds at most.
 """

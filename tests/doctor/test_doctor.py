@@ -130,7 +130,7 @@ def test_exit_code_and_advice_when_nothing_works(
     monkeypatch.setattr(install_hints, "systems_here", lambda: ["Debian, Ubuntu", "Docker"])
     assert main(["doctor"]) == 3
     told = capsys.readouterr().out
-    assert "No route renders" in told
+    assert "No route works" in told
     assert "apt-get install" in told
     assert "--gpus all" in told
     assert "dnf" not in told
@@ -180,4 +180,4 @@ def test_report_says_what_a_dead_driver_had_shown(monkeypatch: pytest.MonkeyPatc
     assert "fragment      a furnace is exact" in text
     assert "compute       no answer" in text
     assert "the driver crashed" in text
-    assert "compute shaders fail: take --pipeline fragment" in text
+    assert "compute shaders fail: use --pipeline fragment" in text

@@ -1,6 +1,6 @@
 """An estimated error is doubted under fireflies, and nowhere else.
 
-Seeds are fixed; docs/stress.md has the figures of whole scenes.
+Seeds are fixed; docs/results/stress.md has the figures of whole scenes.
 """
 
 from dataclasses import replace

@@ -185,7 +185,7 @@ def test_another_scene_is_refused_by_what_differs(begun: Image) -> None:
 @pytest.mark.parametrize(
     ("image", "said"),
     [
-        (picture(), "no state of a film"),
+        (picture(), "no film state"),
         (replace(picture(), recipe=None), "no recipe"),
     ],
 )

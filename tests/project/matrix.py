@@ -1,8 +1,8 @@
-"""The table of docs/anywhere.md: `python -m tests.project.matrix`. Route by pipeline by scene.
+"""The table of docs/results/platforms.md: every scene by route and pipeline.
 
-Each way draws every scene in a process of its own, by the tier of `glrt render`. A cell says `=`
-where radiance and standard error have the bits of the first way, else how far they lie apart: the
-root mean square of the radiance over that of another seed.
+`python -m tests.project.matrix`: each way draws every scene in a process of its own, by the tier of
+`glrt render`. A cell says `=` where radiance and standard error have the bits of the first way,
+else how far they differ: the root mean square of the radiance over that of another seed.
 """
 
 import argparse

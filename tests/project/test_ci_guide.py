@@ -1,4 +1,4 @@
-"""The test of pictures that docs/ci.md gives people for their CI works as it stands there."""
+"""The test of pictures that docs/how-to/ci.md gives people for their CI works."""
 
 import re
 import subprocess
@@ -12,7 +12,7 @@ from glrt.gpu.context import ADVICE
 from glrt.resources import folder
 from tests.support.processes import glrt
 
-PAGE = (Path(__file__).parents[2] / "docs" / "ci.md").read_text()
+PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "ci.md").read_text()
 
 
 def block(language: str) -> str:

@@ -1,6 +1,6 @@
 """What goes wrong around a render, provoked: nothing that was saved is lost, one paragraph, exit 4.
 
-docs/faults.md is the table of all faults, with the tests that stand elsewhere.
+docs/reference/faults.md is the table of all faults, with the tests that stand elsewhere.
 """
 
 import subprocess

@@ -140,7 +140,7 @@ def test_an_unknown_suffix_is_refused_with_the_three_known(
     tmp_path: Path, image: Image, name: str
 ) -> None:
     for refuse in (check_writable, image.save):
-        with pytest.raises(UsageError, match=r"ends in \.exr, \.png or \.npy"):
+        with pytest.raises(UsageError, match=r"end in \.exr, \.png or \.npy"):
             refuse(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 

@@ -1,4 +1,4 @@
-"""A share of the matrix of docs/anywhere.md: route by pipeline by scene."""
+"""A share of the matrix of docs/results/platforms.md: route by pipeline by scene."""
 
 import shutil
 from ctypes.util import find_library

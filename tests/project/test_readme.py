@@ -1,4 +1,4 @@
-"""What the README tells a newcomer to type works as it stands there."""
+"""What the README and the guides tell people to type works as it stands there."""
 
 import re
 import shlex
@@ -15,32 +15,51 @@ from tests.support.alarms import ALPHA, book
 from tests.support.processes import glrt
 
 ROOT = Path(__file__).parents[2]
-README = (ROOT / "README.md").read_text()
+DOCS = ROOT / "docs"
+README = ROOT / "README.md"
+WRITING_A_SCENE = DOCS / "how-to" / "write-a-scene.md"
+PAGES = [  # whose commands run
+    README,
+    DOCS / "tutorial.md",
+    *(DOCS / "how-to" / f"{name}.md" for name in ("choose-a-method", "compare", "resume")),
+]
 SMALL = ("--width", "24", "--height", "16")
+QUICK = {"0.05": "0.5", "0.1": "0.5"}  # errors
 
 
-def blocks(language: str) -> list[str]:
+def blocks(page: Path, language: str) -> list[str]:
     """The fenced blocks of one language."""
-    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+    return re.findall(rf"```{language}\n(.*?)```", page.read_text(), re.DOTALL)
 
 
-def commands(program: str) -> list[list[str]]:
+def commands(page: Path, program: str) -> list[list[str]]:
     """The command lines of a program in all shell blocks."""
-    lines = [line for block in blocks("sh") for line in block.splitlines()]
+    lines = [line for block in blocks(page, "sh") for line in block.splitlines()]
     split = [shlex.split(line, comments=True) for line in lines]
     return [words for words in split if words and words[0] == program]
 
 
-def test_every_glrt_command_runs_in_order(tmp_path: Path) -> None:
-    """Sizes are made small, long limits short; a crop or a recipe needs the size it has."""
-    for words in commands("glrt"):
+def save_scenes(page: Path, folder: Path) -> None:
+    """The scenes of a page whose first line is their file name, as in `# room.toml`."""
+    for text in blocks(page, "toml"):
+        if named := re.match(r"# (\w+\.toml)\n", text):
+            (folder / named[1]).write_text(text)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_glrt_command_runs_in_order(page: Path, tmp_path: Path) -> None:
+    """Sizes are made small, long limits short; a recipe has the size it has."""
+    save_scenes(page, tmp_path)
+    for words in commands(page, "glrt"):
         line = words[1:]
+        if line[0] == "view":
+            continue
         if line[0] == "compare":
             line += ["--alpha", str(ALPHA)]  # by default, chance calls one pair in 100 different
             book()
+        line = [QUICK.get(word, word) for word in line]
         if line[0] == "render":
-            line += ["--width", "320", "--height", "400"] if "--crop" in line else SMALL
-            line = ["0.5" if word == "0.1" else "1" if word == "20" else word for word in line]
+            line += SMALL
             line += [] if {"--error", "--time", "--samples"} & set(line) else ["--samples", "2"]
         if line[0] == "chart":
             line += ["--height", "16", "--rounds", "2", "--seconds", "0.4"]
@@ -50,13 +69,13 @@ def test_every_glrt_command_runs_in_order(tmp_path: Path) -> None:
             assert (tmp_path / line[line.index("-o") + 1]).stat().st_size > 100
 
 
-@pytest.mark.parametrize("target", sorted({words[1] for words in commands("make")}))
+@pytest.mark.parametrize("target", sorted({words[1] for words in commands(README, "make")}))
 def test_every_make_target_exists(target: str) -> None:
     assert subprocess.run(["make", "-n", target], cwd=ROOT, capture_output=True).returncode == 0
 
 
 def test_python_example_runs(tmp_path: Path) -> None:
-    (code,) = blocks("python")
+    (code,) = blocks(README, "python")
     careful = code.replace("(again, image)", f"(again, image, {ALPHA})")
     assert careful != code
     book()
@@ -66,26 +85,21 @@ def test_python_example_runs(tmp_path: Path) -> None:
 
 
 def test_scene_file_renders() -> None:
-    (text,) = blocks("toml")
-    scene = parse_scene(tomllib.loads(text), "README")
+    (text,) = blocks(WRITING_A_SCENE, "toml")
+    scene = parse_scene(tomllib.loads(text), WRITING_A_SCENE.name)
     renderer = Renderer(scene, width=24, height=16)
     assert renderer.render(4).nonfinite() == 0
     renderer.release()
 
 
 def test_extras_named_exist() -> None:
-    named = set(re.findall(r"(?:glrt|\.)\[(\w+)\]", README))
+    text = "".join(page.read_text() for page in [README, *DOCS.rglob("*.md")])
+    named = set(re.findall(r"(?:glrt|\.)\[([\w,]+)\]'", text))
+    extras = {extra for names in named for extra in names.split(",")}
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    assert "chart" in named
-    assert named <= set(project["optional-dependencies"])
+    assert {"chart", "view"} <= extras <= set(project["optional-dependencies"])
 
 
-def test_map_names_every_module() -> None:
-    names = {path.name for path in (ROOT / "glrt").glob("*.py")} - {"__init__.py", "__main__.py"}
-    named = set(re.findall(r"`(?:glrt/)?(\w+\.py)`", README))
-    assert names == named
-
-
-def test_files_named_exist() -> None:
-    for name in re.findall(r"\]\(([^)#:]+)\)", README):
-        assert (ROOT / name).exists(), name
+def test_the_map_names_every_package() -> None:
+    packages = {path.parent.name for path in (ROOT / "glrt").glob("*/__init__.py")}
+    assert packages == set(re.findall(r"^\| `glrt/(\w+)` ", README.read_text(), re.MULTILINE))

@@ -175,7 +175,7 @@ _LIGHTS = [
         ),
         ("lights.background", "radiance of the background must be at most 1e15"),
     ),
-    _bad("a lamp in the sky", '"ceiling"', '"background"', "materials.lamp.group", "the sky"),
+    _bad("a lamp in the sky", '"ceiling"', '"background"', "materials.lamp.group", "background"),
     _bad("a nameless group", '"ceiling"', '""', "materials.lamp.group must not be empty"),
     _bad("a list of lights", "[lights]\n", "[[lights]]\n", "lights must be a table", "[lights]"),
 ]

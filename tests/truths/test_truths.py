@@ -1,6 +1,6 @@
 """Pictures known in closed form beyond rooms and single lamps: shade, polygons, glass, edges.
 
-Each docstring derives its figure; docs/truth.md lists them all.
+Each docstring derives its figure; docs/explanation/correctness.md lists them all.
 """
 
 import math

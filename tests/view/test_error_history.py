@@ -67,7 +67,7 @@ def test_the_forecast_tells_when_the_samples_end_before(
     target: float, samples: int, told: str
 ) -> None:
     progress = Progress()
-    assert forecast(progress, target, samples).endswith("at a time not known yet")
+    assert forecast(progress, target, samples).endswith("time not known yet")
     progress.record(seen(64, 2.0, 0.2), 0.0)
     assert forecast(progress, target, samples) == told
 

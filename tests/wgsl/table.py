@@ -1,4 +1,4 @@
-"""The tables of docs/crosscheck.md: `python -m tests.wgsl.table`.
+"""The tables of docs/results/crosscheck.md: `python -m tests.wgsl.table`.
 
 Scene by stage, the share of pixels that are the same in every bit, and the largest difference: in
 ulps, in the display pass of 255. `--macos`: what each suspicion explains.

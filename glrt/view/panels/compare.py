@@ -1,4 +1,4 @@
-"""The parts of the panel that choose what is shown, and keep a picture to compare with."""
+"""The parts of the panel that choose a view, and keep a picture to compare with."""
 
 from typing import get_args
 
@@ -11,7 +11,7 @@ from glrt.view.state.controls import Control
 from glrt.view.viewport.views import HELP, View
 
 VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, get_args(View))
-_MOST = "the difference, relative to the kept picture, that has the strongest colour"
+_MOST = "the difference, relative to the kept picture, that is shown in the strongest colour"
 MOST = Control("strongest", "number", _MOST, Cost.FREE, "1", 0.001, 10.0, (0.01, 2.0))
 
 
@@ -26,7 +26,7 @@ def draw_view(app: App) -> None:
 
 
 def draw_compare(app: App) -> None:
-    """Keep a picture; wipe between it and what comes, or see the difference."""
+    """Keep a picture; wipe between it and the current one, or show the difference."""
     show = app.show
     if button("keep this picture", bool(app.picture.name)):
         app.keep()

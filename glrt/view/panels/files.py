@@ -13,7 +13,9 @@ def draw_files(app: App) -> None:
     """Scenes to open, and where pictures and scenes go."""
     _chooser(app)
     app.open_path, entered = _path("open", app.open_path, "scene file or picture")
-    imgui.set_item_tooltip("A scene file, or a picture by glrt: its scene, camera and settings")
+    imgui.set_item_tooltip(
+        "A scene file, or a picture rendered by glrt: opens its scene, camera and settings"
+    )
     imgui.same_line()
     if button("open", bool(app.open_path)) or (entered and app.open_path):
         app.open(app.open_path)
@@ -25,7 +27,7 @@ def draw_files(app: App) -> None:
     if button("save", has_picture) or (entered and has_picture):
         app.save()
     imgui.set_item_tooltip(
-        "The picture as it is shown, with its recipe; .exr holds radiance and its error"
+        "The picture as shown, with its recipe; .exr holds radiance and its standard error"
     )
     if has_picture and _browse("save"):
         app.dialogs.ask_save("Save the picture", app.save_path, file_dialogs.PICTURE, app.save)
@@ -34,8 +36,8 @@ def draw_files(app: App) -> None:
     if button("save scene", bool(app.scene_path)) or (entered and app.scene_path):
         app.save_scene()
     imgui.set_item_tooltip(
-        "A TOML file of the scene as it is now. Of the file that it was opened from, comments, "
-        "order and formatting stay."
+        "The scene as a TOML file. Comments, order and formatting of the file that it was opened "
+        "from are kept."
     )
     if _browse("scene file"):
         app.dialogs.ask_save("Save the scene", app.scene_path, file_dialogs.SCENE, app.save_scene)
@@ -55,7 +57,7 @@ def _recipe(app: App, has_picture: bool) -> None:
     if button("copy recipe", has_picture):
         app.copy_recipe()
     imgui.set_item_tooltip(
-        "Scene, settings and samples of this picture as text, for another window or a report"
+        "Copies scene, settings and samples of this picture as text, for another window or a report"
     )
     imgui.same_line()
     if button("paste recipe"):

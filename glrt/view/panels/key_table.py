@@ -1,4 +1,4 @@
-"""The part of the panel that shows the keys, and lets the user choose others."""
+"""The part of the panel that shows the keys and changes them."""
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -10,11 +10,11 @@ from glrt.view.state.controls import replaced
 from glrt.view.state.keys import Action
 
 _MOUSE = {  # in the picture
-    "left drag": "turn about the pivot; in fly mode, look around",
-    "right drag": "look around; in fly mode, turn about the pivot",
+    "left drag": "turn about the pivot; in fly mode: look around",
+    "right drag": "look around; in fly mode: turn about the pivot",
     "middle drag": "shift",
-    "wheel": "nearer and farther",
-    "click": "select; handles then move, with Shift they scale",
+    "wheel": "move nearer or farther",
+    "click": "select an object; its handles move it, with Shift they scale it",
     "Alt, click": "focus on that point",
     "double click": "make that point the pivot",
 }
@@ -54,7 +54,7 @@ def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
             _waiting(app, action, chords)
         elif imgui.button(f"{text}##{action} {index}"):
             app.awaited = (action, index)
-        imgui.set_item_tooltip("Click, then press a key" if chord else "One more key")
+        imgui.set_item_tooltip("Click, then press a key" if chord else "Add a key")
 
 
 def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:

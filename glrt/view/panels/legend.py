@@ -1,4 +1,4 @@
-"""What false colours mean: a bar of them with its numbers, over the picture."""
+"""The legend of false colours: a bar with numbers, over the picture."""
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 

@@ -1,4 +1,4 @@
-"""The panel: every setting and every value of the scene that a user tunes, by subject."""
+"""The panel: every setting and every editable value of the scene, by subject."""
 
 from functools import partial
 from typing import Any
@@ -34,13 +34,13 @@ FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value
 _LIVE = (
-    "Keep the light of each bounce apart: then fewer bounces than traced cost no sample, and each "
-    "can be shown alone. Turning it on or off begins the picture anew; meanwhile a change of a "
-    "lamp restarts."
+    "Keep the light of each bounce apart: then reducing the bounces loses no sample, and each can "
+    "be shown alone. Turning it on or off restarts the picture; while it is on, a change of a lamp "
+    "restarts it too."
 )
 _NO_ROOM = (
-    "At this size there is no room to keep the light of each lamp or bounce apart: a change of "
-    "light begins the picture anew. A smaller frame has room."
+    "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
+    "of light restarts the picture. A smaller picture has room."
 )
 _RED = (0.95, 0.35, 0.35, 1.0)
 

@@ -1,4 +1,4 @@
-"""The figures of a render: how far, how fast, how sure, and when it is good enough."""
+"""The figures of a render: samples, speed, error, and when it will be small enough."""
 
 import math
 
@@ -43,15 +43,15 @@ def figures(app: App) -> list[str]:
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
     if progress.last and progress.last.nonfinite:
-        lines.append(f"{progress.last.nonfinite:,} samples were not finite, and are left out")
+        lines.append(f"{progress.last.nonfinite:,} samples were not finite and were dropped")
     return lines
 
 
 def forecast(progress: Progress, target: float, samples: int) -> str:
-    """When the error will be small enough, and whether a render of so many samples gets there."""
+    """When the error will reach the target, and how many samples it takes if these are too few."""
     seconds, needed = progress.remaining(target), progress.samples_to(target)
     if seconds is None or needed is None:
-        return f"{_percent(target)} at a time not known yet"
+        return f"{_percent(target)}: time not known yet"
     if seconds == 0:
         return f"{_percent(target)} is reached"
     if needed > MAX_SAMPLES:

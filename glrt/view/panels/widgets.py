@@ -1,4 +1,4 @@
-"""Widgets for controls: a value in, the edited value out, and what an edit costs beside it."""
+"""Widgets for controls, with what an edit costs beside them: a value in, the edited one out."""
 
 import math
 from collections.abc import Mapping

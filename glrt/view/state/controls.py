@@ -1,4 +1,4 @@
-"""What a widget must know of a value, read from the models: range, unit, help, cost.
+"""What a widget needs to know of a value, read from the models: range, unit, help, cost.
 
 Nothing here draws. A model's field says all of it once; see `glrt.settings` and
 `glrt.scene.parts`.
@@ -19,16 +19,16 @@ Model = TypeVar("Model", bound=BaseModel)
 Kind = Literal["integer", "number", "choice", "switch", "color", "vector"]
 
 MEANING = {
-    Cost.FREE: "changes the display alone; no sample is lost",
-    Cost.RELIGHT: "weighs the light that is gathered; no sample is lost",
-    Cost.RESTART: "the picture starts again",
-    Cost.RECOMPILE: "the picture starts again, with another kernel",
+    Cost.FREE: "changes only the display; no sample is lost",
+    Cost.RELIGHT: "reweights the accumulated light; no sample is lost",
+    Cost.RESTART: "restarts the picture",
+    Cost.RECOMPILE: "compiles another kernel and restarts the picture",
 }
 
 
 @dataclass(frozen=True)
 class Control:
-    """One value of a model: `low` and `high` are valid, `slider` is worth dragging through."""
+    """One value of a model: `low` and `high` are its range, `slider` is a useful part of it."""
 
     name: str
     kind: Kind

@@ -1,4 +1,4 @@
-"""How the error falls while a picture is rendered, and when it will be small enough."""
+"""The error of a picture over time, and a forecast of when it will be small enough."""
 
 import math
 from collections.abc import Hashable

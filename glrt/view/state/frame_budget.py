@@ -1,4 +1,4 @@
-"""How long a frame may render, so that the window stays at its rate."""
+"""Choose how long a frame may render, so that the frame rate is kept."""
 
 LEAST = 0.25  # of a frame's time: however busy the machine, the picture gets on
 MEMORY = 0.2  # weight of the newest frame in what the window itself takes

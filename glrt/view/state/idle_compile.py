@@ -1,4 +1,4 @@
-"""A kernel compiled ahead, by a process of its own: the window then finds it in the driver's cache.
+"""Compile a kernel ahead in another process, so that the window finds it in the driver's cache.
 
 Drivers compile for 0.3 s and more, in which a window would stand still. `python -m
 glrt.view.state.idle_compile` reads from its input what is to be rendered, and prints what it found.

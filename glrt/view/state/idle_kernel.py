@@ -1,4 +1,4 @@
-"""While nothing is edited the window renders by a faster kernel, which an edit of a shape ends.
+"""Swap the generic kernel for a faster one while nothing is edited.
 
 It is compiled ahead by another process, and taken where that showed two things: that the window
 stands still for no more than a frame, and that the picture stays the same to the last bit.

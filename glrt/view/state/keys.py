@@ -1,4 +1,4 @@
-"""Names of keys, and which of them may mean what. Nothing here draws."""
+"""Names of keys, and which may be bound to what."""
 
 from collections.abc import Mapping
 from string import ascii_lowercase, digits
@@ -29,9 +29,9 @@ MEANING: dict[Action, str] = {
     "right": "walk right",
     "up": "rise",
     "down": "sink",
-    "home": "first view",
-    "frame": "frame selected",
-    "pause": "pause and go on",
+    "home": "go to the first view",
+    "frame": "frame the selection",
+    "pause": "pause, continue",
     "undo": "undo",
     "redo": "redo",
     "save": "save the picture",
@@ -80,5 +80,5 @@ def _problem_of(action: Action, text: str) -> str:
     if key not in NAMES or modifiers != [name for name in MODIFIERS if name in modifiers]:
         return f"there is no key {text!r}; keys are named as in 'w', 'up_arrow' or 'ctrl+shift+z'"
     if modifiers and action in get_args(Move):
-        return f"{label(text)} cannot mean: {MEANING[action]}. A key that is held goes without Ctrl"
+        return f"{label(text)} cannot mean: {MEANING[action]}. Keys for moving take no Ctrl"
     return ""

@@ -1,4 +1,4 @@
-"""What a user wants of the window whatever the scene; kept in a file of the user's."""
+"""Preferences of the window, kept in a file of the user."""
 
 import json
 import os
@@ -19,21 +19,24 @@ Theme = Literal["dark", "light"]
 
 FREE = Cost.FREE
 
-_MEND = "Correct or delete it to be rid of this message."
+_MEND = "Correct or delete this file."
 
 
 class Preferences(Frozen):
     """How the window behaves; none of it changes what is rendered."""
 
     samples_per_frame: Annotated[int, Editable(FREE, slider=(0, 64))] = Field(
-        0, description="samples that each frame adds; 0: as many as it has time for", ge=0, le=1024
+        0,
+        description="samples that each frame adds; 0: as many as fit into its time",
+        ge=0,
+        le=1024,
     )
     target_error: Annotated[float, Editable(FREE, slider=(0.001, 0.5))] = Field(
-        0.02, description="the relative error whose time is forecast", gt=0, le=1
+        0.02, description="the relative error that the forecast is for", gt=0, le=1
     )
     frame_rate: Annotated[int, Editable(FREE, slider=(0, 60))] = Field(
         0,
-        description="frames a second to keep up; 0: 30 on a GPU, 10 without one",
+        description="frames a second; 0: 30 on a GPU, 10 without one",
         ge=0,
         le=240,
     )
@@ -41,23 +44,27 @@ class Preferences(Frozen):
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"
     )
     turn_speed: Annotated[float, Editable(FREE, "degrees", (30, 720))] = Field(
-        180.0, description="turn for a drag across the whole window", gt=0, le=3600
+        180.0, description="angle of a drag across the whole window", gt=0, le=3600
     )
     walk_speed: Annotated[float, Editable(FREE, slider=(0.05, 5))] = Field(
-        0.6, description="step of the keys, in distances to the pivot a second", gt=0, le=100
+        0.6, description="speed of walking, in distances to the pivot a second", gt=0, le=100
     )
     wheel_speed: Annotated[float, Editable(FREE, slider=(0.1, 5))] = Field(
         1.0,
-        description="how far a click of the wheel goes, against a tenth of the way",
+        description="step of the wheel; 1: a tenth of the distance to the pivot",
         gt=0,
         le=9,
     )
-    invert: Annotated[bool, Editable(FREE)] = Field(False, description="a drag upwards looks down")
+    invert: Annotated[bool, Editable(FREE)] = Field(
+        False, description="invert the vertical axis of drags"
+    )
     theme: Annotated[Theme, Editable(FREE)] = Field("dark", description="colours of the window")
     scale: Annotated[float, Editable(FREE, slider=(0.75, 3))] = Field(
         1.0, description="size of the text", ge=0.5, le=4
     )
-    bindings: Bindings = Field(DEFAULTS, description="keys of each action, where not the usual")
+    bindings: Bindings = Field(
+        DEFAULTS, description="keys of each action that differ from the defaults"
+    )
 
     @field_validator("bindings")
     @classmethod

@@ -1,4 +1,4 @@
-"""How coarsely a moving camera is shown, so that the picture keeps up with it."""
+"""Choose how coarsely a moving camera is rendered, so that the frame rate is kept."""
 
 from collections.abc import Callable
 

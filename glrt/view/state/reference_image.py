@@ -1,4 +1,4 @@
-"""The picture that is kept to compare with, rendered anew at the seeds of the one that is edited.
+"""The picture that is kept to compare with, rendered again at the seeds of the current one.
 
 At equal seeds and samples the noise of both is the same where nothing changed: there the
 difference is zero, and elsewhere it is that of the change.

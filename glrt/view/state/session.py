@@ -1,4 +1,4 @@
-"""What the window edits: a scene and its settings, and the renderer that follows them.
+"""The scene and settings that the window edits, and the renderer that follows them.
 
 Edits are gathered and reach the renderer once a frame. It knows no window.
 """

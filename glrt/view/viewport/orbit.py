@@ -1,4 +1,4 @@
-"""Moving a camera, as pure functions: a camera in, another one out.
+"""Move a camera, by pure functions: a camera in, another one out.
 
 Angles are in degrees. A drag is a share of the window's width and height, so that it turns the
 camera as far in a small window as in a large one. Vectors are float64.

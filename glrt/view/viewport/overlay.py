@@ -1,4 +1,4 @@
-"""What of a render is on the screen: a view of it, and the kept picture beside it."""
+"""What the screen shows of a render: a view of it, and the kept picture beside it."""
 
 from dataclasses import dataclass
 
@@ -102,14 +102,14 @@ class Show:
         if self.view != "difference":
             return ""
         if not kept:
-            return "Keep a picture to see how what comes differs from it"
+            return "Keep a picture to show the difference from it"
         if not kept.fits(renderer) and not session.is_preview:
             return "The kept picture has another size"
         if kept.busy:
             return kept.busy
         behind = kept.samples(renderer) < session.samples and self.drawn != "difference"
         told = f"{kept.samples(renderer)} of {session.samples} samples"
-        return f"The kept picture is rendered again: {told}" if behind else ""
+        return f"Rendering the kept picture again: {told}" if behind else ""
 
     def release(self) -> None:
         """Free what the driver holds."""

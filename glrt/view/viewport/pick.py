@@ -1,4 +1,4 @@
-"""What lies under a point of the picture: a ray against all shapes, in numpy, float64."""
+"""Find what lies under a point of the picture: a ray against all shapes, in float64."""
 
 import math
 from typing import NamedTuple

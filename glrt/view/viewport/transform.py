@@ -1,4 +1,4 @@
-"""Moving and scaling shapes, as pure functions, and the matrices that a gizmo wants.
+"""Move and scale shapes, by pure functions, and the matrices that the handles need.
 
 Matrices are 4 x 4 in OpenGL's order, column by column, as flat lists.
 """

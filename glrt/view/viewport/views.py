@@ -1,4 +1,4 @@
-"""The views of a render: its picture, or in false colours what it tells beside that."""
+"""The views of a render: the picture, or its errors and differences in false colours."""
 
 from typing import Literal
 
@@ -7,11 +7,11 @@ from glrt.rendering.false_colors import DIFFERENCE, DROPPED, ERROR, Scale, symme
 View = Literal["picture", "error", "dropped", "difference"]
 
 HELP = (
-    "picture: as it is saved\n"
+    "picture: as it will be saved\n"
     "error: the estimated relative error of each pixel\n"
-    "dropped: where samples were not finite, and left out\n"
-    "difference: from the kept picture at the same seeds and samples, so that what did not change "
-    "has no noise"
+    "dropped: where samples were not finite and were left out\n"
+    "difference: from the kept picture, at equal seeds and samples; what did not change shows no "
+    "noise"
 )
 TITLES: dict[View, str] = {
     "error": "estimated relative error of a pixel",

@@ -1,0 +1,124 @@
+"""The page of scene files, from the models that read them."""
+
+import inspect
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel
+from reference_markdown import GENERATED, table
+
+from glrt.scene import background, camera, materials, scene, shapes
+from glrt.settings import RenderSettings, editable_of
+
+SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
+    ("[camera]", "Required.", camera.Camera),
+    ("[render]", "Optional. Options of the command line override it.", RenderSettings),
+    ("[background]", "Optional; black by default.", background.Background),
+    ("[materials.NAME] of type lambertian", "", materials.Lambertian),
+    ("[materials.NAME] of type metal", "", materials.Metal),
+    ("[materials.NAME] of type dielectric", "", materials.Dielectric),
+    ("[materials.NAME] of type light", "", materials.Light),
+    ("[[objects]] of shape sphere", "", shapes.Sphere),
+    ("[[objects]] of shape plane", "", shapes.Plane),
+    ("[[objects]] of shape quad", "", shapes.Quad),
+]
+
+
+WORDS = {
+    "integer": "whole number",
+    "number": "number",
+    "string": "text",
+    "boolean": "true or false",
+}
+
+
+def scene_file() -> Iterator[str]:
+    """Keys of a scene file, from the models that read it."""
+    yield "# Scene files"
+    yield GENERATED
+    yield (
+        "A scene is a TOML file. Lengths are in scene units, angles in degrees, colours in linear "
+        "sRGB; coordinates are right-handed with y up. Unknown keys, infinities and NaN are "
+        "refused. [Write a scene](../how-to/write-a-scene.md) has a complete example; "
+        "`glrt schema` prints the same format as JSON Schema for editors."
+    )
+    yield "## Top level"
+    yield keys(scene.Scene)
+    for title, note, model in SCENE_TABLES:
+        yield f"## `{title}`"
+        yield f"{inspect.getdoc(model)} {note}".strip()
+        yield keys(model)
+    yield "## `[lights]`"
+    yield (
+        "Optional. One key a light group, with its intensity: a factor from 0, 1 by default. A "
+        "lamp's group is the `group` of its material, or else the material's name; the background "
+        "is the group `background`."
+    )
+
+
+def keys(model: type[BaseModel]) -> str:
+    """A table of the fields of a model."""
+    schema = model.model_json_schema()
+    rows = []
+    for name, field in model.model_fields.items():
+        part = schema["properties"][name]
+        start = default(name, schema, field.default)
+        cells = (f"`{name}`", kind(part), start, limits(part), editable_of(field).unit)
+        rows.append((*cells, field.description or ""))
+    return table(("key", "type", "default", "range", "unit", "meaning"), rows)
+
+
+def kind(part: dict[str, Any]) -> str:
+    """The type of a value in words."""
+    if "anyOf" in part:
+        return kind(next(p for p in part["anyOf"] if p.get("type") != "null"))
+    if "const" in part:
+        return f"`{toml(part['const'])}`"
+    if "enum" in part:
+        return ", ".join(f"`{value}`" for value in part["enum"])
+    if "prefixItems" in part:
+        words = {"integer": "whole numbers", "number": "numbers"}
+        return f"{len(part['prefixItems'])} {words[part['prefixItems'][0]['type']]}"
+    if part.get("type") == "array":
+        return "list of tables"
+    if part.get("type") == "object" or "$ref" in part or "allOf" in part:
+        return "table"
+    return WORDS[str(part["type"])]
+
+
+def limits(part: dict[str, Any]) -> str:
+    """The range of a number, or of each number of a list."""
+    part = next((p for p in part.get("anyOf", ()) if p.get("type") != "null"), part)
+    each = " each" if "prefixItems" in part else ""
+    part = part["prefixItems"][0] if each else part
+    above, below = part.get("exclusiveMinimum"), part.get("exclusiveMaximum")
+    low, high = part.get("minimum", above), part.get("maximum", below)
+    if low is None or high is None:
+        return ""
+    start = f"{whole(low)}" if above is None else f"above {whole(low)}"
+    return f"{start} to {whole(high)}{each}" if below is None else f"{start}, below {whole(high)}"
+
+
+def whole(value: float) -> str:
+    """A limit without an exponent where it is a whole number of up to ten digits."""
+    return str(int(value)) if value == int(value) and abs(value) < 1e10 else f"{value:g}"
+
+
+def default(name: str, schema: dict[str, Any], value: Any) -> str:
+    """The default of a key in TOML; bold `required` where there is none."""
+    if name in schema.get("required", ()):
+        return "**required**"
+    if value is None or (isinstance(value, (BaseModel, dict, tuple)) and not value):
+        return ""
+    return "" if isinstance(value, BaseModel) else f"`{toml(value)}`"
+
+
+def toml(value: Any) -> str:
+    """A value as a scene file writes it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, (tuple, list)):
+        return f"[{', '.join(map(toml, value))}]"
+    return str(value)
