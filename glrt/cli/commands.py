@@ -15,12 +15,12 @@ from glrt.version import VERSION
 COMMANDS = {  # name, and what `glrt --help` says of it
     "render": "render a scene to a file",
     "view": "show a scene in a window",
-    "compare": "do two renders differ",
-    "inspect": "what a scene needs",
-    "chart": "speed against accuracy",
-    "stress": "where methods fail",
-    "doctor": "which OpenGL routes work",
-    "schema": "the scene format as JSON Schema",
+    "compare": "say whether two renders differ",
+    "inspect": "show what a scene needs",
+    "chart": "measure error against time",
+    "stress": "test where methods fail",
+    "doctor": "test which OpenGL routes work",
+    "schema": "print the scene format as JSON Schema",
 }
 
 
