@@ -58,8 +58,8 @@ charts: ## measure error against time on six scenes that separate the methods, i
 
 mutants: ## plant classic bugs in the shaders, one at a time; the tests must find each
 	@$(BOOTSTRAP) test
-	$(IN_ENVIRONMENT) tests.mutation.__main__
+	$(IN_ENVIRONMENT) tests.mutation
 
 clean: ## remove .venv and all caches; pictures stay
 	rm -rf .venv build dist .pytest_cache .hypothesis .mypy_cache .ruff_cache
-	find glrt tests tools -name __pycache__ -prune -exec rm -rf {} +
+	find glrt bench tests tools -name __pycache__ -prune -exec rm -rf {} +

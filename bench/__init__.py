@@ -24,6 +24,7 @@ Programs, `python -m bench.NAME`; `--help` tells what they take:
 What they share:
 
 - program: options, the machine in words, and errors in one paragraph
+- shader_edits: kernels whose shader text differs from glrt's
 - processes: programs that stay and answer over pipes
 - peer: other renderers as such programs
 - against_side: one side of `against`, which may import a much older glrt

@@ -1,8 +1,8 @@
 """How often `glrt compare` calls equal pictures different, and what it finds.
 
-`python -m bench.false_alarms` prints the tables of docs/compare.md. A picture of 256 or 4,096
-samples is made of independent ones of 64. Pairs share no render, but for the pictures of 4,096
-samples: there is one of them for each 64 renders, and pairs take turns with them.
+`python -m bench.false_alarms` prints the tables of docs/results/compare.md. A picture of 256 or
+4,096 samples is made of independent ones of 64. Pairs share no render, but for the pictures of
+4,096 samples: there is one of them for each 64 renders, and pairs take turns with them.
 """
 
 import math

@@ -16,7 +16,7 @@
 #include "shapes/plane.glsl"
 #include "shapes/quad.glsl"
 #include "shapes/find_hit.glsl"
-#include "bsdfs/vertex.glsl"
+#include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"
 #include "bsdfs/metal.glsl"
 #include "bsdfs/dielectric.glsl"

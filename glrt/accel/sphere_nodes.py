@@ -1,4 +1,4 @@
-"""The tree over the spheres as the kernel reads it: `Node` of scene.glsl, 32 bytes a sphere.
+"""The tree over the spheres as rows of the struct `Node` of structs/shapes.glsl, 32 bytes each.
 
 Boxes lie on a grid around all of them: their corners are whole numbers of cells, of 16 bits,
 rounded outwards. The largest sphere stands at the root, beside the grid: a ground does not
@@ -14,7 +14,9 @@ from glrt.accel import bvh
 
 Array = np.ndarray[Any, Any]
 
-SLACK = 2.0**-18  # of boxes, as of rays in bvh.glsl: the float32 rounding of a box is far below
+SLACK = (
+    2.0**-18
+)  # of boxes, as of rays in shapes/sphere_tree.glsl: the float32 rounding of a box is far below
 MOST_CELLS = 2**16 - 1  # along the grid
 
 

@@ -27,7 +27,8 @@ from glrt.gpu.context import Context
 from glrt.gpu.glsl import read, shader_files
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
-from glrt.scene.materials import Dielectric, Lambertian, Light, Material, Metal
+from glrt.resources import folder
+from glrt.scene.materials import Lambertian, Light, Material, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.toml import scene_to_dict
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
@@ -127,9 +128,10 @@ def closed_form(scene: Scene) -> float | None:
 
 
 def _gives_back(material: Material, emission: tuple[float, ...], level: float) -> bool:
-    if isinstance(material, Dielectric) or (isinstance(material, Metal) and material.roughness):
+    if not isinstance(material, Lambertian | Light | Metal):
         return False
-    assert isinstance(material, Lambertian | Light | Metal)
+    if isinstance(material, Metal) and material.roughness:
+        return False
     pairs = zip(emission, material.color, strict=True)
     return all(emitted + albedo * level == level for emitted, albedo in pairs)
 
@@ -184,7 +186,9 @@ def _cache_folder() -> Path:
 
 def _key(scene: Scene, settings: Settings, error: float, seconds: float) -> str:
     """Names all that the halves depend on, the text of the kernel included."""
-    shaders = {file.name: file.read_text() for file in shader_files()}
+    root = folder("shaders_glsl")
+    texts = [(file, file.read_text("utf-8")) for file in shader_files()]
+    shaders = {file.relative_to(root).as_posix(): text for file, text in texts}
     frame = [settings.width, settings.height, settings.crop, settings.bounces, BOUNCES]
     numbers = [SEEDS, SAMPLER]
     parts = [scene_to_dict(scene), frame, numbers, error, seconds, VERSION, shaders]

@@ -3,7 +3,9 @@
 import argparse
 
 from glrt.cli.options import SCENE, add_context, add_pipeline, add_settings
-from glrt.cli.request import check_limit, scene_and_settings
+from glrt.cli.request import check_limit, open_renderer, scene_and_settings
+from glrt.errors import UsageError
+from glrt.image.sources import recipe_of
 from glrt.methods.features import contents_of, explain
 from glrt.methods.omissions import left_out, omissions
 from glrt.scene.limits import cautions
@@ -38,6 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """What the kernel contains and leaves out, its text, or what suffices for an error."""
+    if arguments.pipeline != "auto" and not arguments.kernel:
+        raise UsageError("--pipeline chooses the kernel that --kernel prints: give both.")
     scene, settings = scene_and_settings(arguments)
     if arguments.kernel:
         print(_kernel(arguments, scene, settings), end="")
@@ -74,12 +78,11 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
 def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> str:
     """The shader that traces paths, as `glrt render` gives it to the driver."""
     from glrt.gpu.context import open_context
-    from glrt.rendering.renderer import Renderer
 
     context = open_context(arguments.context, arguments.pipeline)
     try:
-        pipeline = arguments.pipeline
-        renderer = Renderer(scene, settings, context, tier="baked", pipeline=pipeline)
+        recipe, pipeline = recipe_of(arguments.scene), arguments.pipeline
+        renderer = open_renderer(scene, settings, recipe, context, "baked", pipeline)
         text = renderer.shaders[-1].text
         renderer.release()
         return text

@@ -1,6 +1,7 @@
 """The command `glrt`: how it starts, and how it ends."""
 
 import sys
+from contextlib import nullcontext
 
 from glrt.cli import process
 from glrt.cli.process import fail
@@ -9,9 +10,13 @@ SMALLER = "Render a smaller picture or a --crop."
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command; returns its exit code. `arguments` are those of the process by default."""
+    """Run a command; returns its exit code.
+
+    Without `arguments` this is the process of the command `glrt`, whose command line it runs. With
+    them it is a program's: signals and the garbage collector are left as they are.
+    """
     process.open_missing()
-    with process.loading():
+    with process.loading() if arguments is None else nullcontext():
         from glrt import signals
         from glrt.cli import commands
         from glrt.errors import GlrtError, RenderError

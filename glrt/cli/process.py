@@ -55,20 +55,13 @@ def silence(stream: IO[str]) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
-_has_loaded: list[bool] = []
-
-
 @contextmanager
 def loading() -> Iterator[None]:
     """While the modules of a command are imported: Ctrl-C leaves at once, nothing is collected.
 
     Imports take most of the first half second, and leave nothing that is garbage; so it is not
-    looked for in them later either. Once a process: when main() is called again, nothing changes.
+    looked for in them later either.
     """
-    if _has_loaded:
-        yield
-        return
-    _has_loaded.append(True)
     was_enabled = gc.isenabled()
     gc.disable()
     try:

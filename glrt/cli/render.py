@@ -103,7 +103,7 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
     start = time.perf_counter()
     with _watch(arguments, limits, autosave, begun) as watch:
         try:
-            image, understatement = render_to_limit(renderer, limits, interruption, watch)
+            image, error_ratio = render_to_limit(renderer, limits, interruption, watch)
         except RenderError as error:
             raise RenderError(f"{error} {autosave.advice}".strip()) from error
     seconds = {
@@ -121,7 +121,7 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
         return fail(unreached(arguments.error, limits.error, estimate, renderer.samples), 1)
-    if not arguments.quiet and (caution := doubt(understatement, limits.error)):
+    if not arguments.quiet and (caution := doubt(error_ratio, limits.error)):
         print(f"glrt: caution: {caution}", file=sys.stderr)
     return 0
 

@@ -21,7 +21,7 @@ DOUBTFUL = 2.0  # times the estimate: docs/results/stress.md
 MUTE_SHARE, MUTE_LEAST = 1e-3, 3
 
 
-def understatement(
+def error_ratio(
     part: Pixels, part_samples: int, whole: Pixels, samples: int, estimate: float | None
 ) -> float | None:
     """The error that two parts of a render show, in that which it estimates.
@@ -43,12 +43,12 @@ def understatement(
     return math.sqrt(heard.sum() / terms.size) / estimate
 
 
-def doubt(understatement: float | None, wanted: float | None) -> str:
+def doubt(error_ratio: float | None, wanted: float | None) -> str:
     """A paragraph where an error that was wanted is judged reached, but may not be; else ""."""
-    if wanted is None or understatement is None or understatement < DOUBTFUL:
+    if wanted is None or error_ratio is None or error_ratio < DOUBTFUL:
         return ""
     return (
-        f"--error {wanted:g} may not be reached: parts of the samples differ {understatement:.2g} "
+        f"--error {wanted:g} may not be reached: parts of the samples differ {error_ratio:.2g} "
         "times as much as the estimated error says. A few samples carry much of the light "
         "(fireflies), and the estimate ignores the pixels that they missed. Use more --samples."
     )

@@ -14,8 +14,8 @@ def load(source: str | Path) -> Scene:
     """The scene of a TOML file, of a name in the folder `scenes`, or of a rendered picture.
 
     A path comes first, then a name with or without `.toml`; a name may contain folders, as
-    `methods/glass`. Raises `SceneError` with one
-    paragraph if there is no such scene or it is wrong, `UsageError` for a picture without recipe.
+    `methods/glass`. Raises `SceneError` with one paragraph if there is no such scene or it is
+    wrong, `UsageError` for a picture without recipe.
     """
     return load_recipe(source)[0]
 

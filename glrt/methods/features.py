@@ -60,19 +60,19 @@ def contents_of(scene: Scene) -> Contents:
 class Needs:
     """The features compiled into a kernel; each is a constant of its prelude, in upper case.
 
-    `shapes` and `materials` become HAS_SPHERE and so on, one for each kind and type there is, but
-    for matte surfaces, which are always there, and metal, of which there are two sorts.
+    `shapes`, `materials` and `lamps` become HAS_SPHERE, HAS_SPHERE_LIGHT and so on, one for each
+    kind and type there is, but for matte surfaces, which are always there, and metal, of which
+    there are two sorts.
     """
 
     shapes: frozenset[str]
     materials: frozenset[str]
+    lamps: frozenset[str]  # kinds that are sampled, or lit by in the classic models
     has_tree: bool
     has_mirror: bool
     has_rough_metal: bool
     has_lens: bool
     has_background: bool
-    has_sphere_light: bool
-    has_quad_light: bool
     sample_lights: bool
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
@@ -85,11 +85,12 @@ class Needs:
     def constants(self) -> dict[str, bool | int]:
         """The prelude: what the compiler may take for granted."""
         kinds = {f"HAS_{kind.upper()}": kind in self.shapes for kind in KINDS}
-        own = [name for name in TYPES if name not in _FINER]
+        own = [name for name in TYPES if name not in _WITHOUT_OWN_FLAG]
         types = {f"HAS_{name.upper()}": name in self.materials for name in own}
-        plain = [field.name for field in fields(self) if field.name not in ("shapes", "materials")]
+        lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
+        plain = [field.name for field in fields(self) if field.name not in _SETS]
         values = {name.upper(): getattr(self, name) for name in plain}
-        return {**kinds, **types, **values, **NO_LAYERS, "COUNT_RAYS": False}
+        return {**kinds, **types, **lamps, **values, **NO_LAYERS, "COUNT_RAYS": False}
 
 
 def everything() -> dict[str, bool | int]:
@@ -98,11 +99,12 @@ def everything() -> dict[str, bool | int]:
     Paths are traced; lamps are chosen as in the scene that the caller names, or not at all.
     """
     plain: Any = {field.name: True for field in fields(Needs)}
-    sets = {"shapes": frozenset(KINDS), "materials": frozenset(TYPES)}
+    sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
     return Needs(**{**plain, **sets, "model": 0, "clusters": 0, "block": 1}).constants()
 
 
-_FINER = ("lambertian", "light", "metal")
+_SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
+_WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
 
 class Feature(NamedTuple):
@@ -119,33 +121,29 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     traits = METHODS[settings.method]
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     metals = [m for m in found.materials.values() if m.type == "metal"]
-    types = {m.type for m in found.materials.values()} - (set() if traits.follows else _FOLLOWED)
+    types = {m.type for m in found.materials.values() if traits.follows or not m.is_transparent}
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
         materials=frozenset(types),
+        lamps=frozenset(kind for kind in SAMPLED if is_lit and found.lamps[kind]),
         has_tree=found.has_tree,
         has_mirror=traits.follows
         and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
-        has_sphere_light=is_lit and found.lamps["sphere"] > 0,
-        has_quad_light=is_lit and found.lamps["quad"] > 0,
         sample_lights=is_lit and traits.samples_lights,
         weight_both=is_lit and traits.weights_both,
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
         roulette=settings.roulette and traits.follows,
-        model=_number_of(settings.method, metals),
+        model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,
         clusters=found.clusters if traits.chooses_lights else 0,
         block=settings.block,
     )
 
 
-_FOLLOWED = {"dielectric"}  # nothing is seen of it but by following light through it
-
-
-def _number_of(method: str, metals: Sequence[Metal]) -> int:
+def _model_number(method: str, metals: Sequence[Metal]) -> int:
     """Of the model; without highlights, the two that differ in their form are one."""
     if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
         return METHODS["phong"].model
@@ -177,19 +175,25 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
 
     lens, method = scene.camera.defocus_angle, settings.method
     mirrors, rough = made_of("metal", rough=False), made_of("metal", rough=True)
-    glass = _made_of(made_of("dielectric"), "dielectric")
     lamps = _lamps(found)
     return [
         *(Feature(f"{kind}s", kind in needs.shapes, shapes(kind)) for kind in KINDS),
         Feature("tree", needs.has_tree, f"{shapes('sphere')}; it pays from {TREE_FROM} on"),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
-        Feature("glass", "dielectric" in needs.materials, glass),
+        *(
+            Feature(_SPOKEN.get(name, name), name in needs.materials, _made_of(made_of(name), name))
+            for name in TYPES
+            if name not in _WITHOUT_OWN_FLAG
+        ),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         Feature("background", needs.has_background, _background(scene)),
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
-        Feature("sphere lamps", needs.has_sphere_light, f"method {method}, {lamps}"),
-        Feature("quad lamps", needs.has_quad_light, f"method {method}, {lamps}"),
+        *(
+            Feature(f"{kind} lamps", kind in needs.lamps, f"method {method}, {lamps}")
+            for kind in SAMPLED
+        ),
+        Feature("lamps by area", needs.quads_by_area, f"method {method}, {lamps}"),
         Feature("near lamps", needs.clusters > 1, f"method {method}, {lamps}"),
         Feature("lamps in clusters", needs.many_lights, f"{lamps}; from {MOST_NEAR + 1} on"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
@@ -197,6 +201,9 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]
+
+
+_SPOKEN = {"dielectric": "glass"}
 
 
 def _matches(material: Material, limits: dict[str, bool]) -> bool:

@@ -23,8 +23,10 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
     metals = [material for material in materials if material.type == "metal"]
     is_local = not METHODS[method].follows
     lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
-    reflects = bool(kinds & {"lambertian", "metal"}) or any(
-        material.type == "light" and any(material.color) for material in materials
+    traits = METHODS[method]
+    reflects = any(
+        not material.is_transparent and (material.type != "light" or any(material.color))
+        for material in materials
     )
     if is_local and any(metal.alpha == 0 for metal in metals):
         yield "mirrors reflect nothing"
@@ -34,9 +36,9 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "no indirect light"
     if is_local and lamps and len(scene.objects) > 1:
         yield "no shadows"
-    if method == "whitted" and lamps:
+    if traits.follows and not traits.chooses_lights and lamps:
         yield "hard shadows: lamps are points"
-    if method == "whitted" and any(metal.alpha > 0 for metal in metals):
+    if not traits.has_rough_metal and any(metal.alpha > 0 for metal in metals):
         yield "rough metal is a mirror"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
@@ -44,7 +46,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "plane lamps light nothing"
     if any(map(any, scene.background_colors)) and len(scene.objects) > 1:
         yield "nothing hides the sky"
-    if not METHODS[method].has_lens and scene.camera.defocus_angle > 0:
+    if not traits.has_lens and scene.camera.defocus_angle > 0:
         yield "everything is in focus"
 
 

@@ -10,7 +10,7 @@ Modules, each importing only what stands above it:
 - pipelines: compute or fragment shader
 - evaluation: functions of the path tracer over arrays
 - schedule: how much work a dispatch takes
-- upload: a scene in the driver's memory
+- device_scene: a scene in the driver's memory, and the kernel source that reads it
 - kernel_switch: a generic kernel and a faster one by turns
 - film: running mean and variance in textures
 - tracer: adds samples to a film, a dispatch at a time

@@ -1,4 +1,4 @@
-"""Kernels that take turns: one that stays through edits, and a faster one while there are none."""
+"""Two kernels of one scene: a general one, which survives edits, and a faster one for rests."""
 
 import time
 from collections.abc import Callable
@@ -16,12 +16,12 @@ Dispatch = Callable[[AnyKernel, DispatchRange], None]
 
 
 class KernelSwitch:
-    """The kernel whose turn it is, and what is known of its dispatches."""
+    """The kernel in use, and what is known of its dispatches."""
 
     def __init__(
         self, context: Context, shaders: list[Source], schedule: Schedule, dispatch: Dispatch
     ) -> None:
-        """Compile the kernel that stays; RenderError if the driver refuses it."""
+        """Compile the general kernel; RenderError if the driver refuses it."""
         self._context = context
         start = time.perf_counter()
         self.kernel, self.schedule = self._ready(shaders, dispatch), schedule
@@ -29,19 +29,19 @@ class KernelSwitch:
         self._waiting: tuple[AnyKernel, Schedule] | None = None
 
     @property
-    def is_passed(self) -> bool:
-        """Whether it is the turn of the faster kernel."""
+    def uses_fast_kernel(self) -> bool:
+        """Whether the faster kernel is in use."""
         return self._waiting is not None
 
-    def pass_to(self, shaders: list[Source], dispatch: Dispatch) -> None:
-        """Let a faster kernel go on with the next frame; refused, all stays as it was."""
+    def use_fast(self, shaders: list[Source], dispatch: Dispatch) -> None:
+        """Continue with a faster kernel from the next frame on; if refused, nothing changes."""
         self.schedule.drop()  # the first dispatch writes to the frame that has begun
         faster = self._ready(shaders, dispatch)
         self._waiting = self.kernel, self.schedule
         self.kernel, self.schedule = faster, copy(self.schedule)
 
-    def take_back(self) -> None:
-        """Go on by the kernel that stays; the faster one is freed."""
+    def use_general(self) -> None:
+        """Continue with the general kernel; the faster one is freed."""
         if self._waiting:
             self.kernel.release()
             self.kernel, self.schedule = self._waiting
@@ -49,7 +49,7 @@ class KernelSwitch:
 
     def release(self) -> None:
         """Free the programs."""
-        self.take_back()
+        self.use_general()
         self.kernel.release()
 
     def _ready(self, shaders: list[Source], dispatch: Dispatch) -> AnyKernel:

@@ -74,7 +74,7 @@ def pack_frame(
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
-    `counts` are the rows of each array; for tiles and their stride see trace.comp.
+    `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl.
     """
     bottom, top = scene.background_colors
     frame = {

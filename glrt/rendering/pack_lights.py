@@ -1,4 +1,4 @@
-"""Lamps as the kernel chooses among them: the rows of its blocks `Lights` and `Clusters`.
+"""Lamps as the kernel chooses among them: rows of the structs `Light` and `Cluster`.
 
 Few lamps are weighed one by one at each point, so each is a cluster of its own. Many are grouped by
 place into clusters, and these into parts, which are weighed; within a part a table chooses by flux.
@@ -86,7 +86,7 @@ def lamps_of(scene: Scene, shapes: Sequence[Shape]) -> Lamps:
 
 
 def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:
-    """Rows of `Lights`."""
+    """Rows of the struct Light."""
     rows = np.zeros(len(lamps.shapes), dtype)
     rows["shape"] = lamps.shapes
     for cluster, parts in enumerate(lamps.parts):
@@ -101,7 +101,7 @@ def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:
 
 
 def pack_clusters(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
-    """Rows of `Clusters`; of many lamps, those of their parts behind them."""
+    """Rows of the struct Cluster; of many lamps, those of their parts behind them."""
     count = len(lamps.parts)
     rows = np.zeros(count * (1 + PARTS if len(lamps.shapes) > count else 1), dtype)
     rows["shape"], rows["reach2"] = SEVERAL, 1  # a part without lamps has the weight 0 / 1

@@ -95,12 +95,12 @@ class Renderer:
     @property
     def tier(self) -> Tier:
         """Where the kernel that stays through edits finds its shapes."""
-        return self._tracer.buffers.tier
+        return self._tracer.device_scene.tier
 
     @property
     def shaders(self) -> list[Source]:
         """The shaders of that kernel, as the driver got them; the last one traces paths."""
-        return self._tracer.buffers.shaders
+        return self._tracer.device_scene.shaders
 
     @property
     def most_samples(self) -> int:
@@ -140,7 +140,7 @@ class Renderer:
             return cost
         plan = plan_for(*after, layering)
         with self.context.gl:
-            self._tracer, cost = self._tracer.followed_by(plan)
+            self._tracer, cost = self._tracer.replaced_for(plan)
         (self.scene, self.settings), self.plan = after, plan
         return cost
 
@@ -156,7 +156,7 @@ class Renderer:
     @property
     def is_baked(self) -> bool:
         """Whether the kernel that runs has the shapes written into it."""
-        return self.tier == "baked" or self._tracer.switch.is_passed
+        return self.tier == "baked" or self._tracer.switch.uses_fast_kernel
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""

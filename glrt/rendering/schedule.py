@@ -21,10 +21,10 @@ from glrt.settings import RenderSettings
 
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
-TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/speed.md
+TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/results/speed.md
 PARTS = CONSTANTS["PARTS"]  # of a cluster of lamps
 GROWTH = 4  # of the work from one dispatch to the next, at most
-MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/speed.md)
+MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/results/design-choices.md)
 # Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
 _EXPONENT = read_constants(read("integrators/classic.glsl"))["MOST_EXPONENT"]
 HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)

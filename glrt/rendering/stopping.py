@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from glrt.error.reliability import understatement
+from glrt.error.reliability import error_ratio
 from glrt.image.image import Image, Pixels
 from glrt.rendering.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
@@ -33,9 +33,9 @@ class Ending(NamedTuple):
     """The picture at the end of a render, and what else is known of its error."""
 
     image: Image | None  # None if there is no sample
-    understatement: float | None = (
-        None  # of an error that was judged reached: see glrt/error/reliability.py
-    )
+    # The error seen between two parts of the samples over the estimate (glrt/error/reliability.py),
+    # where the error that was asked for was judged reached.
+    error_ratio: float | None = None
 
 
 class Interruption:
@@ -88,15 +88,15 @@ def render_to_limit(
             image = renderer.image()
             is_judged = look >= limits.first_look or look == limits.samples
             if is_judged and _is_reached(image.error, limits.error):
-                return Ending(image, _understatement(part, image))
+                return Ending(image, _error_ratio(part, image))
             part = image.radiance, image.samples
     return Ending(renderer.image() if renderer.samples else None)
 
 
-def _understatement(part: tuple[Pixels, int] | None, image: Image) -> float | None:
+def _error_ratio(part: tuple[Pixels, int] | None, image: Image) -> float | None:
     if part is None:
         return None
-    return understatement(*part, image.radiance, image.samples, image.error)
+    return error_ratio(*part, image.radiance, image.samples, image.error)
 
 
 def _looks(limits: Limits) -> Iterator[int]:

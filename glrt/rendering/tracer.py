@@ -8,6 +8,7 @@ from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
 from glrt.image.film_state import FilmState
 from glrt.methods.light_layers import Plan
+from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Array, Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
 from glrt.rendering.pipelines import KernelOptions, Tier
@@ -19,7 +20,6 @@ from glrt.rendering.schedule import (
     most_samples,
     whole_frame,
 )
-from glrt.rendering.upload import SceneBuffers
 from glrt.settings import Cost
 
 
@@ -40,16 +40,16 @@ class Tracer:
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
-            self.buffers: SceneBuffers = SceneBuffers(
-                context, plan, options, before.buffers if before else None
+            self.device_scene: DeviceScene = DeviceScene(
+                context, plan, options, before.device_scene if before else None
             )
-            refused.callback(self.buffers.release)
+            refused.callback(self.device_scene.release)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if before and self.buffers.has_kernel_of(before.buffers):
+            if before and self.device_scene.has_kernel_of(before.device_scene):
                 self.switch: KernelSwitch = before.switch
             else:
                 if before:
@@ -57,21 +57,22 @@ class Tracer:
                 self.switch = self._compiled()
             refused.pop_all()
 
-    def followed_by(self, plan: Plan) -> tuple["Tracer", Cost]:
-        """What traces another plan, from no sample on; of this, what does not serve it is freed.
+    def replaced_for(self, plan: Plan) -> tuple["Tracer", Cost]:
+        """A tracer for another plan, without samples yet; and what the change cost.
 
-        As the constructor raises, with this as it was.
+        It takes over this tracer's film and kernel where they fit, and frees the rest. On an error,
+        which is as the constructor raises it, this tracer is unchanged.
         """
         after = Tracer(self._context, plan, self._options, self)
-        self.buffers.release()
+        self.device_scene.release()
         if after.film is not self.film:
             self.film.release()
         after.film.restart()
         if after.switch is not self.switch:
             self.switch.release()
             return after, Cost.RECOMPILE
-        if not after.buffers.has_shapes_of(self.buffers):
-            self.switch.take_back()
+        if not after.device_scene.has_shapes_of(self.device_scene):
+            self.switch.use_general()
         self.switch.schedule.restart(after._tiles, after.most_samples, plan.settings.bounces)
         return after, Cost.RESTART
 
@@ -87,7 +88,7 @@ class Tracer:
         Drivers of software do not: then it is that of the kernel that stays through edits.
         """
         if self._context.is_software or not self._tiers:
-            return self.buffers.tier
+            return self.device_scene.tier
         return " and ".join(sorted(self._tiers))
 
     def restart(self) -> None:
@@ -100,13 +101,13 @@ class Tracer:
         """Take up what another film has read, by a kernel of the same tier."""
         self.switch.schedule.drop()
         self.film.write(samples, mean, film_state)
-        self._tiers = {self.buffers.tier}
+        self._tiers = {self.device_scene.tier}
 
     def bake(self) -> bool:
         """Go on by a kernel that has the shapes written in; False where there is none."""
-        shaders = None if self.switch.is_passed else self.buffers.baked()
+        shaders = None if self.switch.uses_fast_kernel else self.device_scene.baked()
         if shaders:
-            self.switch.pass_to(shaders, self._dispatch)
+            self.switch.use_fast(shaders, self._dispatch)
         return shaders is not None
 
     def step(self, samples: int) -> None:
@@ -129,12 +130,12 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for part in (self.film, self.switch, self.buffers):
+        for part in (self.film, self.switch, self.device_scene):
             part.release()
 
     def _compiled(self) -> KernelSwitch:
         schedule = Schedule(self._tiles, self.most_samples)
-        return KernelSwitch(self._context, self.buffers.shaders, schedule, self._dispatch)
+        return KernelSwitch(self._context, self.device_scene.shaders, schedule, self._dispatch)
 
     def _at_once(self, samples: int) -> None:
         """Samples of every pixel at once; none if they prove too many."""
@@ -146,7 +147,7 @@ class Tracer:
 
     def _advance(self, samples: int) -> None:
         self.film.advance(samples)
-        self._tiers.add("baked" if self.switch.is_passed else self.buffers.tier)
+        self._tiers.add("baked" if self.switch.uses_fast_kernel else self.device_scene.tier)
 
     def _fits(self, samples: int) -> bool:
         """Whether no sample of this frame was lost to the loop limit, or fewer would not help.
@@ -154,7 +155,7 @@ class Tracer:
         Rays through a tree take as many rounds as they take. A frame that lost some is done again
         with fewer samples at once; what is lost then is counted on the film.
         """
-        if self._rounds is None or not self.buffers.lost_any() or samples == 1:
+        if self._rounds is None or not self.device_scene.lost_any() or samples == 1:
             return True
         self.most_samples = samples // 2
         self.switch.schedule.limit(self.most_samples)
@@ -162,7 +163,7 @@ class Tracer:
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
         images, first = self.film.images(), self.film.samples
-        self.buffers.dispatch(kernel, images, self._plan, first, part, self._tiles)
+        self.device_scene.dispatch(kernel, images, self._plan, first, part, self._tiles)
 
 
 def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:

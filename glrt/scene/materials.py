@@ -4,7 +4,7 @@ What the kernel knows of a type stands in shaders_glsl/bsdfs/ and glrt/rendering
 docs/extending.md says how a type is added.
 """
 
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, ClassVar, Literal, get_args
 
 from pydantic import Field
 
@@ -15,17 +15,25 @@ from glrt.settings import Cost, Editable
 SMOOTHEST = 1e-8
 
 
-class Lambertian(Tagged):
+class Surface(Tagged):
+    """What every material has."""
+
+    is_transparent: ClassVar[bool]  # nothing is seen of it but by following light through it
+
+
+class Lambertian(Surface):
     """A matte (Lambertian) surface."""
 
     type: Literal["lambertian"] = Field("lambertian", description="the kind of material")
+    is_transparent = False
     color: Color = Field(description="albedo, 0 to 1 each")
 
 
-class Metal(Tagged):
+class Metal(Surface):
     """Metal, smooth or rough (GGX)."""
 
     type: Literal["metal"] = Field("metal", description="the kind of material")
+    is_transparent = False
     color: Color = Field(description="reflectance, the same at all angles, 0 to 1 each")
     roughness: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         0.0,
@@ -39,20 +47,22 @@ class Metal(Tagged):
         return alpha if alpha >= SMOOTHEST else 0.0
 
 
-class Dielectric(Tagged):
+class Dielectric(Surface):
     """Clear glass or liquid with exact unpolarised Fresnel reflection."""
 
     type: Literal["dielectric"] = Field("dielectric", description="the kind of material")
+    is_transparent = True
     ior: Annotated[Length, Editable(slider=(1, 3))] = Field(
         1.5,
         description="index of refraction, inside over outside",
     )
 
 
-class Light(Tagged):
+class Light(Surface):
     """An area light: it emits evenly in all directions, from both sides of its surface."""
 
     type: Literal["light"] = Field("light", description="the kind of material")
+    is_transparent = False
     emission: Radiance = Field(description="radiance at intensity 1, 0 or more each")
     color: Color = Field(BLACK, description="albedo of the lamp itself")
     group: Name | None = Field(

@@ -35,7 +35,7 @@ class Object(Tagged):
     @property
     @abstractmethod
     def reach(self) -> float:
-        """The radius of a ball about the middle that holds it; 1 where none does."""
+        """The radius of a ball about the middle that holds it; infinite where none does."""
 
     @property
     @abstractmethod
@@ -104,7 +104,7 @@ class Plane(Object):
     @property
     def reach(self) -> float:
         """No ball holds a plane."""
-        return 1.0
+        return math.inf
 
     @property
     def row(self) -> list[float]:

@@ -1,5 +1,6 @@
 """The state that the parts of the window share, and the commands of buttons and keys."""
 
+import math
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -24,14 +25,14 @@ from glrt.view.file_dialogs import Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.state.controls import replaced
 from glrt.view.state.error_history import Progress, look_at
-from glrt.view.state.frame_budget import Pace
+from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session, State
 from glrt.view.viewport import orbit
-from glrt.view.viewport.overlay import Show
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
+from glrt.view.viewport.picture_view import PictureView
 
 Rectangle = tuple[float, float, float, float]  # left, top, width, height
 SHOWN = 5.0  # seconds that a message of what was done stays in sight
@@ -42,11 +43,11 @@ class App:
     """A session with its picture, and how the user wants to see it."""
 
     session: Session
-    show: Show
+    show: PictureView
     preferences: Preferences
     preferences_file: Path
     source: str  # what was opened: a path, or the name of a scene that comes with glrt
-    pace: Pace
+    pace: FrameBudget
     pivot: Vector
     shaders: Watch
     open_path: str = ""
@@ -195,7 +196,8 @@ class App:
         """Look at the selected object so that it fills the frame."""
         if shape := self.selected_shape:
             with self.telling():
-                self.place(orbit.framed(self.camera, shape.middle, shape.reach))
+                reach = shape.reach if math.isfinite(shape.reach) else 1.0
+                self.place(orbit.framed(self.camera, shape.middle, reach))
                 self.pivot = shape.middle
 
     def focus_on(self, point: Vector) -> None:

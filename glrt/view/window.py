@@ -17,12 +17,12 @@ from glrt.view.opengl import window_version, wrap_window
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.viewport import draw_keys, draw_viewport
-from glrt.view.state.frame_budget import Pace
-from glrt.view.state.idle_kernel import Rest
+from glrt.view.state.frame_budget import FrameBudget
+from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.preferences import load_preferences, preferences_file
 from glrt.view.state.session import Session
-from glrt.view.viewport.overlay import Show
 from glrt.view.viewport.picture import Picture
+from glrt.view.viewport.picture_view import PictureView
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
@@ -103,12 +103,12 @@ class Window:
         preferences, problem = load_preferences(preferences_file())
         self._rate = RATES[context.is_software]
         self.app = App(
-            session=Session(scene, settings, context, pipeline=self._pipeline, rest=Rest()),
-            show=Show(Picture(context.gl), FalseColors(context.gl)),
+            session=Session(scene, settings, context, pipeline=self._pipeline, rest=IdleKernel()),
+            show=PictureView(Picture(context.gl), FalseColors(context.gl)),
             preferences=preferences,
             preferences_file=preferences_file(),
             source=source,
-            pace=Pace(self._rate),
+            pace=FrameBudget(self._rate),
             pivot=scene.camera.look_at,
             shaders=Watch(shader_files()),
         )

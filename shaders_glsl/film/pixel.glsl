@@ -5,7 +5,7 @@
 
 struct Pixel {
     vec3 mean;           // of the finite samples, radiance
-    float dropped;       // samples that were not finite
+    float dropped;       // samples not finite, or lost to the loop limit
     vec3 variance;       // of the observations: mean squared deviation from their mean
     float observations;
     vec3 block;          // mean of the finite samples of the observation that has begun

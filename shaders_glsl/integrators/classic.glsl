@@ -72,12 +72,12 @@ struct PointLamp {
 };
 
 PointLamp point_lamp(int shape) {
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || up_to_sphere(shape))) {
         precise Sphere sphere = sphere_at(shape);
         precise float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
     }
-    precise Quad quad = quad_at(shape - sphere_count() - plane_count());
+    precise Quad quad = quad_at(shape - first_quad());
     precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
     precise vec3 facing = cross(quad.edge_u, quad.edge_v);
     return PointLamp(center, 0.0, facing, quad.material);

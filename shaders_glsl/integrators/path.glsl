@@ -39,9 +39,9 @@ vec3 direct_light(Vertex vertex, LightSample light) {
     return radiance;
 }
 
-// Divides the survivors' throughput by their chance: another variance, the same mean. Paths play
-// from a throughput of 1/4 downwards: what that costs in time, it gives more than once in variance
-// (docs/speed.md). Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
+// Divides the survivors' throughput by their chance: another variance, the same mean. It applies
+// once the throughput is below 1/4: ending those paths saves more time than it adds variance
+// (docs/results/speed.md). Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
 // meet exactly.
 const float CHANCES = 65536.0;
 
@@ -74,7 +74,7 @@ void gather(precise inout Path path, vec3 light, int group, int length) {
     if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
 }
 
-// Where a model of the ladder ends: the light of the lamps and of an unhidden sky, whose irradiance
+// Where a model of the classic models ends: the light of the lamps and of an unhidden sky, whose irradiance
 // over PI is its radiance two thirds of the way up along the normal.
 void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampler rng) {
     precise vec3 weight = path.scale * path.throughput;

@@ -24,11 +24,11 @@ float cone_of_sphere(vec3 to_center, float radius) {
 }
 
 bool is_of_sphere(Light light) {
-    return HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || light.shape < sphere_count());
+    return HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || up_to_sphere(light.shape));
 }
 
 Quad quad_of(Light light) {
-    return quad_at(light.shape - sphere_count() - plane_count());
+    return quad_at(light.shape - first_quad());
 }
 
 // Whether sampling may find this lamp from the ray's origin.
@@ -92,7 +92,7 @@ LightSample sample_sphere(Ray ray, int index, int shape, vec2 u, float lamps) {
 }
 
 LightSample sample_quad(Ray ray, int index, int shape, vec2 u, float lamps) {
-    precise Quad quad = quad_at(shape - sphere_count() - plane_count());
+    precise Quad quad = quad_at(shape - first_quad());
     precise vec2 share = u;
     if (!QUADS_BY_AREA) share = sample_strips(quad, view_strips(quad, ray.origin), u);
     precise vec3 to_point = quad.corner - ray.origin + share.x * quad.edge_u + share.y * quad.edge_v;
@@ -113,7 +113,7 @@ LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     precise vec2 u = next_2d(rng);
     int index = choose_light(ray, lamps, choice);
     int shape = light_at(index).shape;
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || shape < sphere_count())) {
+    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || up_to_sphere(shape))) {
         return sample_sphere(ray, index, shape, u, lamps);
     }
     return sample_quad(ray, index, shape, u, lamps);

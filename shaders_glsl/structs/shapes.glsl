@@ -1,4 +1,4 @@
-// Shapes, numbered through: spheres, then planes, then quads. Positions are in scene units, relative
+// Shapes, numbered through by kind (glrt/rendering/pack_shapes.py has the order). Positions are in scene units, relative
 // to the camera; axes are those of the world.
 
 const int NO_SHAPE = -1;

@@ -1,5 +1,6 @@
 """What charts judge by: two halves without bias, closed forms, and a cache that is only a cache."""
 
+import shutil
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -10,9 +11,11 @@ import pytest
 from glrt.analysis import reference
 from glrt.analysis.reference import OTHER_NUMBERS, Reference, closed_form, reference_for
 from glrt.error.estimate import relative_error
+from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
+from glrt.resources import folder
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, settings_for
 from tests.support.alarms import assert_near
@@ -251,3 +254,21 @@ def test_the_loop_limit_of_software_bounds_the_paths(context: Context) -> None:
     scene = scene_of(tiles, {"lamp": lamp()})
     truth = reference_for(scene, small(scene), context, 1.0, 0.1)
     assert small(scene).bounces <= truth.bounces < reference.BOUNCES
+
+
+def test_every_shader_file_is_part_of_the_name_of_a_reference(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two files of one name in two folders are two files."""
+    shaders = tmp_path / "shaders_glsl"
+    shutil.copytree(folder("shaders_glsl"), shaders)
+    for module in (glsl, reference):
+        monkeypatch.setattr(module, "folder", lambda name: tmp_path / name)
+    names = {reference._key(LIT, small(LIT), 0.1, 1.0)}
+    files = glsl.shader_files()
+    for file in files:
+        before = file.read_text()
+        file.write_text(f"{before}// another\n")
+        names.add(reference._key(LIT, small(LIT), 0.1, 1.0))
+        file.write_text(before)
+    assert len(names) == 1 + len(files)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from glrt.analysis.stress.noisy_scenes import CASES, room
-from glrt.error.reliability import DOUBTFUL, MUTE_LEAST, doubt, understatement
+from glrt.error.reliability import DOUBTFUL, MUTE_LEAST, doubt, error_ratio
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
 from glrt.rendering.stopping import Ending, Interruption, Limits, render_to_limit
@@ -36,7 +36,7 @@ def joined(first: Image, rest: Image) -> Image:
 
 
 def told(part: Pixels, samples: int, image: Image) -> float | None:
-    return understatement(part, samples, image.radiance, image.samples, image.error)
+    return error_ratio(part, samples, image.radiance, image.samples, image.error)
 
 
 def disagreement(first: Image, rest: Image) -> float:
@@ -104,10 +104,10 @@ def test_a_caustic_is_doubted_and_a_matte_ball_is_not(context: Context, sampler:
     assert caustic.image
     assert caustic.image.error
     assert caustic.image.error < 0.2
-    assert caustic.understatement is not None
-    assert caustic.understatement > DOUBTFUL
-    assert matte.understatement is not None
-    assert 0.9 < matte.understatement < 0.75 * DOUBTFUL
+    assert caustic.error_ratio is not None
+    assert caustic.error_ratio > DOUBTFUL
+    assert matte.error_ratio is not None
+    assert 0.9 < matte.error_ratio < 0.75 * DOUBTFUL
 
 
 def test_an_error_that_was_not_reached_is_not_doubted(context: Context) -> None:
@@ -116,7 +116,7 @@ def test_an_error_that_was_not_reached_is_not_doubted(context: Context) -> None:
         ending = render_to_limit(renderer, Limits(64, error=1e-6), Interruption())
     assert ending.image
     assert ending.image.error
-    assert ending.understatement is None
+    assert ending.error_ratio is None
 
 
 def test_the_command_warns_of_a_caustic(tmp_path: Path) -> None:

@@ -209,8 +209,7 @@ def test_a_kernel_has_nothing_that_its_model_cannot_see(method: str) -> None:
     assert ("dielectric" in needs.materials, needs.has_mirror, needs.roulette) == (not local,) * 3
     assert needs.has_lens == (method == "cook")
     assert needs.has_rough_metal == (method != "whitted")
-    assert needs.has_sphere_light
-    assert needs.has_quad_light
+    assert needs.lamps == {"sphere", "quad"}
     assert not needs.sample_lights
     assert not needs.weight_both
 

@@ -10,8 +10,8 @@ import pytest
 from glrt.errors import RenderError, UsageError
 from glrt.gpu.context import Context, open_context
 from glrt.gpu.program import Kernel
+from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.upload import SceneBuffers
 from tests.support.builders import box_of_quads, lamp, plane, quad, room_of_planes, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.mixed_scene import OBJECTS, everything
@@ -243,7 +243,7 @@ def test_an_error_of_the_driver_ends_a_render_before_it_begins(
         context.gl.enable_direct(0x1234)
     with rendering(everything(), context) as plain:
         plain.render(1)
-        whole = {"kernel": (Kernel, "run_tiles"), "scene": (SceneBuffers, "_upload")}[place]
+        whole = {"kernel": (Kernel, "run_tiles"), "scene": (DeviceScene, "_upload")}[place]
         uploading = getattr(*whole)
         monkeypatch.setattr(*whole, fails)
         with pytest.raises(RenderError, match=r"the driver refuses .* GL_INVALID_ENUM"):

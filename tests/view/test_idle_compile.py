@@ -12,7 +12,7 @@ from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for
 from glrt.view.state import idle_compile as rehearsal_module
-from glrt.view.state.idle_compile import Rehearsal, part_of, rehearse
+from glrt.view.state.idle_compile import TrialCompile, part_of, rehearse
 from tests.support.mixed_scene import everything
 
 
@@ -21,7 +21,7 @@ def resting(context: Context, settings: dict[str, Any]) -> Renderer:
     return Renderer(scene, settings_for(scene.render, **settings), context, layering="groups")
 
 
-def wait_for(rehearsal: Rehearsal) -> None:
+def wait_for(rehearsal: TrialCompile) -> None:
     """A machine that has more to do takes its time."""
     deadline = time.monotonic() + 250
     while not rehearsal.is_over and time.monotonic() < deadline:
@@ -30,7 +30,7 @@ def wait_for(rehearsal: Rehearsal) -> None:
 
 def test_a_rehearsal_finds_out_on_the_same_driver(context: Context) -> None:
     renderer = resting(context, {"width": 100, "height": 64})
-    rehearsal = Rehearsal(renderer)
+    rehearsal = TrialCompile(renderer)
     wait_for(rehearsal)
     finding = rehearsal.finding()
     renderer.release()
@@ -41,7 +41,7 @@ def test_a_rehearsal_finds_out_on_the_same_driver(context: Context) -> None:
 
 def test_a_rehearsal_that_is_ended_leaves_no_process(context: Context) -> None:
     renderer = resting(context, {"width": 16, "height": 16})
-    rehearsal = Rehearsal(renderer)
+    rehearsal = TrialCompile(renderer)
     number = rehearsal._process.pid
     rehearsal.end()
     renderer.release()
@@ -54,7 +54,7 @@ def test_a_rehearsal_that_fails_finds_nothing(
 ) -> None:
     monkeypatch.setattr(rehearsal_module, "part_of", lambda _: "groups\n{}\n")
     renderer = resting(context, {"width": 16, "height": 16})
-    rehearsal = Rehearsal(renderer)
+    rehearsal = TrialCompile(renderer)
     wait_for(rehearsal)
     assert rehearsal.finding() is None
     renderer.release()

@@ -14,8 +14,8 @@ from glrt.scene.scene import Scene, with_lights
 from glrt.settings import settings_for
 from glrt.view.panels.objects import with_material
 from glrt.view.state.controls import replaced
-from glrt.view.state.idle_compile import Finding, Rehearsal
-from glrt.view.state.idle_kernel import LONGEST, MOST, PAUSE, Rest
+from glrt.view.state.idle_compile import Finding, TrialCompile
+from glrt.view.state.idle_kernel import LONGEST, MOST, PAUSE, IdleKernel
 from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import ANNOUNCED, Session
 from tests.support.builders import MATTE, scene_of, sphere
@@ -82,7 +82,7 @@ def opened(context: Context, clock: Clock) -> Iterator[Opening]:
         pipeline = ways.pop("pipeline", "auto")
         sizes = {"width": 24, "height": 16, "bounces": 3, "samples": 1000}
         settings = settings_for(scene.render, **{**sizes, **ways})
-        rest = Rest(clock, stage)
+        rest = IdleKernel(clock, stage)
         session = Session(scene, settings, context, clock, pipeline, rest)
         sessions.append(session)
         frames(session, ANNOUNCED + 1)
@@ -276,7 +276,7 @@ def test_a_rehearsal_that_failed_is_tried_again_after_the_next_edit(
 def test_where_no_process_can_be_started_the_window_goes_on(opened: Opening, clock: Clock) -> None:
     tried: list[Renderer] = []
 
-    def begin(renderer: Renderer) -> Rehearsal:
+    def begin(renderer: Renderer) -> TrialCompile:
         tried.append(renderer)
         raise OSError("no more processes")
 

@@ -11,7 +11,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import settings_for
 from glrt.view.state.controls import replaced
-from glrt.view.state.reference_image import Kept
+from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import ANNOUNCED, State
 from tests.support.mixed_scene import everything
 
@@ -30,9 +30,9 @@ def next_one(context: Context) -> Iterator[Renderer]:
 
 
 @pytest.fixture
-def kept(next_one: Renderer) -> Iterator[Kept]:
+def kept(next_one: Renderer) -> Iterator[ReferenceImage]:
     """The picture as it was before any change."""
-    picture = Kept(State(next_one.scene, next_one.settings), 1.0, next_one.context)
+    picture = ReferenceImage(State(next_one.scene, next_one.settings), 1.0, next_one.context)
     yield picture
     with next_one.context.gl:
         picture.release()
@@ -44,26 +44,26 @@ def repainted(scene: Scene) -> Scene:
     return replaced(scene, materials=materials)
 
 
-def light(kept: Kept, other: Renderer) -> Floats:
+def light(kept: ReferenceImage, other: Renderer) -> Floats:
     with other.context.gl:
         texture = kept.light(other)
         assert texture
         return np.frombuffer(texture.read(), np.float32).reshape(12, 16, 4)[..., :3]
 
 
-def catch_up(kept: Kept, other: Renderer) -> None:
+def catch_up(kept: ReferenceImage, other: Renderer) -> None:
     for _ in range(ANNOUNCED + 10):  # frames
         kept.catch_up(other, 0.05)
 
 
-def test_nothing_changed_and_nothing_differs(kept: Kept, next_one: Renderer) -> None:
+def test_nothing_changed_and_nothing_differs(kept: ReferenceImage, next_one: Renderer) -> None:
     catch_up(kept, next_one)
     assert kept.samples(next_one) == next_one.samples
     assert kept._renderer is None, "one film shows both"
     assert (light(kept, next_one) == next_one.image().radiance).all()
 
 
-def test_lamps_that_were_changed_are_weighed_back(kept: Kept, next_one: Renderer) -> None:
+def test_lamps_that_were_changed_are_weighed_back(kept: ReferenceImage, next_one: Renderer) -> None:
     before = next_one.image().radiance
     next_one.update(with_lights(next_one.scene, {"lamp": 2.0}))
     assert next_one.image().radiance.mean() > 1.3 * before.mean()
@@ -73,7 +73,7 @@ def test_lamps_that_were_changed_are_weighed_back(kept: Kept, next_one: Renderer
 
 
 def test_another_material_differs_only_where_its_light_comes(
-    kept: Kept, next_one: Renderer
+    kept: ReferenceImage, next_one: Renderer
 ) -> None:
     before = next_one.image().radiance
     next_one.update(repainted(next_one.scene))
@@ -84,7 +84,7 @@ def test_another_material_differs_only_where_its_light_comes(
     assert 0.1 < (after == before).all(axis=2).mean() < 0.9
 
 
-def test_it_waits_for_equal_samples(kept: Kept, next_one: Renderer) -> None:
+def test_it_waits_for_equal_samples(kept: ReferenceImage, next_one: Renderer) -> None:
     next_one.update(repainted(next_one.scene))
     next_one.render(6)
     kept.catch_up(next_one, 0.05)
@@ -103,7 +103,7 @@ def test_it_waits_for_equal_samples(kept: Kept, next_one: Renderer) -> None:
     assert kept.samples(next_one) == 2
 
 
-def test_it_takes_the_seed_of_the_next_one(kept: Kept, next_one: Renderer) -> None:
+def test_it_takes_the_seed_of_the_next_one(kept: ReferenceImage, next_one: Renderer) -> None:
     next_one.update(repainted(next_one.scene), seed=3)
     next_one.render(4)
     catch_up(kept, next_one)
@@ -118,13 +118,13 @@ def test_it_takes_the_seed_of_the_next_one(kept: Kept, next_one: Renderer) -> No
     assert kept._renderer.settings.seed == 4
 
 
-def test_another_size_does_not_fit(kept: Kept, next_one: Renderer) -> None:
+def test_another_size_does_not_fit(kept: ReferenceImage, next_one: Renderer) -> None:
     assert kept.fits(next_one)
     next_one.update(width=17)
     assert not kept.fits(next_one)
 
 
-def test_at_rest_it_gives_its_film_back(kept: Kept, next_one: Renderer) -> None:
+def test_at_rest_it_gives_its_film_back(kept: ReferenceImage, next_one: Renderer) -> None:
     next_one.update(repainted(next_one.scene))
     next_one.render(2)
     catch_up(kept, next_one)

@@ -17,7 +17,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Cost, settings_for
 from glrt.view.state.controls import replaced
-from glrt.view.state.frame_budget import LEAST, Pace
+from glrt.view.state.frame_budget import LEAST, FrameBudget
 from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import ANNOUNCED, FIRST_SAMPLES, Session
 from tests.support.builders import MATTE, lamp, sphere
@@ -331,7 +331,7 @@ def test_another_scene_can_be_opened(session: Session) -> None:
 
 
 def test_a_pace_leaves_the_window_its_time() -> None:
-    pace = Pace(10)
+    pace = FrameBudget(10)
     assert pace.seconds == pytest.approx(0.1)
     for _ in range(60):
         pace.record(frame=0.1, rendering=0.07)

@@ -1,5 +1,5 @@
 // A thin lens, seen from the centre of which the scene is described.
-// The twin of shaders_glsl/camera.glsl.
+// The twin of shaders_glsl/integrators/camera.glsl.
 
 struct Ray {
     origin: vec3f,

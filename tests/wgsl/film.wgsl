@@ -1,5 +1,5 @@
 // What a pixel has gathered: running means, so that any number of samples keeps its digits. A
-// sample is an observation. The twin of shaders_glsl/film.glsl with BLOCK = 1.
+// sample is an observation. The twin of shaders_glsl/film/pixel.glsl with BLOCK = 1.
 
 struct Pixel {
     mean: vec3f,      // of the finite samples, radiance

@@ -1,4 +1,4 @@
-// How surfaces scatter. The twin of shaders_glsl/material.glsl, whose legend holds here too: wo is
+// How surfaces scatter. The twin of shaders_glsl/bsdfs/material.glsl, whose legend holds here too: wo is
 // unit, towards where the path came from; in local frames n is +z.
 
 struct Vertex {

@@ -1,5 +1,5 @@
 // One path from the camera: radiance in linear sRGB. Lamps are found by scattering alone, and no
-// roulette ends a path. The twin of shaders_glsl/path.glsl with the method naive.
+// roulette ends a path. The twin of shaders_glsl/integrators/path.glsl with the method naive.
 
 struct Path {
     ray: Ray,           // its next segment

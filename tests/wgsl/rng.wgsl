@@ -1,5 +1,5 @@
 // Independent uniform numbers for one sample of one pixel, from the seed that the random texture
-// holds for it. The twin of shaders_glsl/rng.glsl and sampler.glsl.
+// holds for it. The twin of shaders_glsl/sampling/hash.glsl and sampler.glsl.
 
 struct Sampler {
     seed: u32,

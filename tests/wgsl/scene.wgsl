@@ -1,5 +1,5 @@
 // What the buffers hold. Positions are in scene units, relative to the camera; axes are those of
-// the world. Colours are linear sRGB. The twin of shaders_glsl/scene.glsl.
+// the world. Colours are linear sRGB. The twin of shaders_glsl/structs/scene.glsl.
 
 const NO_SHAPE: i32 = -1;
 

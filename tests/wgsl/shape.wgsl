@@ -1,5 +1,5 @@
 // Rays against spheres, planes and quads, without offsets and tolerances: a ray knows the shape
-// that it leaves. The twin of shaders_glsl/shape.glsl.
+// that it leaves. The twin of shaders_glsl/shapes/find_hit.glsl.
 
 const FAR: f32 = 3.402823466e38;
 

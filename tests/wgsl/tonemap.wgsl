@@ -1,5 +1,5 @@
 // From radiance to the colours of a screen: exposure, tone curve, sRGB encoding.
-// The twin of shaders_glsl/tonemap.glsl.
+// The twin of shaders_glsl/passes/tonemap.glsl.
 
 const TONEMAP_ACES: i32 = 1;
 const TONEMAP_AGX: i32 = 2;

@@ -1,5 +1,5 @@
 // From the unit square to disks and hemispheres, and local frames to stand them in.
-// The twin of shaders_glsl/warp.glsl.
+// The twin of shaders_glsl/sampling/warp.glsl.
 
 const PI: f32 = 3.14159265358979324;
 

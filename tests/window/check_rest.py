@@ -1,7 +1,7 @@
 """Nothing is edited for a while: another kernel, compiled by another process, takes over."""
 
 from glrt.rendering.renderer import Renderer
-from glrt.view.state.idle_kernel import Rest
+from glrt.view.state.idle_kernel import IdleKernel
 from tests.support.images import same_bits
 from tests.window.hand import Hand, check
 
@@ -9,7 +9,7 @@ from tests.window.hand import Hand, check
 @check
 def a_rest_and_its_end_show_in_no_bit(hand: Hand) -> None:
     session = hand.session
-    hand.there(lambda: setattr(session, "rest", Rest()))
+    hand.there(lambda: setattr(session, "rest", IdleKernel()))
     assert hand.there(lambda: is_rested(hand) is False)
     rest(hand)
     assert hand.there(lambda: is_as_headless(hand))

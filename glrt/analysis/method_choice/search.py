@@ -26,7 +26,7 @@ class Verdict:
 
     error: float
     reference: Reference
-    candidates: tuple[Candidate, ...]  # every method, in the order of the ladder
+    candidates: tuple[Candidate, ...]  # every method, the classic models first
     beyond: dict[int, Bias]  # by limit of bounces: the light of paths that are longer
     untried: tuple[str, ...] = ()  # methods for which no time was left
 

@@ -153,7 +153,7 @@ class Trial:
         return self.tracer(variant, leader.settings.bounces, leader.bias)
 
     def model(self, variant: Variant) -> Candidate:
-        """A method of the ladder: its bias is measured."""
+        """A classic model: its bias is measured."""
         pictures = self._pictures(variant.settings)
         halves = (self.reference.first, self.reference.second)
         errors = [p.radiance - r for p, r in zip(pictures, halves, strict=True)]

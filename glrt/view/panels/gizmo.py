@@ -23,7 +23,7 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
     im_guizmo.set_drawlist()
     im_guizmo.set_rect(left, top, width, height)
     matrix = im_guizmo.Matrix16(object_matrix(shape))
-    scales = im_guizmo.OPERATION.scale if shape.shape != "plane" else im_guizmo.OPERATION.translate
+    scales = im_guizmo.OPERATION.scale if shape.extents else im_guizmo.OPERATION.translate
     operation = scales if imgui.get_io().key_shift else im_guizmo.OPERATION.translate
     changed = im_guizmo.manipulate(
         im_guizmo.Matrix16(view_matrix(app.camera)),

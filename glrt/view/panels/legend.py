@@ -4,7 +4,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.rendering.false_colors import Color, Scale
 from glrt.view.state.error_history import Look
-from glrt.view.viewport.overlay import Show
+from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.views import TITLES, ticks_of
 
 _BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
@@ -12,7 +12,7 @@ _TEXT = (1.0, 1.0, 1.0, 1.0)
 _TALLEST = 1.0  # of the bar, in heights of the text
 
 
-def draw_legend(show: Show, last: Look | None, corner: ImVec2, width: float) -> None:
+def draw_legend(show: PictureView, last: Look | None, corner: ImVec2, width: float) -> None:
     """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
     title = TITLES[show.drawn]
     if show.drawn == "dropped" and last and not last.nonfinite:

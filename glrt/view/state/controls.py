@@ -1,7 +1,7 @@
 """What a widget needs to know of a value, read from the models: range, unit, help, cost.
 
 Nothing here draws. A model's field says all of it once; see `glrt.settings` and
-`glrt.scene.parts`.
+the models in `glrt.scene`.
 """
 
 import types

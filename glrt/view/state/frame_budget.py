@@ -4,7 +4,7 @@ LEAST = 0.25  # of a frame's time: however busy the machine, the picture gets on
 MEMORY = 0.2  # weight of the newest frame in what the window itself takes
 
 
-class Pace:
+class FrameBudget:
     """Shares the time of a frame between the window and the picture."""
 
     def __init__(self, frames_per_second: float) -> None:

@@ -33,7 +33,7 @@ class Finding(NamedTuple):
     is_same: bool  # whether it gives the bits of the kernel that it is to relieve
 
 
-class Rehearsal:
+class TrialCompile:
     """The process, seen from the window."""
 
     def __init__(self, renderer: Renderer) -> None:

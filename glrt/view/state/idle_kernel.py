@@ -10,26 +10,26 @@ from collections.abc import Callable
 from glrt.errors import RenderError
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
-from glrt.view.state.idle_compile import Rehearsal
+from glrt.view.state.idle_compile import TrialCompile
 
 PAUSE = 1.0  # seconds without an edit: about what compiling ahead takes of a processor
 LONGEST = 0.1  # seconds that the window may stand still
 MOST = 0.25  # seconds that it stood still once, and never again
 
 
-class Rest:
+class IdleKernel:
     """Notices that nothing is edited, and lets a renderer make use of it."""
 
     def __init__(
         self,
         clock: Callable[[], float] = time.perf_counter,
-        begin: Callable[[Renderer], Rehearsal] = Rehearsal,
+        begin: Callable[[Renderer], TrialCompile] = TrialCompile,
     ) -> None:
         """`begin` starts a rehearsal."""
         self._clock, self._begin = clock, begin
         self._picture = -1
         self._since = 0.0
-        self._rehearsal: Rehearsal | None = None
+        self._rehearsal: TrialCompile | None = None
         self._is_decided = False  # for this picture
         self._is_vain = False  # on this machine
 
@@ -63,7 +63,7 @@ class Rest:
             except OSError:
                 self._is_vain = True
 
-    def _take(self, renderer: Renderer, rehearsal: Rehearsal) -> bool:
+    def _take(self, renderer: Renderer, rehearsal: TrialCompile) -> bool:
         finding = rehearsal.finding()
         self._rehearsal, self._is_decided = None, True
         if finding is None:  # as where a shader file is broken meanwhile

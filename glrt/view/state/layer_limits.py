@@ -5,7 +5,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 
-class Room:
+class LayerLimits:
     """What fits; a size that the driver has refused does not."""
 
     def __init__(self, largest: int) -> None:

@@ -14,7 +14,7 @@ from glrt.settings import Settings, settings_for
 from glrt.view.state.session import ANNOUNCED, State
 
 
-class Kept:
+class ReferenceImage:
     """What a picture was rendered from, and a film of it where one is needed."""
 
     def __init__(self, state: State, mean: float, context: Context) -> None:

@@ -20,8 +20,8 @@ from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings, settings_for
 from glrt.view.memo import kept_for_the_same
 from glrt.view.state.history import History
-from glrt.view.state.idle_kernel import Rest
-from glrt.view.state.layer_limits import Room
+from glrt.view.state.idle_kernel import IdleKernel
+from glrt.view.state.layer_limits import LayerLimits
 from glrt.view.state.preview_size import Preview
 
 ANNOUNCED = 2  # frames that say what is about to stop them
@@ -47,7 +47,7 @@ class Session:
         context: Context,
         clock: Callable[[], float] = time.perf_counter,
         pipeline: Pipeline = "auto",
-        rest: Rest | None = None,
+        rest: IdleKernel | None = None,
     ) -> None:
         """Nothing is compiled before the first frames, which say that it will be."""
         self.rest = rest
@@ -64,7 +64,7 @@ class Session:
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
-        self.room = Room(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
+        self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
         self._context = context
         self._clock = clock
         self._announced = 0
@@ -144,15 +144,15 @@ class Session:
             return
         if after != self.state:
             self.history.record(self.state, gesture)
-            self._follow(after)
+            self._set_state(after)
 
     def undo(self) -> None:
         """Take back the last gesture."""
-        self._follow(self.history.undo(self.state))
+        self._set_state(self.history.undo(self.state))
 
     def redo(self) -> None:
         """Do again what was taken back."""
-        self._follow(self.history.redo(self.state))
+        self._set_state(self.history.redo(self.state))
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
@@ -163,7 +163,7 @@ class Session:
     def advance(self, seconds: float, count: int = 0) -> None:
         """A frame: bring edits to the renderer, then render for a time or `count` samples."""
         self._budget = seconds
-        if self._is_settled() and self.renderer:
+        if self._apply_pending() and self.renderer:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
@@ -196,7 +196,7 @@ class Session:
         if self.renderer:
             self.renderer.release()
 
-    def _follow(self, after: State) -> None:
+    def _set_state(self, after: State) -> None:
         if after.scene.camera != self.scene.camera:
             self._preview.move(self.settings.width * self.settings.height, self._budget)
         self.state = after
@@ -219,7 +219,7 @@ class Session:
         given = State(self.renderer.scene, self.renderer.settings)
         return given != self._wanted() or self.renderer.plan.layering != self.layering
 
-    def _is_settled(self) -> bool:
+    def _apply_pending(self) -> bool:
         """Whether the renderer has all edits; what compiles is announced first."""
         is_behind = self._is_behind
         if is_behind and self._compiles() and self._announced < ANNOUNCED:
@@ -237,13 +237,13 @@ class Session:
     def _apply(self) -> None:
         layering = self.layering
         try:
-            self._bring()
+            self._update_renderer()
         except RenderError:
             if not self.room.refuse(self.scene, self.settings, layering):
                 raise
-            self._bring()
+            self._update_renderer()
 
-    def _bring(self) -> None:
+    def _update_renderer(self) -> None:
         wanted = self._wanted()
         if not self.renderer:
             self.renderer = self._open(wanted)

@@ -7,5 +7,5 @@ Modules, each importing only what stands above it:
 - orbit: moves of the camera
 - pick: what lies under a point
 - transform: moves of shapes
-- overlay: a view, and the kept picture beside it
+- picture_view: a view, and the kept picture beside it
 """

@@ -1,4 +1,4 @@
-// How surfaces scatter: sample, evaluate, density. The legend of the field:
+// Types and notation shared by all BSDFs, which are sampled, evaluated, and asked for a density:
 //   wo   unit, towards where the path came from     wi   unit, towards where it goes
 //   n    unit normal on the side of wo              h    half vector of wo and wi
 //   eta  index of refraction here over there        pdf  density per solid angle, 0: delta

@@ -6,14 +6,14 @@ import moderngl
 
 from glrt.rendering.false_colors import FalseColors, Scale
 from glrt.rendering.renderer import Renderer
-from glrt.view.state.reference_image import Kept
+from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import View, scale_of
 
 
 @dataclass
-class Show:
+class PictureView:
     """A picture on the screen, which is drawn again when there is something new to show."""
 
     picture: Picture
@@ -21,7 +21,7 @@ class Show:
     view: View = "picture"  # as wanted; see `drawn`
     most: float = 0.5  # relative difference that has the strongest colour
     wipe: float = 0.5  # share of the picture's width that shows the kept one
-    kept: Kept | None = None
+    kept: ReferenceImage | None = None
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
     _content: object = None  # what the picture was drawn from
@@ -82,7 +82,7 @@ class Show:
         self._draw(session, session.renderer, "picture", None)
         self.picture.keep()
         mean = float(session.image().radiance.mean(dtype="float64"))
-        self.kept = Kept(session.state, mean, session.renderer.context)
+        self.kept = ReferenceImage(session.state, mean, session.renderer.context)
         self._content = None
 
     def forget(self) -> None:
@@ -117,7 +117,7 @@ class Show:
         self.picture.release()
         self.colors.release()
 
-    def _compared(self, session: Session) -> Kept | None:
+    def _compared(self, session: Session) -> ReferenceImage | None:
         """The kept picture if its difference is to be shown, and can be."""
         kept, renderer = self.kept, session.renderer
         if self.view != "difference" or not kept or not renderer or session.is_preview:

@@ -1,4 +1,4 @@
-"""A scene in the driver's memory: its arrays, and the text of the kernels that read them."""
+"""A scene in the driver's memory: its arrays, and the source of the kernels that read them."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -20,15 +20,15 @@ from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.scene.scene import Scene
 
 
-class SceneBuffers:
-    """What a kernel reads of a scene, beside the film."""
+class DeviceScene:
+    """The arrays of a scene on the driver. Constants and texts of its kernel come together here."""
 
     def __init__(
         self,
         context: Context,
         plan: Plan,
         options: KernelOptions,
-        before: "SceneBuffers | None" = None,
+        before: "DeviceScene | None" = None,
     ) -> None:
         """Give the driver the scene of a plan; the tier is another if the scene is too large.
 
@@ -65,11 +65,11 @@ class SceneBuffers:
         tier = tier_for(self._arrays, "baked")
         return None if tier == self.tier else self._shaders(self._texts_of(tier))
 
-    def has_kernel_of(self, other: "SceneBuffers") -> bool:
+    def has_kernel_of(self, other: "DeviceScene") -> bool:
         """Whether the kernel of one scene does for the other."""
         return (self._constants, self._texts) == (other._constants, other._texts)
 
-    def has_shapes_of(self, other: "SceneBuffers") -> bool:
+    def has_shapes_of(self, other: "DeviceScene") -> bool:
         """Whether constants written for one scene do for the other: to the last bit."""
         return all(same_rows(self._arrays[name], other._arrays[name]) for name in NUMBERED)
 
@@ -116,7 +116,7 @@ class SceneBuffers:
         return sources(self._options.pipeline, self._constants, texts)
 
 
-def _packed(scene: Scene, contents: Contents, before: SceneBuffers | None) -> Arrays:
+def _packed(scene: Scene, contents: Contents, before: DeviceScene | None) -> Arrays:
     """The arrays of a scene; what those from before hold of it is not computed again."""
     if before and before._scene == scene:
         return before._arrays
