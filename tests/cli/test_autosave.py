@@ -72,7 +72,7 @@ def test_a_save_that_fails_is_told_and_tried_again(
     assert (fake.saves, keeping.kept) == (1, 0)
     said = capsys.readouterr().err
     assert "gone/a.exr: No such file" in said
-    assert "goes on" in said
+    assert "continues" in said
     (tmp_path / "gone").mkdir()
     renderer: Any = fake
     fake.now += 2 * INTERVAL

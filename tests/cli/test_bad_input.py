@@ -106,7 +106,7 @@ COMMAND_LINES: dict[str, tuple[str, list[str]]] = {
     ),
     "compare without any noise": (
         "compare {tmp}/plain.npy {tmp}/plain.npy --samples 4 --reference-samples 4",
-        ["noise", ".exr"],
+        ["standard errors", ".exr"],
     ),
     "compare with alpha 0": (
         "compare {tmp}/a.exr {tmp}/a.exr --samples 4 --reference-samples 4 --alpha 0",

@@ -170,7 +170,7 @@ def test_error_not_reached_exits_1_with_the_picture(tmp_path: Path) -> None:
     [
         (0.3, 0.4, 64, "it is 0.4 after 64 samples."),
         (0.3, None, 1, "it is unknown after 1 sample."),
-        (0.25, 0.28, 64, "its noise must be 0.25, beside what the method leaves out, and is 0.28"),
+        (0.25, 0.28, 64, "beside the bias of the method its noise must be 0.25, and is 0.28"),
     ],
 )
 def test_an_error_not_reached_is_told_as_it_was_asked_for(

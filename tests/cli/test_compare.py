@@ -169,6 +169,6 @@ def test_how_many_samples_know_their_noise_is_told_as_it_is(
         rendered(load("cornell"), context, count, sampler=sampler)
         for count in (samples - 1, samples)
     )
-    with pytest.raises(UsageError, match="of 32 samples or more, or of 2 by --sampler independent"):
+    with pytest.raises(UsageError, match="at least 32 samples, or 2 with --sampler independent"):
         compare(few, few)
     assert compare(enough, enough)

@@ -242,7 +242,7 @@ def test_scores_do_not_depend_on_the_scale(power: int) -> None:
         (flat(1, 0.1, 4, 16), flat(1, 0.1, 4, 8), ["size", "16 x 16", "8 x 8"]),
         (flat(1, 0.1, 0), flat(1, 0.1, 4), ["the image", "samples"]),
         (flat(1, 0.1, 4), flat(1, 0.1, 0), ["the reference", "samples"]),
-        (flat(1, np.nan, 1), flat(1, np.nan, 1), ["noise"]),
+        (flat(1, np.nan, 1), flat(1, np.nan, 1), ["standard errors"]),
         (flat(1, 0.1, 4, 0), flat(1, 0.1, 4, 0), ["no pixels"]),
     ],
 )

@@ -212,5 +212,5 @@ def test_a_picture_that_lost_a_channel_is_refused(begun: Image, tmp_path: Path) 
 def test_a_relit_picture_is_refused(context: Context) -> None:
     renderer = Renderer(ROOM, None, context, layering="groups", width=24, height=16).render(2)
     renderer.update(ROOM.model_copy(update={"lights": {"lamp": 0.5}}))
-    with pytest.raises(UsageError, match="relit"):
+    with pytest.raises(UsageError, match="its light was changed"):
         fitting(renderer.image(), renderer.image().recipe)  # type: ignore[arg-type]
