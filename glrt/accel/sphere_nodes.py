@@ -14,9 +14,8 @@ from glrt.accel import bvh
 
 Array = np.ndarray[Any, Any]
 
-SLACK = (
-    2.0**-18
-)  # of boxes, as of rays in shapes/sphere_tree.glsl: the float32 rounding of a box is far below
+# Of boxes, as of rays in shapes/sphere_tree.glsl: the float32 rounding of a box is far below.
+SLACK = 2.0**-18
 MOST_CELLS = 2**16 - 1  # along the grid
 
 

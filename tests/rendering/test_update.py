@@ -8,7 +8,7 @@ import pytest
 
 from glrt.errors import RenderError, SceneError, UsageError
 from glrt.gpu.context import Context
-from glrt.rendering import kernel_switch, upload
+from glrt.rendering import device_scene, kernel_switch
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings, cost_of
@@ -208,9 +208,9 @@ def test_settings_alone_pack_no_scene_and_moves_assemble_no_kernel(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with rendering(everything(), context) as renderer:
-        monkeypatch.setattr(upload, "sources", None)
+        monkeypatch.setattr(device_scene, "sources", None)
         assert renderer.update(RESTARTING["a millionth of a step"]) is Cost.RESTART
-        monkeypatch.setattr(upload, "pack_scene", None)
+        monkeypatch.setattr(device_scene, "pack_scene", None)
         assert renderer.update(seed=3, width=20) is Cost.RESTART
         monkeypatch.undo()
         moved = RESTARTING["a millionth of a step"]
