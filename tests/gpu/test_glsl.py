@@ -13,8 +13,9 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, files_anew, read, shader_files
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.rendering.pipelines import Tier, sources
+from glrt.rendering.pipelines import sources
 from glrt.resources import folder
+from tests.gpu.test_precise import imprecise
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
 from tests.support.kernel_text import written_for
@@ -157,78 +158,6 @@ def test_each_line_of_a_message_is_led_back() -> None:
     source = Source("e.comp", texts={"e.comp": "one\ntwo\nthree"})
     told = "0:3(1): error: a\n0:5(1): warning: b\n"
     assert source.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
-
-
-# --- precise -------------------------------------------------------------------------------
-
-
-def function_bodies(glsl: str) -> list[str]:
-    """What stands between the braces of each function."""
-    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", glsl, flags=re.DOTALL)
-    bodies = []
-    for start in re.finditer(r"^\w+ \w+\([^;{}]*\)\s*\{", text, re.MULTILINE):
-        depth, end = 1, start.end()
-        while depth:
-            depth += {"{": 1, "}": -1}.get(text[end], 0)
-            end += 1
-        bodies.append(text[start.end() : end])
-    return bodies
-
-
-def imprecise(glsl: str) -> list[str]:
-    """Names of locals and inout parameters that hold floats, declared without `precise`."""
-    types = ["float", r"d?vec\d", r"d?mat\d(?:x\d)?", *re.findall(r"\bstruct\s+(\w+)", glsl)]
-    local = re.compile(rf"(?<!precise )\b(?:{'|'.join(types)})(?:\s*\[\w*\])?\s+(\w+)\s*[=;,\[)]")
-    parameter = re.compile(rf"(?<!precise )\b(?:in)?out\s+(?:{'|'.join(types)})\s+(\w+)")
-    found = [name for body in function_bodies(glsl) for name in local.findall(body)]
-    return found + parameter.findall(glsl)
-
-
-@pytest.mark.parametrize("way", [("generic", 1 << 16), ("generic", 0), ("baked", 1 << 16)])
-def test_every_float_that_the_kernel_assigns_is_precise(way: tuple[Tier, int]) -> None:
-    text = Source("trace.comp", EVERYTHING, texts=written_for("cornell", *way)).text
-    bodies = function_bodies(text)
-    assert text.count("return") == sum(body.count("return") for body in bodies)  # none is missed
-    assert text.count("precise ") > 80
-    assert imprecise(text) == []
-    assert computed_returns(text) == []
-
-
-def computed_returns(glsl: str) -> list[str]:
-    """What functions of floats return that is a sum or product, and so no precise variable."""
-    head = r"^(?:float|vec\d|mat\d) \w+\([^;{}]*\)\s*(\{[^\n]*\}$|\{.*?^\})"
-    text = re.sub(r"[ ]*//[^\n]*", "", glsl)
-    bodies = [match[1] for match in re.finditer(head, text, re.MULTILINE | re.DOTALL)]
-    values = [value for body in bodies for value in re.findall(r"return ([^;]+);", body)]
-    return [value for value in values if re.search(r"[\w)\]] [-+*/] [-\w(]", value)]
-
-
-def test_a_returned_product_is_found() -> None:
-    assert computed_returns("float f(float x) {\n    return x * x;\n}\n") == ["x * x"]
-    assert computed_returns("float f(float x) { return x - 1.0; }\n") == ["x - 1.0"]
-    assert computed_returns("float f(float x) {\n    return g(x);\n}\n") == []
-
-
-def test_the_search_for_what_is_not_precise_finds_every_way_to_declare_it() -> None:
-    glsl = """
-    struct Ray { vec3 origin; };
-vec3 field;
-Ray f(vec3 parameter, inout float other) {
-    vec3 a;  // vec3 comment = 1;
-    float b = 1.0, more;
-    const float c = 2.0;
-    if (b > 0.0) vec3 d = vec3(b);
-    for (float e = 0.0; e < 1.0; e += 0.1) { mat3 g = mat3(1.0); }
-    float[2] h = float[2](1.0, 2.0);
-    vec2 k[3];
-    Ray l = Ray(vec3(1.0));
-    int i = 0;
-    precise float fine = 1.0;
-    precise Ray good = Ray(vec3(1.0));
-    return Ray(vec3(1.0));
-}
-"""
-    assert imprecise(glsl) == ["a", "b", "c", "d", "e", "g", "h", "k", "l", "other"]
 
 
 # --- what the driver thinks ----------------------------------------------------------------

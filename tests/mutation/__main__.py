@@ -20,7 +20,8 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 
-from tests.mutation.mutants import MUTANTS, Edit, Mutant
+from tests.mutation.mutant import Edit, Mutant
+from tests.mutation.mutants import MUTANTS
 from tests.support.slow_share import commit_of
 
 ROOT = Path(__file__).parents[2]

@@ -5,7 +5,8 @@ import re
 import pytest
 
 from tests.mutation.__main__ import ROOT, Outcome, drawn, planted
-from tests.mutation.mutants import MUTANTS, Edit, Mutant
+from tests.mutation.mutant import Edit, Mutant
+from tests.mutation.mutants import MUTANTS
 
 CLEAN = Outcome(passed=2, failures=(), errors=0, seconds=1.0)
 

@@ -7,7 +7,6 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.scene.scene import Scene
-from tests.support.alarms import assert_near
 from tests.support.builders import (
     box_of_quads,
     glass,
@@ -19,7 +18,6 @@ from tests.support.builders import (
 )
 from tests.support.renders import (
     METHODS,
-    SAMPLERS,
     Estimate,
     assert_mean,
     rendered,
@@ -50,10 +48,6 @@ def under_white_sky(material: dict[str, Any], distance: float = 3.0) -> Scene:
     """A unit ball before a sky of radiance 1."""
     ball = [sphere([0, 0, -distance], 1, "ball")]
     return scene_of(ball, {"ball": material}, {"fov": 50}, background=WHITE_SKY)
-
-
-def partial_sum(albedo: float, bounces: int) -> float:
-    return (1 - albedo ** (bounces + 1)) / (1 - albedo)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -107,34 +101,6 @@ def test_both_weighted_count_a_box_of_lamps_once(context: Context) -> None:
             renderer.update(bounces=bounces)
             mean = whole(renderer.render(256).image())
             assert_mean(mean, 2 - 2.0**-bounces, within=0.005)
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_roulette_raises_the_variance_and_leaves_the_mean(context: Context, method: str) -> None:
-    albedo = [0.9, 0.5, 0.1]
-    glow = {"type": "light", "emission": [1, 1, 1], "color": albedo}
-    scene = scene_of([sphere([0, 0, 0], 1, "glow")], {"glow": glow}, OFF_CENTER)
-    settings = {"bounces": 24, "method": method, "width": 64, "height": 64}
-    plain = rendered(scene, context, 2, roulette=False, **settings)
-    gambled = rendered(scene, context, 64, roulette=True, **settings)
-    truth = [partial_sum(a, 24) for a in albedo]
-    assert np.allclose(plain.radiance, truth, rtol=1e-6)
-    assert (plain.stderr == 0).all()
-    assert (gambled.stderr[..., 0] > 0).all()
-    assert_mean(whole(gambled), truth, within=0.01, floor=5e-7)  # blue varies less than it rounds
-
-
-@pytest.mark.parametrize("sampler", SAMPLERS)
-def test_roulette_is_fair_to_all_but_black_surfaces(context: Context, sampler: str) -> None:
-    """Under a white sky. A chance below the last of a random number's 20 bits is met too often."""
-    albedo, samples = 2.0**-24, 4096
-    coal = {"type": "lambertian", "color": [albedo] * 3}
-    floor, down = plane([0, -1, 0], [0, 1, 0], "coal"), {"look_at": [0, -1, 0], "up": [0, 0, 1]}
-    scene = scene_of([floor], {"coal": coal}, down, background=WHITE_SKY)
-    settings = {"width": 64, "height": 64, "bounces": 1, "sampler": sampler}
-    radiance = rendered(scene, context, samples, **settings).radiance[..., 0].astype(float)
-    survivors = radiance.sum() / radiance[radiance > 0].min()
-    assert_near(radiance.mean() / albedo, 1.0, survivors**-0.5)
 
 
 @pytest.mark.parametrize(
@@ -258,22 +224,6 @@ def test_lamp_in_the_centre_of_a_matte_ball(context: Context, method: str, sampl
             renderer.update(bounces=bounces)
             image = renderer.render(1024 if method == "naive" else 128).image()
             assert_mean(whole(image), truth, within=0.02, floor=1e-5 * truth)
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_roulette_keeps_the_light_of_dim_paths(context: Context, method: str) -> None:
-    """The same with a dark wall: every path that it scatters plays."""
-    albedo, share = 0.1, (0.7 / 2) ** 2  # the share of the wall's view that the lamp takes
-    wall = {"type": "lambertian", "color": [albedo] * 3}
-    objects = [sphere([0, 0, 0], 2, "wall"), sphere([0, 0, 0], 0.7, "lamp")]
-    eye = {"position": [0.2, 0.1, 1.2], "look_at": [0.5, 1, 3], "fov": 60}
-    scene = scene_of(objects, {"wall": wall, "lamp": lamp(3.0, 0.9)}, eye)
-    truth, lit = 0.0, 3.0
-    for _ in range(6):
-        truth, lit = albedo * (share * lit + (1 - share) * truth), 3.0 + 0.9 * truth
-    samples = 4096 if method == "naive" else 512
-    image = rendered(scene, context, samples, method=method, bounces=6, width=32, height=32)
-    assert_mean(whole(image), truth, within=0.015)
 
 
 def test_two_planes_exchange_light_by_the_series_of_their_albedos(context: Context) -> None:

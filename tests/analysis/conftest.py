@@ -1,0 +1,31 @@
+"""A fixture: searches for the method that suffices are small, and share their references."""
+
+import time
+from types import SimpleNamespace
+
+import pytest
+
+from glrt.analysis import reference as references
+from glrt.analysis.method_choice import search, trial
+from glrt.gpu.context import Context
+from tests.support.verdicts import SIZE, SLOW_SIZE
+
+
+@pytest.fixture
+def small_and_cached(
+    request: pytest.FixtureRequest,
+    tmp_path_factory: pytest.TempPathFactory,
+    monkeypatch: pytest.MonkeyPatch,
+    context: Context,
+) -> None:
+    """Small frames, a cache for all these tests, and time that other programs do not take.
+
+    That is processor time, where processors render.
+    """
+    if context.is_software:
+        for module in (references, trial):
+            monkeypatch.setattr(module, "time", SimpleNamespace(perf_counter=time.process_time))
+    size = SLOW_SIZE if request.node.get_closest_marker("slow") else SIZE
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "suffices"))
+    monkeypatch.setattr(search, "HEIGHT", size)
+    monkeypatch.setattr(search, "REFERENCE_SECONDS", 1.0)

@@ -1,0 +1,163 @@
+"""`glrt inspect --error` tells its reasons, what it could not reach or try, and what it refuses."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from glrt.analysis.method_choice import search, trial
+from glrt.analysis.method_choice.advice import advice, conclusion
+from glrt.analysis.method_choice.search import Verdict
+from glrt.analysis.method_choice.trial import Bias, OutOfTimeError
+from glrt.analysis.reference import Reference
+from glrt.cli.main import main
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from glrt.settings import settings_for
+from tests.support.builders import scene_of
+from tests.support.processes import glrt
+from tests.support.verdicts import SIZE, Clock, candidate, furnace, of_bias, verdict_on
+
+pytestmark = pytest.mark.usefixtures("small_and_cached")
+
+
+# --- words ---------------------------------------------------------------------------------
+
+
+def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
+    context: Context,
+) -> None:
+    scene = load("methods/glass")
+    verdict = verdict_on(scene, 0.2, context)
+    text = "\n".join(advice(scene, verdict))
+    start = f"For an error of 20 % (relative RMS) by sampler {settings_for(scene.render).sampler}, "
+    assert text.startswith(f"{start}measured on {SIZE} x {SIZE} pixels")
+    assert text.count("the fewest that keep it below") == 1
+    for words in ("whitted", "no indirect light", "glass is black", "light beyond"):
+        assert words in text
+    assert text.endswith(conclusion(verdict))
+    assert conclusion(verdict).startswith("Enough: `")
+
+
+def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> None:
+    sky = scene_of([], {}, background={"color": [1, 0.5, 0.2]})
+    text = "\n".join(advice(sky, verdict_on(sky, 0.2, context)))
+    assert "nothing was seen beyond 1 bounce" in text
+    assert "light beyond" not in text
+    cut = furnace()
+    text = "\n".join(advice(cut, verdict_on(cut, 0.2, context)))
+    assert "light beyond" in text
+
+
+def test_an_error_beyond_reach_is_told(context: Context) -> None:
+    verdict = verdict_on(furnace(), 0.02, context, bounces=1)
+    assert verdict.best is None
+    assert candidate(verdict, "mis").bias.value == pytest.approx(0.25, rel=0.05)
+    assert re.fullmatch(
+        r"Nothing reaches 2 %: `\w+` with 1 bounce misses the least, and that is \d\d %. Allow "
+        "more bounces, or ask for a larger error.",
+        conclusion(verdict),
+    )
+
+
+def test_a_bias_that_may_be_chance_is_told_as_noise() -> None:
+    """1 % in the mean, with a standard error of 1 %, for an error of 0.9 %."""
+    noisy = replace(of_bias(0.0), bias=Bias(0.01**2, 0.01**2))
+    verdict = Verdict(0.009, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
+    assert verdict.best is None
+    assert conclusion(verdict).startswith("Nothing is known to reach 0.9 %: what a measurement of")
+
+
+def test_more_samples_than_a_picture_holds_are_not_enough() -> None:
+    noisy = replace(of_bias(0.0), variance=2e6)
+    verdict = Verdict(1.0, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
+    assert verdict.best is None
+    assert conclusion(verdict) == (
+        "Nothing reaches 100 %: `mis` would take 2,000,000 samples, and a picture holds 1,048,576. "
+        "Ask for a larger error."
+    )
+    one = replace(verdict, candidates=(replace(noisy, variance=1.0, seconds_per_sample=1e-5),))
+    assert "with 1 sample, in about 0.001 s at" in conclusion(one)
+
+
+def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
+    size = ("--width", "16", "--height", "16")
+    said = glrt("inspect", "methods/open", *size, "--error", "0.5").stdout.splitlines()
+    assert said[-1].startswith("Enough: `")
+    picture = tmp_path / "a.png"
+    done = glrt(
+        "render", "methods/open", "-o", picture, *size, "--method", "auto", "--error", "0.5"
+    )
+    assert done.returncode == 0
+    measuring, told = done.stderr.splitlines()[:2]
+    assert measuring == "Measuring which method suffices ..."
+    assert told.startswith("Enough: `")
+    chosen = told.split("`")[1]
+    again = glrt("inspect", picture)
+    assert f"method {chosen}," in again.stdout, "the recipe names the method that was chosen"
+
+
+# --- time ----------------------------------------------------------------------------------
+
+
+def verdict_within(seconds: float, context: Context, monkeypatch: pytest.MonkeyPatch) -> Verdict:
+    clock = Clock()
+    monkeypatch.setattr(search, "time", clock)
+    monkeypatch.setattr(trial, "time", clock)
+    return verdict_on(load("methods/glass"), 0.3, context, seconds=seconds)
+
+
+def test_a_measurement_ends_with_its_time_and_tells_what_it_did_not_try(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The longer, the more methods; without one that is known to suffice there is no verdict."""
+    whole = {c.name for c in verdict_on(load("methods/glass"), 0.3, context).candidates}
+    tried = []
+    for looks in (5, 80, 120, 160, 1e6):
+        try:
+            verdict = verdict_within(looks, context, monkeypatch)
+        except OutOfTimeError:
+            tried.append(0)
+            continue
+        names = {c.name for c in verdict.candidates}
+        assert names.isdisjoint(verdict.untried)
+        assert names.union(verdict.untried) == whole
+        assert all(f"`{name}`" in conclusion(verdict) for name in verdict.untried)
+        assert ("too short" in conclusion(verdict)) == bool(verdict.untried)
+        assert verdict.best is not None
+        tried.append(len(names))
+    assert tried == sorted(tried)
+    assert (tried[0], tried[-1]) == (0, len(whole))
+    assert set(tried) - {0, len(whole)}, f"none of {tried} was cut short"
+
+
+def test_auto_without_time_to_measure_renders_and_says_so(tmp_path: Path) -> None:
+    """A second goes by before the first picture that could tell anything."""
+    picture = tmp_path / "a.png"
+    line = ("render", "methods/glass", "-o", picture, "--width", "16", "--height", "16")
+    done = glrt(*line, "--method", "auto", "--error", "0.9", "--time", "0.001")
+    assert "Not decided: half of --time is too short to measure. Taken: `mis` with" in done.stderr
+    assert picture.exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["render", "sky", "-o", "a.png", "--method", "auto"], "give --error E"),
+        (["inspect", "sky", "--error", "0"], "--error must be a number above 0"),
+        (["inspect", "sky", "--error", "nan"], "--error must be a number above 0"),
+        (["inspect", "sky", "--method", "auto"], "invalid choice"),
+    ],
+)
+def test_a_bad_command_is_refused_in_a_paragraph(
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    assert message in capsys.readouterr().err

@@ -1,0 +1,55 @@
+"""Bugs of shapes: where rays hit them, and what a tree of spheres leaves out."""
+
+from tests.mutation.mutant import Edit, Mutant, edit
+
+SHAPES = [
+    Mutant(
+        "hits nearer than a fixed epsilon are ignored",
+        edit(
+            "shapes/sphere.glsl",
+            "t > 0.0 && t < hit.distance && i != ignored",
+            "t > 1e-3 && t < hit.distance && i != ignored",
+        ),
+        "truths/test_invariance.py::test_scene_scaled_by_a_power_of_two_keeps_its_bits",
+    ),
+    Mutant(
+        "the sphere's discriminant is b^2 - c",
+        edit(
+            "shapes/sphere.glsl",
+            "r2 - dot(beside, beside)",
+            "along * along - (dot(to_center, to_center) - r2)",
+        ),
+        "shaders/test_sphere.py::test_spheres_are_hit_where_float64_says_from_near_and_from_far",
+    ),
+    Mutant(
+        "points stay where the distance leaves them, beside their sphere",
+        edit(
+            "shapes/sphere.glsl",
+            "vec3 position = sphere.center + sphere.radius * normal;",
+            "vec3 position = p;",
+        ),
+        "shaders/test_shape.py::test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits",
+    ),
+    Mutant(
+        "boxes of the tree leave no room for rounding",
+        (
+            Edit(
+                "shaders_glsl/shapes/sphere_tree.glsl",
+                "const float SLACK = 3.814697265625e-6;",
+                "const float SLACK = 0.0;",
+            ),
+            Edit("glrt/accel/sphere_nodes.py", "SLACK = 2.0**-18", "SLACK = 0.0"),
+        ),
+        "accel/test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "of equal spheres the tree takes the one that it meets first",
+        edit("shapes/sphere_tree.glsl", "t == hit.distance && shape < hit.shape", "false"),
+        "accel/test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "a ray that misses a box of the tree leaves out the node behind it, too",
+        edit("shapes/sphere_tree.glsl", "? 1 : 1 + below;", "? 1 : 2 + below;"),
+        "accel/test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+]

@@ -1,0 +1,81 @@
+"""Sessions without a window: a clock that obeys, frames and rests, and trial compiles as told."""
+
+from collections.abc import Callable
+from typing import Any
+
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.view.state.controls import replaced
+from glrt.view.state.idle_compile import Finding
+from glrt.view.state.idle_kernel import PAUSE
+from glrt.view.state.preview_size import STILL
+from glrt.view.state.session import ANNOUNCED, Session
+
+GOOD = Finding(0.01, is_same=True)
+
+Opening = Callable[..., Session]
+
+
+class Clock:
+    """Time that passes as told: each reading of the clock costs a step."""
+
+    def __init__(self) -> None:
+        self.now, self.step = 100.0, 0.001
+
+    def __call__(self) -> float:
+        self.now += self.step
+        return self.now
+
+
+class Played:
+    """A rehearsal whose end and finding are told."""
+
+    def __init__(self, finding: Finding | None) -> None:
+        self.is_over, self.is_ended = True, False
+        self._finding = finding
+
+    def finding(self) -> Finding | None:
+        return self._finding
+
+    def end(self) -> None:
+        self.is_ended = True
+
+
+class Stage:
+    """Where rehearsals are played: each has the next finding, the last for ever."""
+
+    def __init__(self, *findings: Finding | None) -> None:
+        self.findings = list(findings)
+        self.played: list[Played] = []
+        self.is_over = True
+
+    def __call__(self, _: Renderer) -> Any:
+        finding = self.findings.pop(0) if len(self.findings) > 1 else self.findings[0]
+        self.played.append(Played(finding))
+        self.played[-1].is_over = self.is_over
+        return self.played[-1]
+
+
+def start(session: Session) -> None:
+    for _ in range(ANNOUNCED + 1):
+        session.advance(0.01)
+
+
+def frames(session: Session, count: int) -> None:
+    for _ in range(count):
+        session.advance(1e-3, count=1)
+
+
+def rested(session: Session, clock: Clock) -> bool:
+    """Let a pause pass; whether the faster kernel then has its turn."""
+    frames(session, 1)
+    clock.now += STILL
+    frames(session, 1)  # at full size again, if the camera has moved
+    clock.now += PAUSE
+    frames(session, 3)
+    assert session.renderer
+    return session.renderer.is_baked
+
+
+def walked(scene: Scene) -> Scene:
+    return replaced(scene, camera=replaced(scene.camera, position=(0.2, 0.1, 2.5)))
