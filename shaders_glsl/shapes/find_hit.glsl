@@ -9,14 +9,41 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         hit = find_sphere_by_tree(ray, hit, ignored, any);
         if (any && hit.shape != NO_SHAPE) return hit;
     } else if (HAS_SPHERE) {
-        hit = find_sphere(ray, hit, ignored, any);
-        if (any && hit.shape != NO_SHAPE) return hit;
+        int i = 0;
+        for (; i < sphere_count(); ++i) {
+            precise float t = sphere_distance(ray, sphere_at(i), i);
+            if (t > 0.0 && t < hit.distance && i != ignored) {
+                hit = Hit(t, i);
+                if (any) return hit;
+            }
+        }
+        note_end(i, sphere_count());
     }
     if (HAS_PLANE) {
-        hit = find_plane(ray, hit, any);
-        if (any && hit.shape != NO_SHAPE) return hit;
+        int i = 0;
+        for (; i < plane_count(); ++i) {
+            int shape = first_plane() + i;
+            precise Plane plane = plane_at(i);
+            precise float t = plane_distance(ray, plane.point, plane.normal);
+            if (t > 0.0 && t < hit.distance && shape != ray.origin_shape) {
+                hit = Hit(t, shape);
+                if (any) return hit;
+            }
+        }
+        note_end(i, plane_count());
     }
-    if (HAS_QUAD) hit = find_quad(ray, hit, ignored, any);
+    if (HAS_QUAD) {
+        int i = 0;
+        for (; i < quad_count(); ++i) {
+            int shape = first_quad() + i;
+            precise float t = quad_distance(ray, quad_at(i));
+            if (t > 0.0 && t < hit.distance && shape != ray.origin_shape && shape != ignored) {
+                hit = Hit(t, shape);
+                if (any) return hit;
+            }
+        }
+        note_end(i, quad_count());
+    }
     return hit;
 }
 

@@ -9,20 +9,6 @@ float quad_distance(Ray ray, Quad quad) {
     return inside ? t : 0.0;
 }
 
-Hit find_quad(Ray ray, Hit hit, int ignored, bool any) {
-    int i = 0;
-    for (; i < quad_count(); ++i) {
-        int shape = first_quad() + i;
-        precise float t = quad_distance(ray, quad_at(i));
-        if (t > 0.0 && t < hit.distance && shape != ray.origin_shape && shape != ignored) {
-            hit = Hit(t, shape);
-            if (any) return hit;
-        }
-    }
-    note_end(i, quad_count());
-    return hit;
-}
-
 Surface quad_surface(vec3 p, int shape) {
     precise Quad quad = quad_at(shape - first_quad());
     precise vec3 position = p - dot(p - quad.corner, quad.normal) * quad.normal;

@@ -22,21 +22,6 @@ float sphere_distance(Ray ray, Sphere sphere, int shape) {
     return t > 0.0 ? t : q;
 }
 
-// The nearest sphere nearer than hit.distance, apart from the shape `ignored`; with `any`, the first
-// that is found.
-Hit find_sphere(Ray ray, Hit hit, int ignored, bool any) {
-    int i = 0;
-    for (; i < sphere_count(); ++i) {
-        precise float t = sphere_distance(ray, sphere_at(i), i);
-        if (t > 0.0 && t < hit.distance && i != ignored) {
-            hit = Hit(t, i);
-            if (any) return hit;
-        }
-    }
-    note_end(i, sphere_count());
-    return hit;
-}
-
 Surface sphere_surface(vec3 p, int shape) {
     precise Sphere sphere = sphere_at(shape);
     precise vec3 normal = normalized(p - sphere.center);
