@@ -3,6 +3,8 @@
 
 // The nearest shape nearer than `limit`, apart from the shape `ignored`; of two at the same
 // distance the one with the lower number. With `any`, the first that is found.
+//
+// All loops stand in one function: to return through a function for each kind costs 1 to 3 % on llvmpipe.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     precise Hit hit = Hit(limit, NO_SHAPE);
     if (HAS_TREE) {
@@ -44,7 +46,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         }
         note_end(i, quad_count());
     }
-    return hit;
+    return hit;  // the nearest
 }
 
 float rays_so_far = 0.0;  // of this sample, where COUNT_RAYS

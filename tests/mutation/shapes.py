@@ -6,7 +6,7 @@ SHAPES = [
     Mutant(
         "hits nearer than a fixed epsilon are ignored",
         edit(
-            "shapes/sphere.glsl",
+            "shapes/find_hit.glsl",
             "t > 0.0 && t < hit.distance && i != ignored",
             "t > 1e-3 && t < hit.distance && i != ignored",
         ),
