@@ -4,7 +4,7 @@
 // The nearest shape nearer than `limit`, apart from the shape `ignored`; of two at the same
 // distance the one with the lower number. With `any`, the first that is found.
 //
-// All loops stand in one function: to return through a function for each kind costs 1 to 3 % on llvmpipe.
+// All loops stand in one function: a function for each kind, with its early exit, costs 1 to 3 % on llvmpipe.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     precise Hit hit = Hit(limit, NO_SHAPE);
     if (HAS_TREE) {
