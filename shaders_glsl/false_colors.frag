@@ -13,6 +13,7 @@ const float DIM = 0.25;  // of the picture below the marks
 
 uniform sampler2D light;      // radiance as it is weighed
 uniform sampler2D mean;       // of the film, as in trace.comp
+uniform float samples;        // that each pixel has, finite or not
 uniform sampler2D variance;
 uniform sampler2D layers;     // as in weighting.frag
 uniform sampler2D other;      // radiance to compare with
@@ -59,14 +60,16 @@ float relative_error(ivec2 texel) {
     return sqrt(dot(squared / (radiance * radiance + dark), vec3(1.0 / 3.0)));
 }
 
-// Of the pixel and its neighbours: where many pixels share one of the screen, no mark is lost.
+// Samples that are not finite, of the pixel and its neighbours: where many pixels share one of the
+// screen, no mark is lost.
 float most_dropped(ivec2 texel) {
     ivec2 last = textureSize(mean, 0) - 1;
     int reach = 1 + last.y / 400;
     precise float most = 0.0;
     for (int y = -reach; y <= reach; y += 1) {
         for (int x = -reach; x <= reach; x += 1) {
-            most = max(most, texelFetch(mean, clamp(texel + ivec2(x, y), ivec2(0), last), 0).a);
+            precise float count = texelFetch(mean, clamp(texel + ivec2(x, y), ivec2(0), last), 0).a;
+            most = max(most, samples - count);
         }
     }
     return most;

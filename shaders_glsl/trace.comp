@@ -7,7 +7,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "trace.glsl"
 #include "passes/tiles.glsl"
 
-layout(rgba32f) uniform readonly image2D source_mean;      // a: dropped samples
+layout(rgba32f) uniform readonly image2D source_mean;      // a: finite samples
 layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
 layout(rgba32f) uniform readonly image2D source_block;     // a: its samples
 layout(rgba32f) uniform writeonly image2D target_mean;
@@ -19,7 +19,7 @@ layout(rgba32f) uniform writeonly image2D target_layers;
 layout(std430) buffer Lost { uint lost_samples; };
 
 Pixel load_pixel(ivec2 texel) {
-    if (frame.first_sample == 0) return empty_pixel();  // whatever the source holds
+    if (frame.is_empty != 0) return empty_pixel();  // whatever the source holds
     precise vec4 mean = imageLoad(source_mean, texel);
     precise vec4 variance = imageLoad(source_variance, texel);
     precise vec4 block = vec4(0.0);
@@ -34,7 +34,7 @@ ivec2 layer_place(ivec2 texel, int slice) {
 
 Layers load_layers(ivec2 texel) {
     precise Layers layers = empty_layers();
-    if (LAYERS == 0 || frame.first_sample == 0) return layers;
+    if (LAYERS == 0 || frame.is_empty != 0) return layers;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
         precise vec4 mean = imageLoad(source_layers, layer_place(texel, i));
         layers.means[i] = mean.rgb;
@@ -60,7 +60,7 @@ void main() {
     precise Layers layers = load_layers(texel);
     int lost = add_samples(pixel, layers, frame.origin + texel);
     if (HAS_TREE && lost > 0) atomicAdd(lost_samples, uint(lost));
-    imageStore(target_mean, texel, vec4(pixel.mean, pixel.dropped));
+    imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
     store_layers(texel, layers);

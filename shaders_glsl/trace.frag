@@ -11,7 +11,7 @@ layout(location = 1) out vec4 target_variance;
 layout(location = 2) out vec4 target_block;
 
 Pixel load_pixel(ivec2 texel) {
-    if (frame.first_sample == 0) return empty_pixel();
+    if (frame.is_empty != 0) return empty_pixel();
     precise vec4 mean = texelFetch(source_mean, texel, 0);
     precise vec4 variance = texelFetch(source_variance, texel, 0);
     precise vec4 block = vec4(0.0);
@@ -23,7 +23,7 @@ void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     precise Pixel pixel = load_pixel(texel);
     add_samples(pixel, frame.origin + texel);
-    target_mean = vec4(pixel.mean, pixel.dropped);
+    target_mean = vec4(pixel.mean, pixel.count);
     target_variance = vec4(pixel.variance, pixel.observations);
     target_block = vec4(pixel.block, pixel.begun);
 }

@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - schedule: how much work a dispatch takes
 - device_scene: a scene in the driver's memory, and the kernel source that reads it
 - kernel_switch: a generic kernel and a faster one by turns
+- ping_pong: the textures that a pass reads and writes
 - film: running mean and variance in textures
 - tracer: adds samples to a film, a dispatch at a time
 - weighting: a film's layers under weights

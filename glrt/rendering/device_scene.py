@@ -1,7 +1,7 @@
 """A scene in the driver's memory: its arrays, and the source of the kernels that read them."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -18,6 +18,19 @@ from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pipelines import KernelOptions, Tier, scene_text, sources, tier_for, upload
 from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.scene.scene import Scene
+
+
+class Exposed(Protocol):
+    """What a kernel adds samples to."""
+
+    samples: int  # of each pixel so far
+
+    @property
+    def next_sample(self) -> int:
+        """The number of the sample that comes next."""
+
+    def images(self) -> Images:
+        """The textures under the names of the kernel's images."""
 
 
 class DeviceScene:
@@ -76,16 +89,15 @@ class DeviceScene:
     def dispatch(
         self,
         kernel: Kernel | FragmentKernel,
-        images: Images,
+        film: Exposed,
         plan: Plan,
-        first_sample: int,
         part: DispatchRange,
         tiles: int,
     ) -> None:
-        """Let a kernel add a part's samples, from `first_sample` on, of a picture of `tiles`."""
-        numbers = first_sample, part.samples, part.first, stride_of(tiles)
+        """Let a kernel add a part's samples to a film, a picture of `tiles`."""
+        numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers))
-        kernel.bind(self._resources, images)
+        kernel.bind(self._resources, film.images())
         kernel.run_tiles(part.tiles)
 
     def lost_any(self) -> bool:

@@ -134,6 +134,7 @@ class FalseColors:
         for unit, texture in enumerate(parts):
             texture.use(unit)
         plain = {"layer_count": 0, "weights": [ONE] * MOST_LAYERS, "dark": 0.0}
+        plain["samples"] = film.samples
         range_ = {"is_logarithmic": scale.is_logarithmic, "range": (scale.low, scale.high)}
         for name, value in {**plain, **range_, "colors": scale.colors, **values}.items():
             program[name] = value

@@ -1,17 +1,15 @@
 """What has been gathered: running mean and variance of each pixel, in ping-pong textures."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import moderngl
 import numpy as np
 
 from glrt.errors import RenderError, UsageError
-from glrt.gpu.context import checked
 from glrt.image.film_state import FilmState
+from glrt.rendering.ping_pong import Array, PingPong, Size
 
-Array = np.ndarray[Any, np.dtype[np.float32]]
 BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
 
 
@@ -46,63 +44,62 @@ class Film:
 
     A third pair holds the observation that has begun, if one takes more than a sample; a fourth
     the layers, if there are any, each over two halves of the observations.
+
+    Its samples are those from number `first_sample` on: 0, unless it holds a part of a render.
     """
 
     def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
         """RenderError if the driver has no room for that."""
-        self._gl, self.extent, self.samples = gl, extent, 0
-        self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
-        try:
-            self._allocate()
-        except RenderError:
-            self.release()
-            raise
+        self.extent, self.samples, self.first_sample = extent, 0, 0
+        what = f"a film of {extent.width} x {extent.height} pixels"
+        self._textures = PingPong(gl, what, _outputs(extent))
 
     @property
-    def size(self) -> tuple[int, int]:
+    def size(self) -> Size:
         """Width and height in pixels."""
         return self.extent.width, self.extent.height
 
-    def restart(self) -> None:
+    @property
+    def next_sample(self) -> int:
+        """The number of the sample that comes next, by which its random numbers are drawn."""
+        return self.first_sample + self.samples
+
+    def restart(self, first_sample: int = 0) -> None:
         """Forget everything. The textures keep what they hold: the first dispatch ignores it."""
-        self.samples = 0
+        self.samples, self.first_sample = 0, first_sample
 
     def images(self) -> dict[str, moderngl.Texture]:
         """The textures under the names of the kernel's images."""
-        return {
-            f"{side}_{name}": texture
-            for side, textures in zip(("source", "target"), self._pairs, strict=True)
-            for name, texture in textures.items()
-        }
+        return self._textures.images()
 
     def advance(self, samples: int) -> None:
         """The dispatch has written: what was target becomes source, once a frame."""
-        self._pairs.reverse()
+        self._textures.swap()
         self.samples += samples
 
     @property
     def mean(self) -> moderngl.Texture:
         """The texture that holds the picture so far."""
-        return self._pairs[0]["mean"]
+        return self._textures.sources["mean"]
 
     @property
     def variance(self) -> moderngl.Texture:
         """The texture that holds the variance of an observation so far."""
-        return self._pairs[0]["variance"]
+        return self._textures.sources["variance"]
 
     @property
     def layers(self) -> moderngl.Texture | None:
         """The layers so far, side by side: over one half of the observations, below the other."""
-        return self._pairs[0].get("layers")
+        return self._textures.sources.get("layers")
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film, or some of its rows, into memory."""
         self._check_exposed()
         first, end, _ = rows.indices(self.size[1])
-        textures = self._pairs[0]
-        mean, variance = (self._read(textures[n], first, end) for n in ("mean", "variance"))
-        begun = self._read_begun(self.samples - mean[..., 3], first, end)
-        parts = mean[..., :3], variance[..., :3], mean[..., 3], variance[..., 3], *begun
+        mean, variance = (self._textures.read(name, first, end) for name in ("mean", "variance"))
+        begun = self._read_begun(mean[..., 3], first, end)
+        dropped = np.float32(self.samples) - mean[..., 3]
+        parts = mean[..., :3], variance[..., :3], dropped, variance[..., 3], *begun
         copies = (part.copy() for part in (*parts, self._read_layers(first, end)))
         return Exposure(*copies)
 
@@ -110,8 +107,8 @@ class Film:
         """How many samples were not finite, of all pixels."""
         self._check_exposed()
         ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
-        counts = (self._read(self.mean, *rows)[..., 3] for rows in ends)
-        return sum(int(count.sum(dtype=np.float64)) for count in counts)
+        counts = (self._textures.read("mean", *rows)[..., 3] for rows in ends)
+        return sum(int((self.samples - count).sum(dtype=np.float64)) for count in counts)
 
     def bands(self) -> Iterator[slice]:
         """The rows of the film, some at a time: to work on them takes little memory."""
@@ -125,38 +122,19 @@ class Film:
         """
         if self.extent.layers:
             raise UsageError("layers of light are kept here, which a picture does not hold")
+        finite = np.float32(samples) - film_state.dropped
         rows = {
-            "mean": np.dstack([mean, film_state.dropped]),
+            "mean": np.dstack([mean, finite]),
             "variance": np.dstack([film_state.variance, film_state.observations]),
             "block": np.dstack([film_state.part, film_state.begun]),
         }
-        for name, texture in self._pairs[0].items():
+        for name, texture in self._textures.sources.items():
             texture.write(np.ascontiguousarray(rows[name], np.float32))
         self.samples = samples
 
     def release(self) -> None:
         """Free the textures."""
-        for pair in self._pairs:
-            for texture in pair.values():
-                texture.release()
-
-    def _allocate(self) -> None:
-        width, height, block, layers = self.extent
-        sizes = dict.fromkeys(("mean", "variance"), self.size)
-        sizes |= {"block": self.size} if block > 1 else {}
-        sizes |= {"layers": (layers * width, 2 * height)} if layers else {}
-        for pair in self._pairs:
-            for name, size in sizes.items():
-                pair[name] = self._texture(*size)
-
-    def _texture(self, across: int, down: int) -> moderngl.Texture:
-        width, height = self.size
-        with ExitStack() as refused:
-            with checked(self._gl, f"a film of {width} x {height} pixels"):
-                texture = self._gl.texture((across, down), 4, dtype="f4")
-                refused.callback(texture.release)
-            refused.pop_all()
-        return texture
+        self._textures.release()
 
     def _check_exposed(self) -> None:
         if not self.samples:
@@ -166,23 +144,23 @@ class Film:
         """The observation that has begun: its mean, and its share of so many finite samples."""
         if self.samples % self.extent.block == 0:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
-        begun = self._read(self._pairs[0]["block"], first, end)
+        begun = self._textures.read("block", first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
     def _read_layers(self, first: int, end: int) -> Array:
         width, height, _, count = self.extent
         if not self.layers:
             return np.zeros((2, 0, end - first, width, 4), np.float32)
-        halves = [self._read(self.layers, up + first, up + end) for up in (0, height)]
+        halves = [self._textures.read("layers", up + first, up + end) for up in (0, height)]
         return np.stack(halves).reshape(2, end - first, count, width, 4).swapaxes(1, 2)
 
-    def _read(self, texture: moderngl.Texture, first: int, end: int) -> Array:
-        """Rows of a texture, (rows, width, 4): by a framebuffer, of which a part can be read."""
-        rows = self._gl.framebuffer([texture])
-        part = (0, first, texture.width, end - first)
-        data = rows.read(part, components=4, alignment=1, dtype="f4")
-        rows.release()
-        return np.frombuffer(data, np.float32).reshape(end - first, texture.width, 4)
+
+def _outputs(extent: Extent) -> dict[str, Size]:
+    """The textures of a film and their sizes."""
+    width, height, block, layers = extent
+    sizes = dict.fromkeys(("mean", "variance"), (width, height))
+    sizes |= {"block": (width, height)} if block > 1 else {}
+    return sizes | ({"layers": (layers * width, 2 * height)} if layers else {})
 
 
 def standard_error(film: Exposure) -> Array:

@@ -71,10 +71,12 @@ def pack_frame(
     samples: int,
     first_tile: int = 0,
     tile_stride: int = 1,
+    is_empty: bool = True,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
-    `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl.
+    `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
+    film is not read.
     """
     bottom, top = scene.background_colors
     frame = {
@@ -90,5 +92,6 @@ def pack_frame(
         **{f"{struct.lower()}_count": counts[struct] for struct in (*NUMBERED, *COUNTED)},
         "first_tile": first_tile,
         "tile_stride": tile_stride,
+        "is_empty": int(is_empty),
     }
     return record(STRUCTS["Frame"], frame).tobytes()

@@ -9,8 +9,9 @@ from glrt.gpu.program import tile_count
 from glrt.image.film_state import FilmState
 from glrt.methods.light_layers import Plan
 from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.film import Array, Extent, Film
+from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
+from glrt.rendering.ping_pong import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import (
     DispatchPolicy,
@@ -162,8 +163,7 @@ class Tracer:
         return False
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        images, first = self.film.images(), self.film.samples
-        self.device_scene.dispatch(kernel, images, self._plan, first, part, self._tiles)
+        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles)
 
 
 def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:

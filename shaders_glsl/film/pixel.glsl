@@ -5,7 +5,7 @@
 
 struct Pixel {
     vec3 mean;           // of the finite samples, radiance
-    float dropped;       // samples not finite, or lost to the loop limit
+    float count;         // how many those are; others are not finite, or lost to the loop limit
     vec3 variance;       // of the observations: mean squared deviation from their mean
     float observations;
     vec3 block;          // mean of the finite samples of the observation that has begun
@@ -50,21 +50,19 @@ void end_observation(precise inout Pixel pixel) {
     pixel.begun = 0.0;
 }
 
-// Adds the sample number `index`, from 0.
+// Adds the sample number `index`, from 0; one that is not finite counts for nothing.
 void add_sample(precise inout Pixel pixel, vec3 x, int index) {
     if (is_finite(x)) {
-        pixel.mean = next_mean(pixel.mean, x, float(index + 1) - pixel.dropped);
+        pixel.count += 1.0;
+        pixel.mean = next_mean(pixel.mean, x, pixel.count);
         pixel.begun += 1.0;
         pixel.block = BLOCK > 1 ? next_mean(pixel.block, x, pixel.begun) : x;
-    } else {
-        pixel.dropped += 1.0;
     }
     if ((index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
 }
 
-// The samples from number `index` to before `end` are lost.
+// The samples from number `index` to before `end` are lost: an observation among them may end.
 void drop_samples(precise inout Pixel pixel, int index, int end) {
-    pixel.dropped += float(end - index);
     if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
 }
 

@@ -112,9 +112,7 @@ LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     if (CLUSTERS > 1) choice.x = next_1d(rng);
     precise vec2 u = next_2d(rng);
     int index = choose_light(ray, lamps, choice);
-    int shape = light_at(index).shape;
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || up_to_sphere(shape))) {
-        return sample_sphere(ray, index, shape, u, lamps);
-    }
-    return sample_quad(ray, index, shape, u, lamps);
+    precise Light light = light_at(index);
+    if (is_of_sphere(light)) return sample_sphere(ray, index, light.shape, u, lamps);
+    return sample_quad(ray, index, light.shape, u, lamps);
 }

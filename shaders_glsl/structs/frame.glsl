@@ -18,8 +18,8 @@ struct Frame {
     uint seed;
     ivec2 size;              // of the full frame, pixels
     ivec2 origin;            // of the crop in it
-    int first_sample;        // how many samples each pixel has
-    int sample_count;        // how many this dispatch adds
+    int first_sample;        // number of the first that this dispatch adds, from 0
+    int sample_count;        // how many it adds
     int sphere_count;
     int plane_count;
     int quad_count;
@@ -27,4 +27,5 @@ struct Frame {
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;
     int node_count;
+    int is_empty;            // 1: the film holds nothing yet, whatever its textures hold
 };

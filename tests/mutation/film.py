@@ -21,8 +21,8 @@ FILM = [
         "samples are counted from 1",
         edit(
             "film/pixel.glsl",
-            "float(index + 1) - pixel.dropped",
-            "float(index + 2) - pixel.dropped",
+            "next_mean(pixel.mean, x, pixel.count)",
+            "next_mean(pixel.mean, x, pixel.count + 1.0)",
         ),
         "rendering/test_accumulation.py::test_the_first_sample_is_taken_as_it_is",
     ),
@@ -44,8 +44,8 @@ FILM = [
         "fragments begin anew with each dispatch",
         edit(
             "trace.frag",
-            "if (frame.first_sample == 0) return",
-            "if (frame.first_sample >= 0) return",
+            "if (frame.is_empty != 0) return",
+            "if (frame.is_empty >= 0) return",
         ),
         "rendering/test_fragment.py::test_fragment_and_compute_give_the_same_bits",
     ),

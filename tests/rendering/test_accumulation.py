@@ -36,7 +36,7 @@ def gathered(call_glsl: CallGlsl, seeds: Array, count: int = SAMPLES, **more: An
     given = {"count": count, "bad": -1, "skip": 0, **more}
     args: dict[str, Any] = {name: np.array([value]) for name, value in given.items()}
     args |= {"poison": np.array([more.get("poison", 0)], np.uint32), "seed": seeds}
-    figures = (("pixel.mean", "vec3"), ("pixel.variance", "vec3"), ("pixel.dropped", "float"))
+    figures = (("pixel.mean", "vec3"), ("pixel.variance", "vec3"), ("float(index) - pixel.count", "float"))
     return [
         call_glsl(what, returns, setup=GATHER, constants=constants, **args)
         for what, returns in figures
@@ -117,6 +117,7 @@ ADDED = f"""
     Pixel pixel = empty_pixel();
     pixel.mean = mean;
     pixel.variance = variance;
+    pixel.count = float(first);
     pixel.observations = float(first);
     for (int k = 0; k < {PART}; ++k) {{
         float u = unit_float(pcg_hash(seed ^ uint(first + k)));
@@ -178,8 +179,8 @@ def test_a_pixel_without_a_finite_sample_is_black_and_says_so(call_glsl: CallGls
     setup = """Pixel pixel = empty_pixel();
         for (int k = 0; k < 10; ++k) add_sample(pixel, vec3(uintBitsToFloat(bits)), k);"""
     bits = np.array([NAN, INFINITY], np.uint32)
-    found = call_glsl("vec4(pixel.mean, pixel.dropped)", "vec4", setup=setup, bits=bits)
-    assert found.tolist() == [[0, 0, 0, 10]] * 2
+    found = call_glsl("vec4(pixel.mean, pixel.count)", "vec4", setup=setup, bits=bits)
+    assert found.tolist() == [[0, 0, 0, 0]] * 2
 
 
 def test_large_and_small_numbers_are_finite(call_glsl: CallGlsl) -> None:

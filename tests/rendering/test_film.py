@@ -49,7 +49,9 @@ def step(ctx: moderngl.Context) -> Iterator[Step]:
     buffers = {**upload(ctx, arrays, "generic"), "Lost": ctx.buffer(bytes(4))}
 
     def dispatch(film: Film, samples: int) -> None:
-        frame = pack_frame(ROOM, settings, counts, film.samples, samples)
+        frame = pack_frame(
+            ROOM, settings, counts, film.next_sample, samples, is_empty=not film.samples
+        )
         buffers["FrameBlock"] = ctx.buffer(frame)
         kernel.bind(buffers, film.images())
         kernel.run(WIDTH, HEIGHT)
