@@ -5,9 +5,9 @@ The command line, the panel and the kernel read these models; so does `[render]`
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, Any, Literal, Self, TypedDict
+from typing import Annotated, Any, Literal, Self, TypedDict, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
 from glrt.errors import UsageError
@@ -15,6 +15,7 @@ from glrt.errors import UsageError
 Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
 Sampler = Literal["sobol", "independent"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
+Aov = Literal["albedo", "normal", "depth", "position", "object"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
@@ -100,6 +101,11 @@ class Settings(RenderSettings):
     tonemap: Annotated[ToneMap, Editable(Cost.FREE)] = Field(
         "neutral", description="tone curve of PNG files and of the display"
     )
+    aov: Annotated[tuple[Aov, ...], Editable(Cost.FREE)] = Field(
+        (),
+        description="what else EXR files tell of the first surface behind each pixel: "
+        f"{', '.join(get_args(Aov))}",
+    )
 
     @property
     def size(self) -> tuple[int, int]:
@@ -110,6 +116,11 @@ class Settings(RenderSettings):
     def block(self) -> int:
         """Samples of an observation; the error of a picture is taken over whole ones."""
         return BLOCKS[self.sampler]
+
+    @field_validator("aov")
+    @classmethod
+    def _aovs_in_order(cls, value: tuple[Aov, ...]) -> tuple[Aov, ...]:
+        return tuple(aov for aov in get_args(Aov) if aov in value)
 
     @model_validator(mode="after")
     def _crop_lies_in_the_frame(self) -> Self:
@@ -135,6 +146,7 @@ class FrameOptions(TypedDict, total=False):
     seed: int
     exposure: float
     tonemap: ToneMap
+    aov: tuple[Aov, ...]
 
 
 class SettingOptions(FrameOptions, total=False):

@@ -30,4 +30,5 @@
 #include "integrators/classic.glsl"
 #include "integrators/path.glsl"
 #include "film/pixel.glsl"
+#include "film/halves.glsl"
 #include "integrators/samples.glsl"

@@ -94,17 +94,25 @@ def _shown(default: Any) -> str:
     """A default value in the words of a help text."""
     if default is None:
         return "the whole picture"
+    if default == ():
+        return "none"
     return ("on" if default else "off") if isinstance(default, bool) else str(default)
 
 
 def _options(name: str, annotation: Any, unit: str) -> dict[str, Any]:
     if name == "crop":
         return {"nargs": 4, "type": int, "metavar": ("X", "Y", "W", "H")}
+    if name == "aov":
+        return {"type": _names, "metavar": "NAME,..."}
     if annotation is bool:
         return {"action": argparse.BooleanOptionalAction}
     if choices := get_args(annotation):
         return {"choices": choices}
     return {"type": annotation, "metavar": "N" if annotation is int else unit.upper() or "X"}
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(","))
 
 
 def _light(text: str) -> tuple[str, float]:

@@ -15,7 +15,7 @@ import numpy as np
 from glrt.errors import GlrtError
 from glrt.gpu.context import Context, open_context, open_device
 from glrt.gpu.driver_checks import self_test
-from glrt.rendering.pipelines import Resolved
+from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
 from glrt.scene.toml import parse_scene
 

@@ -2,7 +2,7 @@
 
 import io
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from glrt import files
 from glrt.error.estimate import relative_error
 from glrt.errors import SceneError, UsageError
+from glrt.image import aovs
+from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
@@ -32,8 +34,9 @@ class Image:
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
-    recipe. `film_state` is what a render needs to continue from it, if that is known. Raises
-    ValueError for arrays of another shape or type.
+    recipe. `film_state` is what a render needs to continue from it, if that is known. `aovs` are
+    those that the settings asked for, by name. Raises ValueError for arrays of another shape or
+    type.
     """
 
     radiance: Pixels
@@ -41,6 +44,7 @@ class Image:
     samples: int
     recipe: Recipe | None = None
     film_state: FilmState | None = None
+    aovs: AovImages = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for pixels in (self.radiance, self.stderr):
@@ -94,7 +98,8 @@ class Image:
         if recipe is None:
             return cls(radiance, stderr, 0)
         film = from_channels(channels, stderr, recipe.samples, recipe.settings.block)
-        return cls(radiance, stderr, recipe.samples, recipe, film)
+        found = aovs.from_channels(channels, recipe.settings.aov)
+        return cls(radiance, stderr, recipe.samples, recipe, film, found)
 
     def _write_exr(self, path: Path) -> None:
         import OpenEXR  # type: ignore[import-not-found]
@@ -106,6 +111,7 @@ class Image:
         if self.recipe and self.film_state:
             block = self.recipe.settings.block
             channels |= to_channels(self.film_state, self.stderr, self.samples, block)
+        channels |= aovs.to_channels(self.aovs)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
         OpenEXR.File(header, contiguous).write(str(path))

@@ -7,13 +7,15 @@ Modules, each importing only what stands above it:
 - pack_materials: materials as rows, a packer for each type
 - pack_lights: lamps as rows of the kernel's blocks
 - pack: a scene as arrays for the kernel
+- passes: what runs over the pixels of a picture, as values
 - pipelines: compute or fragment shader
 - evaluation: functions of the path tracer over arrays
 - schedule: how much work a dispatch takes
 - device_scene: a scene in the driver's memory, and the kernel source that reads it
 - kernel_switch: a generic kernel and a faster one by turns
-- ping_pong: the textures that a pass reads and writes
+- pass_film: what a pass adds samples to
 - film: running mean and variance in textures
+- aov_tracer: gathers AOVs as the picture grows
 - tracer: adds samples to a film, a dispatch at a time
 - weighting: a film's layers under weights
 - display: the display pass

@@ -15,6 +15,7 @@ from glrt.methods.light_layers import Plan
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
+from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import KernelOptions, Tier, scene_text, sources, tier_for, upload
 from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.scene.scene import Scene
@@ -77,6 +78,10 @@ class DeviceScene:
         """
         tier = tier_for(self._arrays, "baked")
         return None if tier == self.tier else self._shaders(self._texts_of(tier))
+
+    def shaders_of(self, render_pass: RenderPass) -> list[Source]:
+        """The kernel of another pass over the scene."""
+        return sources(self._options.pipeline, self._constants, self._texts, render_pass)
 
     def has_kernel_of(self, other: "DeviceScene") -> bool:
         """Whether the kernel of one scene does for the other."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from glrt.errors import RenderError, UsageError
 from glrt.image.film_state import FilmState
-from glrt.rendering.ping_pong import Array, PingPong, Size
+from glrt.rendering.pass_film import Array, PassFilm, Size
 
 BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
 
@@ -39,20 +39,18 @@ class Exposure(NamedTuple):
         return FilmState(self.variance, self.dropped, self.observations, self.part, begun)
 
 
-class Film:
+class Film(PassFilm):
     """RGBA32F textures for mean and variance, each twice: one is read, one written.
 
     A third pair holds the observation that has begun, if one takes more than a sample; a fourth
     the layers, if there are any, each over two halves of the observations.
-
-    Its samples are those from number `first_sample` on: 0, unless it holds a part of a render.
     """
 
     def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
         """RenderError if the driver has no room for that."""
-        self.extent, self.samples, self.first_sample = extent, 0, 0
+        self.extent = extent
         what = f"a film of {extent.width} x {extent.height} pixels"
-        self._textures = PingPong(gl, what, _outputs(extent))
+        super().__init__(gl, what, _outputs(extent))
 
     @property
     def size(self) -> Size:
@@ -60,43 +58,25 @@ class Film:
         return self.extent.width, self.extent.height
 
     @property
-    def next_sample(self) -> int:
-        """The number of the sample that comes next, by which its random numbers are drawn."""
-        return self.first_sample + self.samples
-
-    def restart(self, first_sample: int = 0) -> None:
-        """Forget everything. The textures keep what they hold: the first dispatch ignores it."""
-        self.samples, self.first_sample = 0, first_sample
-
-    def images(self) -> dict[str, moderngl.Texture]:
-        """The textures under the names of the kernel's images."""
-        return self._textures.images()
-
-    def advance(self, samples: int) -> None:
-        """The dispatch has written: what was target becomes source, once a frame."""
-        self._textures.swap()
-        self.samples += samples
-
-    @property
     def mean(self) -> moderngl.Texture:
         """The texture that holds the picture so far."""
-        return self._textures.sources["mean"]
+        return self.sources["mean"]
 
     @property
     def variance(self) -> moderngl.Texture:
         """The texture that holds the variance of an observation so far."""
-        return self._textures.sources["variance"]
+        return self.sources["variance"]
 
     @property
     def layers(self) -> moderngl.Texture | None:
         """The layers so far, side by side: over one half of the observations, below the other."""
-        return self._textures.sources.get("layers")
+        return self.sources.get("layers")
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film, or some of its rows, into memory."""
         self._check_exposed()
         first, end, _ = rows.indices(self.size[1])
-        mean, variance = (self._textures.read(name, first, end) for name in ("mean", "variance"))
+        mean, variance = (self.read_output(name, first, end) for name in ("mean", "variance"))
         begun = self._read_begun(mean[..., 3], first, end)
         dropped = np.float32(self.samples) - mean[..., 3]
         parts = mean[..., :3], variance[..., :3], dropped, variance[..., 3], *begun
@@ -107,7 +87,7 @@ class Film:
         """How many samples were not finite, of all pixels."""
         self._check_exposed()
         ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
-        counts = (self._textures.read("mean", *rows)[..., 3] for rows in ends)
+        counts = (self.read_output("mean", *rows)[..., 3] for rows in ends)
         return sum(int((self.samples - count).sum(dtype=np.float64)) for count in counts)
 
     def bands(self) -> Iterator[slice]:
@@ -128,13 +108,9 @@ class Film:
             "variance": np.dstack([film_state.variance, film_state.observations]),
             "block": np.dstack([film_state.part, film_state.begun]),
         }
-        for name, texture in self._textures.sources.items():
+        for name, texture in self.sources.items():
             texture.write(np.ascontiguousarray(rows[name], np.float32))
         self.samples = samples
-
-    def release(self) -> None:
-        """Free the textures."""
-        self._textures.release()
 
     def _check_exposed(self) -> None:
         if not self.samples:
@@ -144,14 +120,14 @@ class Film:
         """The observation that has begun: its mean, and its share of so many finite samples."""
         if self.samples % self.extent.block == 0:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
-        begun = self._textures.read("block", first, end)
+        begun = self.read_output("block", first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
     def _read_layers(self, first: int, end: int) -> Array:
         width, height, _, count = self.extent
         if not self.layers:
             return np.zeros((2, 0, end - first, width, 4), np.float32)
-        halves = [self._textures.read("layers", up + first, up + end) for up in (0, height)]
+        halves = [self.read_output("layers", up + first, up + end) for up in (0, height)]
         return np.stack(halves).reshape(2, end - first, count, width, 4).swapaxes(1, 2)
 
 

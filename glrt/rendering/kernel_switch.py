@@ -24,7 +24,7 @@ class KernelSwitch:
         """Compile the general kernel; RenderError if the driver refuses it."""
         self._context = context
         start = time.perf_counter()
-        self.kernel, self.schedule = self._ready(shaders, dispatch), schedule
+        self.kernel, self.schedule = ready(context, shaders, dispatch), schedule
         self.compile_seconds = time.perf_counter() - start
         self._waiting: tuple[AnyKernel, Schedule] | None = None
 
@@ -36,7 +36,7 @@ class KernelSwitch:
     def use_fast(self, shaders: list[Source], dispatch: Dispatch) -> None:
         """Continue with a faster kernel from the next frame on; if refused, nothing changes."""
         self.schedule.drop()  # the first dispatch writes to the frame that has begun
-        faster = self._ready(shaders, dispatch)
+        faster = ready(self._context, shaders, dispatch)
         self._waiting = self.kernel, self.schedule
         self.kernel, self.schedule = faster, copy(self.schedule)
 
@@ -52,13 +52,15 @@ class KernelSwitch:
         self.use_general()
         self.kernel.release()
 
-    def _ready(self, shaders: list[Source], dispatch: Dispatch) -> AnyKernel:
-        kernel = compiled(self._context.gl, shaders)
-        try:
-            with self._context.checked("a shader"):
-                dispatch(kernel, DispatchRange(0, 0, 1))  # drivers compile here; it adds nothing
-                self._context.finish()
-        except RenderError:
-            kernel.release()
-            raise
-        return kernel
+
+def ready(context: Context, shaders: list[Source], dispatch: Dispatch) -> AnyKernel:
+    """A kernel that the driver has compiled; RenderError if it refuses it."""
+    kernel = compiled(context.gl, shaders)
+    try:
+        with context.checked("a shader"):
+            dispatch(kernel, DispatchRange(0, 0, 1))  # drivers compile here; it adds nothing
+            context.finish()
+    except RenderError:
+        kernel.release()
+        raise
+    return kernel

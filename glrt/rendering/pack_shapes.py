@@ -83,9 +83,15 @@ if list(PACKERS) != list(KINDS.values()):
     raise TypeError(f"shapes have packers {list(PACKERS)}, and models {list(KINDS.values())}")
 
 
+def order_of_kernel(scene: Scene) -> list[int]:
+    """Places of the objects in the scene, in the kernel's order: by kind, each as in the file."""
+    objects = scene.objects
+    return [n for kind in PACKERS for n, shape in enumerate(objects) if type(shape) is kind]
+
+
 def in_order(scene: Scene) -> list[Shape]:
-    """The objects as the kernel numbers them: by kind, in the order of the scene file in each."""
-    return [shape for kind in PACKERS for shape in scene.objects if type(shape) is kind]
+    """The objects as the kernel numbers them."""
+    return [scene.objects[number] for number in order_of_kernel(scene)]
 
 
 def pack_shapes(shapes: Sequence[Shape], placing: Placing) -> dict[str, Array]:

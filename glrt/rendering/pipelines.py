@@ -12,8 +12,7 @@ from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel, Resource
 from glrt.gpu.struct_arrays import Arrays, scene_arrays, uniform_bytes
 from glrt.rendering.pack_shapes import NUMBERED
-
-Resolved = Literal["compute", "fragment"]
+from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 
 # "baked" writes the shapes into the kernel's text, so that each edit of them compiles; "generic"
 # reads them. Materials are never written: a colour is to change without compiling.
@@ -72,13 +71,15 @@ def _constant(tier: Tier) -> tuple[str, ...]:
 
 
 def sources(
-    pipeline: Resolved, constants: Mapping[str, bool | int], texts: Mapping[str, str]
+    pipeline: Resolved,
+    constants: Mapping[str, bool | int],
+    texts: Mapping[str, str],
+    render_pass: RenderPass = RADIANCE,
 ) -> list[Source]:
-    """The shaders of a kernel; `texts` stand for shader files, by name."""
-    if pipeline == "compute":
-        return [Source("trace.comp", constants, texts=texts)]
-    entries = "trace.vert", "trace.frag"
-    return [Source(entry, constants, "410 core", texts) for entry in entries]
+    """The shaders of a pass for a scene; `texts` stand for shader files, by name."""
+    version = "430 core" if pipeline == "compute" else "410 core"
+    prelude = {**constants, **render_pass.constants}
+    return [Source(file, prelude, version, texts) for file in render_pass.shaders[pipeline]]
 
 
 def compiled(gl: moderngl.Context, shaders: list[Source]) -> Kernel | FragmentKernel:

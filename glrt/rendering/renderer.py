@@ -78,6 +78,16 @@ class Renderer:
         return self.film.samples
 
     @property
+    def is_behind(self) -> bool:
+        """Whether AOVs have fewer samples than the picture."""
+        return self._tracer.is_behind
+
+    @property
+    def shown(self) -> tuple[int, int]:
+        """Samples of each pixel of the picture, and of its AOVs."""
+        return self.samples, self._tracer.aovs.samples
+
+    @property
     def work(self) -> float:
         """Samples a pixel, and the share that is done of those in the frame that has begun."""
         return self._tracer.work
@@ -109,8 +119,8 @@ class Renderer:
 
     @property
     def compile_seconds(self) -> float:
-        """What that kernel took to compile."""
-        return self._tracer.switch.compile_seconds
+        """What that kernel, and those of the AOVs, took to compile."""
+        return self._tracer.switch.compile_seconds + self._tracer.aovs.compile_seconds
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
@@ -136,6 +146,8 @@ class Renderer:
             return None
         if relit := self.plan.relit(*after, layering):
             cost = Cost.FREE if relit == self.plan else Cost.RELIGHT
+            with self.context.gl:
+                self._tracer.use_aovs(after[1])
             (self.scene, self.settings), self.plan = after, relit
             return cost
         plan = plan_for(*after, layering)
@@ -174,11 +186,11 @@ class Renderer:
         several calls. Until it is complete the picture stays as it was.
         """
         target = self.settings.samples if samples is None else samples
-        before, start, spent = self.samples, time.perf_counter(), 0.0
-        while self.samples < target and spent <= ENOUGH * seconds:
+        before, start, spent = self.shown, time.perf_counter(), 0.0
+        while (self.samples < target or self.is_behind) and spent <= ENOUGH * seconds:
             self._work(target - self.samples, INTERACTIVE, seconds - spent)
             spent = time.perf_counter() - start
-        return self.samples != before
+        return self.shown != before
 
     def render(
         self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
@@ -200,7 +212,8 @@ class Renderer:
         weights = weights or self.plan.weights
         with self.context.gl:
             radiance, stderr, film_state = mixed(self.film, weights)
-        return Image(radiance, stderr, self.samples, self._recipe(weights), film_state)
+            aovs = self._tracer.aov_images()
+        return Image(radiance, stderr, self.samples, self._recipe(weights), film_state, aovs)
 
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""

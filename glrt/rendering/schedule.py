@@ -51,22 +51,32 @@ def iterations_per_sample(
     """Rounds of all loops for one sample: each segment runs over the shapes, once or twice.
 
     At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
-    A loop over the shapes of one kind takes a round more than there are shapes: the one in which
-    it finds that there are no more. Lamps are weighed twice: for their sum, and to choose one;
-    that loop takes a round less. Of many, the parts of a cluster are weighed so too, and their
-    sum for the density of the lamp that is sampled, and of the one that is met.
+    Lamps are weighed twice: for their sum, and to choose one; that loop takes a round less than
+    others. Of many, the parts of a cluster are weighed so too, and their sum for the density of the
+    lamp that is sampled, and of the one that is met.
     """
     found = contents_of(scene)
-    kinds = sum(1 for count in found.shapes.values() if count)
-    search = len(scene.objects) + kinds
-    if found.has_tree:
-        spheres = found.shapes["sphere"]
-        search += round(tree_rounds * math.log2(spheres)) - spheres
+    search = rounds_of_search(scene, tree_rounds, found)
     traits = METHODS[settings.method]
     if traits.model and not traits.chooses_lights:
         return 1 + _rounds_of_shading(found, settings, search)
     rays, choice = (2, _rounds_of_choice(found)) if traits.uses_lamps else (1, 0)
     return 1 + (settings.bounces + 1) * (1 + rays * search + choice)
+
+
+def rounds_of_search(
+    scene: Scene, tree_rounds: float = TREE_ROUNDS, contents: Contents | None = None
+) -> int:
+    """Rounds of the loops that find what one ray meets; `contents` are those of the scene.
+
+    A loop over the shapes of one kind takes a round more than there are shapes: the one in which
+    it finds that there are no more. With a tree over the spheres it is a guess.
+    """
+    found = contents or contents_of(scene)
+    kinds = sum(1 for count in found.shapes.values() if count)
+    spheres = found.shapes["sphere"] if found.has_tree else 0
+    by_tree = round(tree_rounds * math.log2(spheres)) if spheres else 0
+    return len(scene.objects) + kinds + by_tree - spheres
 
 
 def _rounds_of_choice(found: Contents) -> int:

@@ -1,19 +1,24 @@
 """A plan on the driver: its scene, its film, and the kernel between them."""
 
+import math
 import time
 from contextlib import ExitStack
+from dataclasses import replace
 
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
+from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
 from glrt.methods.light_layers import Plan
+from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
-from glrt.rendering.ping_pong import Array
+from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import (
+    HEADLESS,
     DispatchPolicy,
     DispatchRange,
     Schedule,
@@ -21,7 +26,7 @@ from glrt.rendering.schedule import (
     most_samples,
     whole_frame,
 )
-from glrt.settings import Cost
+from glrt.settings import Cost, Settings
 
 
 class Tracer:
@@ -56,6 +61,8 @@ class Tracer:
                 if before:
                     before.switch.schedule.drop()  # the first dispatch writes to its frame
                 self.switch = self._compiled()
+                refused.callback(self.switch.release)
+            self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
 
     def replaced_for(self, plan: Plan) -> tuple["Tracer", Cost]:
@@ -68,7 +75,10 @@ class Tracer:
         self.device_scene.release()
         if after.film is not self.film:
             self.film.release()
+        if after.aovs is not self.aovs:
+            self.aovs.release()
         after.film.restart()
+        after.aovs.restart()
         if after.switch is not self.switch:
             self.switch.release()
             return after, Cost.RECOMPILE
@@ -96,7 +106,26 @@ class Tracer:
         """Begin to accumulate anew."""
         self.switch.schedule.drop()
         self.film.restart()
+        self.aovs.restart()
         self._tiers.clear()
+
+    def use_aovs(self, settings: Settings) -> None:
+        """Gather other AOVs; on an error, which is as the constructor raises it, the same."""
+        if settings.aov != self.aovs.aovs:
+            after = self._aovs_for(settings)
+            self.aovs.release()
+            self.aovs = after
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether AOVs have fewer samples than the picture."""
+        return self.aovs.is_behind(self.film.samples)
+
+    def aov_images(self) -> AovImages:
+        """The AOVs of all samples."""
+        while self.is_behind:
+            self._work_on_aovs(HEADLESS, math.inf)
+        return self.aovs.read(self._plan.scene)
 
     def resume(self, samples: int, mean: Array, film_state: FilmState) -> None:
         """Take up what another film has read, by a kernel of the same tier."""
@@ -119,7 +148,16 @@ class Tracer:
             self._at_once(min(self.most_samples, target - self.film.samples))
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
-        """One dispatch that the schedule plans; all those of a frame read the same source."""
+        """One dispatch: of AOVs that are behind, else one that the schedule of the picture plans.
+
+        All dispatches of a frame read the same source.
+        """
+        if self.is_behind:
+            self._work_on_aovs(policy, seconds)
+        else:
+            self._work_on_picture(remaining, policy, seconds)
+
+    def _work_on_picture(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
         schedule, planned = self.switch.schedule, min(seconds, policy.limit / 2)
         part = schedule.next_dispatch(remaining, planned, self.film.samples, policy)
         start = time.perf_counter()
@@ -131,8 +169,19 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for part in (self.film, self.switch, self.device_scene):
+        for part in (self.film, self.aovs, self.switch, self.device_scene):
             part.release()
+
+    def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
+        """What gathers the AOVs of settings: that of `before` where it does."""
+        has_kernel = before and self.device_scene.has_kernel_of(before.device_scene)
+        if before and has_kernel and before.aovs.serve(settings):
+            return before.aovs
+        plan = replace(self._plan, settings=settings)
+        return AovTracer(self._context, plan, self.device_scene)
+
+    def _work_on_aovs(self, policy: DispatchPolicy, seconds: float) -> None:
+        self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)
 
     def _compiled(self) -> KernelSwitch:
         schedule = Schedule(self._tiles, self.most_samples)

@@ -8,7 +8,7 @@ from glrt.gpu.program import drawing
 from glrt.image.film_state import FilmState, empty_state, keep
 from glrt.methods.light_layers import MOST_LAYERS, NONE, Weights, are_trivial
 from glrt.rendering.film import Exposure, Film, standard_error
-from glrt.rendering.ping_pong import Array
+from glrt.rendering.pass_film import Array
 
 _VERSION = "410 core"
 

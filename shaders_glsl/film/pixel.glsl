@@ -65,30 +65,3 @@ void add_sample(precise inout Pixel pixel, vec3 x, int index) {
 void drop_samples(precise inout Pixel pixel, int index, int end) {
     if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
 }
-
-// What a pixel has gathered by layers: means over every second observation, then over the others.
-// How far the two lie apart tells the error of their mean, whatever the weights of the layers.
-struct Layers {
-    vec3 means[2 * MOST_LAYERS];
-    float counts[2];  // finite samples
-};
-
-Layers empty_layers() {
-    precise Layers layers;
-    for (int i = 0; i < 2 * LAYERS; i += 1) layers.means[i] = vec3(0.0);
-    layers.counts[0] = 0.0;
-    layers.counts[1] = 0.0;
-    return layers;
-}
-
-// Adds what the sample number `index` brought by layers.
-void add_layers(precise inout Layers layers, Path path, int index) {
-    if (!is_finite(path.radiance)) return;
-    int side = (index / BLOCK) % 2;
-    layers.counts[side] += 1.0;
-    for (int i = 0; i < 2 * LAYERS; i += 1) {
-        if (i / DIVISOR != side) continue;
-        precise vec3 light = path.layers[i % DIVISOR];
-        layers.means[i] = next_mean(layers.means[i], light, layers.counts[side]);
-    }
-}

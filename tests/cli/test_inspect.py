@@ -7,7 +7,7 @@ import pytest
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import shader_files
 from glrt.image.sources import load
-from glrt.rendering.pipelines import Resolved
+from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
 from glrt.resources import folder
 from tests.support.processes import glrt

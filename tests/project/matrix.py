@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from bench.screens import screen
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import load
-from glrt.rendering.pipelines import Resolved
+from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
 from glrt.resources import folder
 from glrt.scene.catalog import scene_names

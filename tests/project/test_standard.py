@@ -10,7 +10,8 @@ import pytest
 
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.struct_arrays import MOST_UNIFORM_BYTES
-from glrt.rendering.pipelines import Resolved, Tier, sources
+from glrt.rendering.passes import Resolved
+from glrt.rendering.pipelines import Tier, sources
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.kernel_text import written_for
 from tests.support.system_packages import needs_package

@@ -15,7 +15,8 @@ from glrt.gpu.struct_arrays import ROWS, scene_arrays, texels, texture_of
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.rendering.kernel_structs import STRUCTS
-from glrt.rendering.pipelines import Resolved, Tier
+from glrt.rendering.passes import Resolved
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.scene.catalog import scene_names
 from glrt.scene.scene import Scene

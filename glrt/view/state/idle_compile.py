@@ -17,7 +17,7 @@ from glrt.errors import ContextError
 from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.recipe import Recipe
 from glrt.methods.light_layers import Layering
-from glrt.rendering.pipelines import Resolved
+from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION

@@ -1,6 +1,7 @@
-"""Named textures, each twice: a pass reads the one and writes the other, and then they swap.
+"""What a pass adds samples to: named outputs, each two textures, and how many samples they hold.
 
-A frame takes several dispatches; what a pass has written of one that is not complete is never read.
+A pass reads the one texture and writes the other; then they swap. A frame takes several dispatches;
+what has been written of one that is not complete is never read.
 """
 
 from contextlib import ExitStack
@@ -16,11 +17,15 @@ Array = np.ndarray[Any, np.dtype[np.float32]]
 Size = tuple[int, int]  # width and height
 
 
-class PingPong:
-    """The outputs of a pass: RGBA32F textures by name."""
+class PassFilm:
+    """RGBA32F textures by the names of their outputs.
+
+    Its samples are those from number `first_sample` on: 0, unless it holds a part of a render.
+    """
 
     def __init__(self, gl: moderngl.Context, what: str, sizes: dict[str, Size]) -> None:
         """`what` is told if there is no room for them: RenderError."""
+        self.samples = self.first_sample = 0  # of each pixel
         self._gl, self._what = gl, what
         self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
         try:
@@ -39,16 +44,26 @@ class PingPong:
             for name, texture in textures.items()
         }
 
-    def swap(self) -> None:
+    @property
+    def next_sample(self) -> int:
+        """The number of the sample that comes next, by which its random numbers are drawn."""
+        return self.first_sample + self.samples
+
+    def restart(self, first_sample: int = 0) -> None:
+        """Forget everything. The textures keep what they hold: the first dispatch ignores it."""
+        self.samples, self.first_sample = 0, first_sample
+
+    def advance(self, samples: int) -> None:
         """A frame is complete: what was target becomes source."""
         self._pairs.reverse()
+        self.samples += samples
 
     @property
     def sources(self) -> dict[str, moderngl.Texture]:
         """The textures of the last complete frame."""
         return self._pairs[0]
 
-    def read(self, name: str, first: int, end: int) -> Array:
+    def read_output(self, name: str, first: int, end: int) -> Array:
         """Rows of a source, (rows, width, 4): by a framebuffer, of which a part can be read."""
         texture = self._pairs[0][name]
         rows = self._gl.framebuffer([texture])

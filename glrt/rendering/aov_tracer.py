@@ -1,0 +1,176 @@
+"""AOVs on the driver: what the first surface behind each pixel is, gathered as the picture grows.
+
+Whole observations are gathered: a picture that ends inside one has AOVs of all its samples.
+"""
+
+import time
+from contextlib import ExitStack
+from typing import Any
+
+import numpy as np
+
+from glrt.errors import SceneError
+from glrt.gpu.context import Context
+from glrt.gpu.driver_checks import usable_rounds
+from glrt.gpu.program import tile_count
+from glrt.image.aovs import AovImage, AovImages
+from glrt.methods.light_layers import Plan
+from glrt.rendering.device_scene import DeviceScene
+from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.pack_shapes import order_of_kernel
+from glrt.rendering.pass_film import Array, PassFilm
+from glrt.rendering.passes import SLOTS, aov_pass
+from glrt.rendering.schedule import DispatchPolicy, DispatchRange, Schedule, rounds_of_search
+from glrt.scene.scene import Scene
+from glrt.settings import Aov, Settings
+
+
+class _Stage:
+    """A pass for one or two AOVs: its kernel, its film, and what its dispatches took."""
+
+    def __init__(
+        self, context: Context, plan: Plan, scene: DeviceScene, aovs: tuple[Aov, ...], most: int
+    ) -> None:
+        self.aovs, self._most = aovs, most
+        render_pass, size = aov_pass(aovs), plan.settings.size
+        self._tiles = tile_count(*size)
+        self.schedule = Schedule(self._tiles, most)
+        what = f"{' and '.join(aovs)} of {size[0]} x {size[1]} pixels"
+        with ExitStack() as refused:
+            self.film = PassFilm(context.gl, what, dict.fromkeys(render_pass.outputs, size))
+            refused.callback(self.film.release)
+
+            def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
+                scene.dispatch(kernel, self.film, plan, part, self._tiles)
+
+            self._kernel = ready(context, scene.shaders_of(render_pass), dispatch)
+            refused.pop_all()
+
+    def work_on(
+        self, context: Context, plan: Plan, scene: DeviceScene, missing: int, seconds: float
+    ) -> None:
+        """One dispatch; so many observations are missing."""
+        block = plan.settings.block
+        planned = self.schedule.next_dispatch(missing, seconds, self.film.samples // block)
+        part = planned._replace(samples=block * planned.samples)
+        start = time.perf_counter()
+        scene.dispatch(self._kernel, self.film, plan, part, self._tiles)
+        context.finish()
+        if scene.lost_any() and planned.samples > 1:
+            self.schedule.limit(planned.samples // 2)
+        elif self.schedule.record(planned, time.perf_counter() - start):
+            self.film.advance(part.samples)
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self.film.release()
+        self._kernel.release()
+
+
+class AovTracer:
+    """Gathers the AOVs that settings ask for."""
+
+    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
+        """Compile the kernels of the plan's AOVs.
+
+        Raises SceneError if an observation is beyond the driver's loop limit, and RenderError.
+        """
+        self.aovs = aovs = plan.settings.aov
+        self._context, self._size, self._block = context, plan.settings.size, plan.settings.block
+        self._stages: list[_Stage] = []
+        most = _most_observations(context, plan) if aovs else 0
+        start = time.perf_counter()
+        with ExitStack() as refused:
+            refused.callback(self.release)
+            for pair in (aovs[first : first + 2] for first in range(0, len(aovs), 2)):
+                self._stages.append(_Stage(context, plan, scene, pair, most))
+            refused.pop_all()
+        self.compile_seconds = time.perf_counter() - start if aovs else 0.0
+
+    def serve(self, settings: Settings) -> bool:
+        """Whether films and kernels do for other settings, if the kernel of the scene does."""
+        wanted = settings.size, settings.block, settings.aov
+        return wanted == (self._size, self._block, self.aovs)
+
+    def restart(self, first_sample: int = 0) -> None:
+        """Forget everything."""
+        for stage in self._stages:
+            stage.schedule.drop()
+            stage.film.restart(first_sample)
+
+    @property
+    def samples(self) -> int:
+        """Samples of each pixel in the AOV that has fewest; 0 if there is none."""
+        return min((stage.film.samples for stage in self._stages), default=0)
+
+    def is_behind(self, samples: int) -> bool:
+        """Whether an AOV has fewer samples than a picture."""
+        return any(stage.film.samples < samples for stage in self._stages)
+
+    def work_on(
+        self, plan: Plan, scene: DeviceScene, samples: int, policy: DispatchPolicy, seconds: float
+    ) -> None:
+        """One dispatch towards so many samples, in about `seconds`; nothing if they are there."""
+        for stage in self._stages:
+            missing = -(-(samples - stage.film.samples) // self._block)
+            if missing > 0:
+                planned = min(seconds, policy.limit / 2)
+                return stage.work_on(self._context, plan, scene, missing, planned)
+        return None
+
+    def read(self, scene: Scene) -> AovImages:
+        """The AOVs so far; the scene is that of the plan."""
+        found = {
+            aov: _image(aov, stage.film, prefix, scene)
+            for stage in self._stages
+            for aov, prefix in zip(stage.aovs, SLOTS, strict=False)
+        }
+        return {aov: found[aov] for aov in self.aovs}
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for stage in self._stages:
+            stage.release()
+
+
+def _most_observations(context: Context, plan: Plan) -> int:
+    """How many observations a dispatch takes; SceneError if not even one."""
+    block = plan.settings.block
+    iterations = block * (1 + rounds_of_search(plan.scene))
+    rounds = usable_rounds(context, iterations)
+    certain = block * (1 + rounds_of_search(plan.scene, 0))
+    if rounds is not None and certain > rounds:
+        raise SceneError(
+            f"--aov is beyond this driver's loop limit here: {block} camera rays take up to "
+            f"{certain} rounds of its loops, and it stops silently after {rounds}. Leave --aov "
+            "out, use --sampler independent, fewer objects or a GPU."
+        )
+    return 1 << 10 if rounds is None else max(1, rounds // iterations)
+
+
+def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:
+    """One AOV read back: numbers of the kernel become those of the scene."""
+    height = film.sources["mean"].height
+    mean, variance = (film.read_output(f"{prefix}{n}", 0, height) for n in ("mean", "variance"))
+    if aov == "object":
+        numbers = np.array([0, *(1 + index for index in order_of_kernel(scene))], np.uint32)
+        return AovImage(numbers[mean[..., 0].astype(np.int64)])
+    count, observations = mean[..., 3], variance[..., 3]
+    value, stderr = mean[..., :3], _standard_error(variance)
+    is_met = count[..., None] > 0
+    if aov == "position":
+        eye = np.array(scene.camera.position, np.float64)
+        value = np.where(is_met, value + eye, 0.0).astype(np.float32)
+    if aov == "depth":
+        value = np.where(is_met, value, np.float32(np.inf))[..., 0]
+        stderr = stderr[..., 0]
+    counts = (part.astype(np.uint32) for part in (count, observations))
+    return AovImage(np.ascontiguousarray(value), np.ascontiguousarray(stderr), *counts)
+
+
+def _standard_error(variance: Array) -> Any:
+    """Of means over observations, whose number is the last channel; NaN for fewer than two."""
+    count = variance[..., 3:]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        error = np.sqrt(variance[..., :3] / (count - 1))
+    return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)

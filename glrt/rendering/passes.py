@@ -1,0 +1,45 @@
+"""What a renderer runs over the pixels of a picture: a pass is a value.
+
+A pass is a kernel in each of the two pipelines, and the outputs that it adds samples to. An output
+is a texture of which the kernel reads the last frame, `source_NAME`, and writes the next,
+`target_NAME`. OpenGL 4.3 promises eight images, so a pass has four outputs at most; what needs more
+takes another pass.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Literal, NamedTuple
+
+from glrt.gpu.glsl import read
+from glrt.gpu.structs import read_constants
+from glrt.settings import Aov
+
+Resolved = Literal["compute", "fragment"]
+Constants = Mapping[str, bool | int]
+NO_CONSTANTS: Constants = {}
+
+_NUMBERS = read_constants(read("integrators/first_hit.glsl"))  # of AOVs
+
+
+class RenderPass(NamedTuple):
+    """A kernel over the pixels of a picture."""
+
+    shaders: Mapping[Resolved, tuple[str, ...]]  # entry files
+    outputs: tuple[str, ...]
+    constants: Constants = NO_CONSTANTS  # beside those of the scene
+
+
+RADIANCE = RenderPass(
+    {"compute": ("trace.comp",), "fragment": ("trace.vert", "trace.frag")},
+    ("mean", "variance", "block", "layers"),  # the last two only where a film keeps them
+)
+SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
+
+
+def aov_pass(aovs: Sequence[Aov]) -> RenderPass:
+    """The pass that fills one or two AOVs, which share their camera rays."""
+    numbers = [_NUMBERS[aov.upper()] for aov in aovs] + [_NUMBERS["NO_AOV"]]
+    return RenderPass(
+        {"compute": ("aov.comp",), "fragment": ("trace.vert", "aov.frag")},
+        tuple(f"{slot}{name}" for slot in SLOTS[: len(aovs)] for name in ("mean", "variance")),
+        {"FIRST_AOV": numbers[0], "SECOND_AOV": numbers[1]},
+    )

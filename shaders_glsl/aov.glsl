@@ -1,0 +1,20 @@
+// What aov.comp and aov.frag share: the outputs that tell what the first surface behind a pixel is
+// (AOVs, arbitrary output variables). The camera rays are those of the paths of trace.glsl.
+
+#include "structs/scene.glsl"
+#include "scene_arrays.glsl"
+#include "sampling/hash.glsl"
+#include "sampling/unit_float.glsl"
+#include "sampling/sobol.glsl"
+#include "sampling/sampler.glsl"
+#include "sampling/warp.glsl"
+#include "shapes/ray.glsl"
+#include "shapes/hit.glsl"
+#include "shapes/sphere.glsl"
+#include "shapes/sphere_tree.glsl"
+#include "shapes/plane.glsl"
+#include "shapes/quad.glsl"
+#include "shapes/find_hit.glsl"
+#include "integrators/camera.glsl"
+#include "film/pixel.glsl"
+#include "integrators/first_hit.glsl"

@@ -1,0 +1,63 @@
+// Outputs of the first surface that a camera ray meets. A pass gathers one or two of them, FIRST_AOV
+// and SECOND_AOV; whole observations alone, so that none is carried from dispatch to dispatch.
+
+const int NO_AOV = 0;
+const int ALBEDO = 1;
+const int NORMAL = 2;
+const int DEPTH = 3;
+const int POSITION = 4;
+const int OBJECT = 5;
+
+// Of a sample that meets nothing: add_sample leaves it out, for it is not finite.
+vec3 nothing_met() {
+    return vec3(uintBitsToFloat(0x7F800000u));
+}
+
+// Glass takes no light: 1. Metal has its reflectance, a lamp its own albedo.
+vec3 albedo_of(Material material) {
+    if (material.kind == DIELECTRIC) return vec3(1.0);
+    return material.color;
+}
+
+// Albedo and normal are 0 where nothing is met: they count there, as denoisers want.
+vec3 aov_of(int aov, Ray ray, Hit hit) {
+    if (hit.shape == NO_SHAPE) return aov == DEPTH || aov == POSITION ? nothing_met() : vec3(0.0);
+    precise Surface surface = surface_at(ray, hit);
+    if (aov == ALBEDO) return albedo_of(material_at(surface.material));
+    if (aov == NORMAL) return dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
+    if (aov == DEPTH) return vec3(dot(surface.position, frame.camera.forward));
+    return surface.position;
+}
+
+// 1 + the number of the shape in the middle of the pixel, through the middle of the lens; 0 for none.
+Pixel object_of(ivec2 place) {
+    precise vec2 at = (vec2(place) + 0.5) / vec2(frame.size);
+    precise vec3 direction = frame.camera.forward + (2.0 * at.x - 1.0) * frame.camera.tan_x * frame.camera.right
+                           + (1.0 - 2.0 * at.y) * frame.camera.tan_y * frame.camera.up;
+    precise vec3 unit_direction = normalized(direction);
+    Hit hit = closest_hit(Ray(vec3(0.0), unit_direction, NO_SHAPE, false));
+    precise Pixel pixel = empty_pixel();
+    pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + hit.shape));
+    pixel.count = 1.0;
+    return pixel;
+}
+
+void add_aov(precise inout Pixel pixel, int aov, Ray ray, Hit hit, int index) {
+    if (aov == NO_AOV || aov == OBJECT) return;
+    add_sample(pixel, loop_was_cut ? nothing_met() : aov_of(aov, ray, hit), index);
+}
+
+// `place`: pixel in the full frame. The object is found when the film is empty, and then kept.
+void add_aovs(precise inout Pixel first, precise inout Pixel second, ivec2 place) {
+    if (frame.is_empty != 0 && FIRST_AOV == OBJECT) first = object_of(place);
+    if (frame.is_empty != 0 && SECOND_AOV == OBJECT) second = object_of(place);
+    if (FIRST_AOV == OBJECT && SECOND_AOV == NO_AOV) return;
+    int end = frame.first_sample + frame.sample_count;
+    for (int index = frame.first_sample; index < end; index += 1) {
+        precise Sampler rng = sampler_at(place, index, frame.seed);
+        precise Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
+        Hit hit = closest_hit(ray);
+        add_aov(first, FIRST_AOV, ray, hit, index);
+        add_aov(second, SECOND_AOV, ray, hit, index);
+    }
+}
