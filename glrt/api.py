@@ -13,14 +13,19 @@ def render(
     scene: Scene,
     samples: int = 64,
     context: Context | Choice = "auto",
+    part: tuple[int, int] | None = None,
     **settings: Unpack[FrameOptions],
 ) -> Image:
     """Render a scene; `settings` are fields of Settings, the rest comes from the scene.
 
+    A `part` (k, n) is the k-th of n parts of the samples, k from 1, for
+    `glrt.merge`.
     Raises UsageError for a setting out of range, ContextError without OpenGL, RenderError, and
     SceneError for a scene beyond the driver.
     """
-    renderer = Renderer(scene, context=context, tier="baked", samples=samples, **settings)
+    renderer = Renderer(
+        scene, context=context, tier="baked", part=part, samples=samples, **settings
+    )
     try:
         return renderer.render().image()
     finally:

@@ -9,6 +9,7 @@ Modules, each importing only what stands above it:
 - progress: the progress bar
 - render: `glrt render`
 - view: `glrt view`
+- merge: `glrt merge`
 - compare: `glrt compare`
 - inspect: `glrt inspect`
 - chart: `glrt chart`

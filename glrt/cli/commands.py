@@ -15,6 +15,7 @@ from glrt.version import VERSION
 COMMANDS = {  # name, and what `glrt --help` says of it
     "render": "render a scene to a file",
     "view": "show a scene in a window",
+    "merge": "put the parts of a render together",
     "compare": "say whether two renders differ",
     "inspect": "show what a scene needs",
     "chart": "measure error against time",

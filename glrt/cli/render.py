@@ -6,7 +6,8 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from glrt import signals
 from glrt.cli.autosave import Autosave
@@ -15,10 +16,12 @@ from glrt.cli.process import fail, peak_bytes, since_start
 from glrt.cli.request import Order, opened, order
 from glrt.error.reliability import doubt
 from glrt.errors import RenderError
-from glrt.image.image import check_writable
+from glrt.image.image import Image, check_writable
+from glrt.image.partition import parse_part
 from glrt.methods.omissions import left_out, omissions
+from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+from glrt.rendering.stopping import Ending, Interruption, Limits, render_to_limit
 from glrt.scene.limits import cautions
 from glrt.text import counted
 
@@ -58,6 +61,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="E",
         help="stop at this estimated relative RMS error (2 %%: 0.02)",
     )
+    parser.add_argument(
+        "--part",
+        type=_part,
+        metavar="K/N",
+        help="render the K-th of N parts of the samples, which `glrt merge` puts together",
+    )
     add_context(parser)
     add_pipeline(parser)
     parser.add_argument(
@@ -67,6 +76,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
     parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
+
+
+def _part(text: str) -> tuple[int, int]:
+    try:
+        return parse_part(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 Watch = Callable[[Renderer], None]
@@ -90,7 +106,7 @@ def _run(arguments: argparse.Namespace) -> int:
         from glrt.analysis.method_choice.advice import choose
 
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
-        wanted = Order(wanted.scene, *chosen)
+        wanted = replace(wanted, scene=wanted.scene, settings=chosen[0], limits=chosen[1])
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption)
 
@@ -103,7 +119,7 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
     start = time.perf_counter()
     with _watch(arguments, limits, autosave, begun) as watch:
         try:
-            image, error_ratio = render_to_limit(renderer, limits, interruption, watch)
+            image, error_ratio = _ending(renderer, wanted, interruption, watch)
         except RenderError as error:
             raise RenderError(f"{error} {autosave.advice}".strip()) from error
     seconds = {
@@ -115,15 +131,22 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
         return fail(signals.NOTHING, _signal_code(interruption))
     estimate = image.error
     autosave.keep(image)
-    _tell(arguments, renderer, begun, seconds, estimate)
+    _tell(arguments, Done(renderer, image, begun, seconds, estimate))
     if interruption.signal is not None:
-        text = f"interrupted after {renderer.samples} samples, which are saved"
+        text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
         return fail(unreached(arguments.error, limits.error, estimate, renderer.samples), 1)
     if not arguments.quiet and (caution := doubt(error_ratio, limits.error)):
         print(f"glrt: caution: {caution}", file=sys.stderr)
     return 0
+
+
+def _ending(renderer: Renderer, wanted: Order, interruption: Interruption, watch: Watch) -> Ending:
+    """The picture: of one render, or merged from its parts."""
+    if wanted.merged:
+        return Ending(render_parts(renderer, wanted.merged, interruption, watch))
+    return render_to_limit(renderer, wanted.limits, interruption, watch)
 
 
 def unreached(wanted: float, noise: float, estimate: float | None, samples: int) -> str:
@@ -162,29 +185,49 @@ def _watch(
         yield watch
 
 
-def _tell(
-    arguments: argparse.Namespace,
-    renderer: Renderer,
-    begun: int,
-    seconds: dict[str, float],
-    error: float | None,
-) -> None:
+class Done(NamedTuple):
+    """A render that has ended."""
+
+    renderer: Renderer
+    image: Image
+    begun: int  # samples that each pixel had at the start
+    seconds: dict[str, float]
+    error: float | None
+
+    @property
+    def new(self) -> int:
+        """Samples of each pixel that were rendered."""
+        return self.image.samples - self.begun
+
+    @property
+    def rate(self) -> float:
+        """Samples of pixels a second."""
+        width, height = self.renderer.size
+        return self.new * width * height / max(self.seconds["render"], 1e-9)
+
+    @property
+    def dropped(self) -> int:
+        """Samples that were not finite."""
+        state = self.image.film_state
+        return int(state.dropped.sum(dtype=float)) if state else self.renderer.nonfinite()
+
+
+def _tell(arguments: argparse.Namespace, done: Done) -> None:
     """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    renderer, begun, new = done.renderer, done.begun, done.new
     width, height = renderer.size
-    new = renderer.samples - begun
-    rate = new * width * height / max(seconds["render"], 1e-9)
     if arguments.json:
-        print(json.dumps(_figures(arguments, renderer, seconds, rate, error)), flush=True)
+        print(json.dumps(_figures(arguments, done)), flush=True)
     elif not arguments.quiet:
-        known = "" if error is None else f", estimated error {100 * error:.2g} %"
+        known = "" if done.error is None else f", estimated error {100 * done.error:.2g} %"
         names = ", ".join(arguments.outputs)
         more = f" ({new} of them new)" if begun else ""
         print(
-            f"Wrote {names}: {width} x {height}, {counted(renderer.samples, 'sample')}{more} in "
-            f"{seconds['render']:.1f} s ({rate / 1e6:.2f} million samples/s){known}.",
+            f"Wrote {names}: {width} x {height}, {counted(done.image.samples, 'sample')}{more} in "
+            f"{done.seconds['render']:.1f} s ({done.rate / 1e6:.2f} million samples/s){known}.",
             file=sys.stderr,
         )
-        if dropped := renderer.nonfinite():
+        if dropped := done.dropped:
             print(
                 f"{dropped:,} samples were dropped: they were not finite, or exceeded the driver's "
                 "loop limit. If there are many, the picture is biased: use fewer bounces.",
@@ -194,28 +237,22 @@ def _tell(
         print(left_out(renderer.settings, missing), file=sys.stderr)
 
 
-def _figures(
-    arguments: argparse.Namespace,
-    renderer: Renderer,
-    seconds: dict[str, float],
-    rate: float,
-    error: float | None,
-) -> dict[str, Any]:
-    settings = renderer.settings
+def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
+    renderer, settings = done.renderer, done.renderer.settings
     return {
         "scene": arguments.scene or arguments.resume,
         "width": settings.width,
         "height": settings.height,
-        "samples": renderer.samples,
+        "samples": done.image.samples,
         "bounces": settings.bounces,
         "method": settings.method,
         "seed": settings.seed,
         "pipeline": renderer.pipeline,
         "context": renderer.context.route,
         "renderer": renderer.context.renderer,
-        "seconds": {name: round(value, 6) for name, value in seconds.items()},
-        "samples_per_second": round(rate, 1),
-        "error": error,
-        "nonfinite": renderer.nonfinite(),
+        "seconds": {name: round(value, 6) for name, value in done.seconds.items()},
+        "samples_per_second": round(done.rate, 1),
+        "error": done.error,
+        "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
     }

@@ -12,6 +12,7 @@ from glrt.cli.process import since_start
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline
 from glrt.image.image import Image
+from glrt.image.partition import Partition, one_part
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting, recipe_to_resume
 from glrt.image.sources import load_recipe, recipe_of
@@ -32,6 +33,8 @@ class Order:
     settings: Settings
     limits: Limits
     begun: Image | None = None  # the picture to go on from
+    part: tuple[int, int] | None = None  # number and count of the part that is wanted
+    merged: Partition | None = None  # the parts that the picture was merged from
 
 
 def order(arguments: argparse.Namespace) -> Order:
@@ -43,7 +46,7 @@ def order(arguments: argparse.Namespace) -> Order:
     if arguments.scene is None:
         raise UsageError("SCENE is missing. See `glrt render --help`.")
     scene, settings = scene_and_settings(arguments)
-    return _limited(arguments, Order(scene, settings, Limits(0)))
+    return _in_parts(arguments, _limited(arguments, Order(scene, settings, Limits(0))))
 
 
 def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
@@ -51,6 +54,27 @@ def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
     scene, recipe = load_recipe(arguments.scene)
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
     return with_lights(scene, dict(arguments.lights)), settings
+
+
+def _in_parts(arguments: argparse.Namespace, order: Order) -> Order:
+    """The order with the part that is wanted, or the parts of the picture that SCENE is.
+
+    By its own limits, --time and --error, a picture is rendered in one piece.
+    """
+    recipe, settings = recipe_of(arguments.scene), order.settings
+    if arguments.part:
+        number, count = arguments.part
+        length = one_part(number, count, settings).samples(settings)
+        return replace(order, part=arguments.part, limits=Limits(length))
+    partition = recipe.partition if recipe else None
+    if not recipe or not partition or order.limits.deadline or order.limits.error:
+        return order
+    first = (partition.numbers[0], partition.count)
+    length = one_part(*first, settings).samples(settings)
+    if len(partition.numbers) > 1:
+        return replace(order, part=first, merged=partition)
+    is_same = settings.samples == recipe.settings.samples
+    return replace(order, part=first, limits=Limits(recipe.samples if is_same else length))
 
 
 def check_limit(name: str, value: float | None) -> None:
@@ -64,13 +88,16 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
     route, pipeline = arguments.context, arguments.pipeline
     if order.begun is None:
         recipe = recipe_of(arguments.scene)
-        return open_renderer(order.scene, order.settings, recipe, route, "baked", pipeline)
+        return open_renderer(
+            order.scene, order.settings, recipe, route, "baked", pipeline, order.part
+        )
     recipe = recipe_to_resume(order.begun)
     if pipeline == "auto" and recipe.pipeline == "fragment":
         pipeline = "fragment"
     tier: Tier = next((tier for tier in TIERS if tier == recipe.tier), "baked")
     with _going_on(arguments.resume):
-        return Renderer(order.scene, order.settings, route, tier, pipeline).resume(order.begun)
+        renderer = Renderer(order.scene, order.settings, route, tier, pipeline, part=order.part)
+        return renderer.resume(order.begun)
 
 
 def open_renderer(
@@ -80,6 +107,7 @@ def open_renderer(
     context: Context | Choice = "auto",
     tier: Tier = "generic",
     pipeline: Pipeline = "auto",
+    part: tuple[int, int] | None = None,
 ) -> Renderer:
     """A renderer of a scene, which came from a picture if there is a recipe.
 
@@ -88,7 +116,7 @@ def open_renderer(
     """
     light = recipe.traced if recipe else None
     if not (recipe and light and _is_shown(recipe, scene, settings)):
-        return Renderer(scene, settings, context, tier, pipeline)
+        return Renderer(scene, settings, context, tier, pipeline, part=part)
     before = settings_for(settings, bounces=light.bounces)
     renderer = Renderer(light.scene, before, context, tier, pipeline, light.layering)
     cost = renderer.update(scene, **dict(settings))
@@ -109,7 +137,7 @@ def _limited(arguments: argparse.Namespace, order: Order) -> Order:
     seconds = arguments.time
     deadline = None if seconds is None else time.perf_counter() - since_start() + seconds
     limits = Limits(samples, deadline, arguments.error)
-    return Order(order.scene, settings_for(order.settings, samples=samples), limits, order.begun)
+    return replace(order, settings=settings_for(order.settings, samples=samples), limits=limits)
 
 
 def _order_to_go_on(arguments: argparse.Namespace) -> Order:
@@ -127,8 +155,15 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
         order = _limited(arguments, Order(scene, settings, Limits(0), image))
         update = {"scene": scene, "settings": order.settings}
         fitting(image, recipe.model_copy(update=update))
+        if recipe.partition:
+            return _part_to_go_on(order, recipe.partition)
         _check_samples(arguments, image.samples, order.limits)
     return order
+
+
+def _part_to_go_on(order: Order, partition: Partition) -> Order:
+    length = partition.samples(order.settings)
+    return replace(order, part=(partition.numbers[0], partition.count), limits=Limits(length))
 
 
 def _check_samples(arguments: argparse.Namespace, taken: int, limits: Limits) -> None:

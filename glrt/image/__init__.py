@@ -5,8 +5,11 @@ Modules, each importing only what stands above it:
 - tonemap: from radiance to the colours of a screen
 - aovs: AOVs of a picture, in channels of a file
 - film_state: what a film holds beside its mean, in channels of a file
+- partition: a render in parts
 - recipe: what made a picture, as JSON
 - image: a picture and its files: EXR, PNG, NPY
+- differences: what differs between two recipes, in words
+- merge: parts put together
 - resume: whether a picture can be rendered on
 - sources: what SCENE means: a file, a name, a picture
 """

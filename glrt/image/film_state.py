@@ -42,6 +42,24 @@ def keep(film: FilmState, rows: slice, part: FilmState) -> None:
             array[rows] = band
 
 
+def error_of_mean(
+    mean: Array, variance: Array, observations: Array, part: Array, share: Array
+) -> Array:
+    """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations.
+
+    The mean M of k whole observations has the variance V = v / (k - 1), v being that of theirs
+    about M. A part P of one, a share a of the samples, has a variance of its own, for Sobol's
+    points are worth more together: (P - M)^2 - V is an estimate without bias. So that of the mean
+    (1 - a) M + a P is (1 - a)^2 V + a^2 ((P - M)^2 - V).
+    """
+    count, a = observations[..., None], share[..., None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        whole = variance / (count - 1)
+        apart = (part - mean) / (1 - a)
+        error = np.sqrt(np.maximum(1 - 2 * a, 0) * whole + np.square(a * apart))
+    return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)
+
+
 def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Channels:
     """Channels that `from_channels` reads back; `block` are the samples of an observation.
 

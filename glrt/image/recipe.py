@@ -6,6 +6,7 @@ from typing import Annotated, Any, Self
 from pydantic import Field, ValidationError, model_validator
 
 from glrt.errors import SceneError
+from glrt.image.partition import Partition
 from glrt.methods.light_layers import Layering, Plan, Weights, are_trivial
 from glrt.scene.scene import Scene
 from glrt.scene.toml import LARGEST, parse_scene, scene_to_dict
@@ -60,10 +61,21 @@ class Recipe(Frozen):
         None,
         description="the light that was traced, if it differs from the scene's, and its weights",
     )
+    partition: Partition | None = Field(
+        None, description="the parts that the picture was merged from, or the part that it is"
+    )
+
+    @model_validator(mode="after")
+    def _has_samples_for_each_part(self) -> Self:
+        if self.partition and not self.samples <= self.partition.samples(self.settings):
+            raise ValueError(f"{self.samples} samples are not of its parts, {self.partition}")
+        return self
 
     @property
     def taken(self) -> Settings:
-        """The settings with the samples that were really taken."""
+        """The settings with the samples that were really taken; parts are those of all samples."""
+        if self.partition:
+            return self.settings
         return self.settings.model_copy(update={"samples": self.samples or self.settings.samples})
 
     def to_json(self) -> str:

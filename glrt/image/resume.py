@@ -1,16 +1,22 @@
 """Check whether a render can continue a picture, and name what differs."""
 
 from collections.abc import Iterator
-from typing import Any
 
 from glrt.errors import UsageError
+from glrt.image.differences import (
+    Pair,
+    differing_fields,
+    differing_scenes,
+    differing_settings,
+    first_of,
+)
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
-from glrt.scene.toml import scene_to_dict
-from glrt.settings import Cost, cost_of
+from glrt.settings import Cost, Settings, cost_of
 
-SAME = ("version", "renderer", "tier", "pipeline")  # else no recipe would give the same bits again
+# Else no recipe would give the same bits again.
+SAME = ("version", "renderer", "tier", "pipeline", "partition")
 
 
 def recipe_to_resume(image: Image) -> Recipe:
@@ -24,6 +30,8 @@ def recipe_to_resume(image: Image) -> Recipe:
         raise UsageError(
             "its light was changed in the window: it lacks the layers that it was summed from"
         )
+    if image.recipe.partition and len(image.recipe.partition.numbers) > 1:
+        raise UsageError("it was merged: a plain render adds its samples in another order")
     if image.film_state is None:
         raise UsageError(
             "it has no film state: another renderer or an older glrt wrote it, or another program "
@@ -39,52 +47,16 @@ def fitting(image: Image, wanted: Recipe) -> FilmState:
     that names what else does.
     """
     recipe = recipe_to_resume(image)
-    differences = [*_differences(recipe, wanted)]
-    if differences:
-        more = f" ({len(differences) - 1} more differ)" if len(differences) > 1 else ""
-        raise UsageError(f"{differences[0]}{more}")
+    if differences := [*_differences(Pair(recipe, wanted))]:
+        raise UsageError(first_of(differences))
     assert image.film_state is not None
     return image.film_state
 
 
-def _differences(recipe: Recipe, wanted: Recipe) -> Iterator[str]:
+def _differences(pair: Pair) -> Iterator[str]:
     """What the picture has and what is wanted, one difference at a time."""
-    for name in type(recipe.settings).model_fields:
-        if cost_of(name) is not Cost.FREE:
-            yield from _told(name, getattr(recipe.settings, name), getattr(wanted.settings, name))
-    yield from _apart("", _content(recipe), _content(wanted))
-    for name in SAME:
-        yield from _told(name, getattr(recipe, name), getattr(wanted, name))
-
-
-def _content(recipe: Recipe) -> dict[str, Any]:
-    """The scene, less what changes no sample."""
-    table = scene_to_dict(recipe.scene)
-    table.pop("title", None)
-    table.get("render", {}).pop("samples", None)
-    return table
-
-
-def _apart(place: str, before: Any, after: Any) -> Iterator[str]:
-    """Where two values out of a scene differ."""
-    if isinstance(before, dict) and isinstance(after, dict):
-        for key in dict.fromkeys([*before, *after]):
-            where = f"{place}.{key}" if place else f"{key}"
-            yield from _apart(where, before.get(key), after.get(key))
-    elif place == "objects" and len(before) == len(after):
-        for number, pair in enumerate(zip(before, after, strict=True)):
-            yield from _apart(f"objects[{number}]", *pair)
-    elif place == "objects":
-        yield from _told("the number of objects", len(before), len(after))
-    else:
-        yield from _told(place, before, after)
-
-
-def _told(name: str, before: Any, after: Any) -> Iterator[str]:
-    if before != after:
-        yield f"{name} is {_shown(before)} in the picture and {_shown(after)} now"
-
-
-def _shown(value: Any) -> str:
-    text = "not given" if value is None else str(value)
-    return text if len(text) <= 80 else f"{text[:80]}..."
+    settings = [name for name in Settings.model_fields if cost_of(name) is not Cost.FREE]
+    parts = ["samples"] if pair.left.partition else []  # which samples are in a part
+    yield from differing_settings(pair, settings + parts)
+    yield from differing_scenes(pair)
+    yield from differing_fields(pair, SAME)

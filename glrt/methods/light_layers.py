@@ -34,6 +34,7 @@ class Plan:
     settings: Settings
     layering: Layering
     weights: Weights = (ONE,)
+    first_sample: int = 0  # above 0 for a part of a render
 
     @property
     def layers(self) -> int:
@@ -64,17 +65,18 @@ class Plan:
         return tuple(ONE if layer == shown else NONE for layer in range(self.layers))
 
 
-def plan_for(scene: Scene, settings: Settings, layering: Layering) -> Plan:
+def plan_for(scene: Scene, settings: Settings, layering: Layering, first_sample: int = 0) -> Plan:
     """What to trace: with light groups apart, lamps that are off are traced at 1.
 
     So one that is turned on is there at once.
     """
     intensities = scene.light_groups
     dark = [group for group in emitters(scene) if intensities[group] == 0]
+    plan = Plan(scene, settings, layering, first_sample=first_sample)
     if layering != "groups" or not dark:
-        return Plan(scene, settings, layering)
+        return plan
     lights = {**scene.lights, **dict.fromkeys(dark, 1.0)}
-    plan = Plan(scene.model_copy(update={"lights": lights}), settings, layering)
+    plan = replace(plan, scene=scene.model_copy(update={"lights": lights}))
     return plan.relit(scene, settings, layering) or plan
 
 

@@ -22,4 +22,5 @@ Modules, each importing only what stands above it:
 - false_colors: numbers of pixels as colours
 - renderer: scene and settings to samples, step by step
 - stopping: render to a limit of samples, time or error
+- parts: a merged picture rendered again
 """

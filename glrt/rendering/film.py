@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 
 from glrt.errors import RenderError, UsageError
-from glrt.image.film_state import FilmState
+from glrt.image.film_state import FilmState, error_of_mean
 from glrt.rendering.pass_film import Array, PassFilm, Size
 
 BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
@@ -140,16 +140,5 @@ def _outputs(extent: Extent) -> dict[str, Size]:
 
 
 def standard_error(film: Exposure) -> Array:
-    """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations.
-
-    The mean M of k whole observations has the variance V = v / (k - 1), v being that of theirs
-    about M. A part P of one, a share a of the samples, has a variance of its own, for Sobol's
-    points are worth more together: (P - M)^2 - V is an estimate without bias. So that of the mean
-    (1 - a) M + a P is (1 - a)^2 V + a^2 ((P - M)^2 - V).
-    """
-    count, share = film.observations[..., None], film.share[..., None]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        whole = film.variance / (count - 1)
-        apart = (film.part - film.mean) / (1 - share)
-        error = np.sqrt(np.maximum(1 - 2 * share, 0) * whole + np.square(share * apart))
-    return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)
+    """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations."""
+    return error_of_mean(film.mean, film.variance, film.observations, film.part, film.share)

@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
+from dataclasses import replace
 from typing import Any, Unpack
 
 import moderngl
@@ -13,6 +14,7 @@ from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
 from glrt.gpu.glsl import Source
 from glrt.image.image import Image
+from glrt.image.partition import Partition, one_part, sample_range
 from glrt.image.recipe import Recipe, traced
 from glrt.image.resume import fitting
 from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_for
@@ -44,6 +46,7 @@ class Renderer:
         pipeline: Pipeline = "auto",
         layering: Layering = "none",
         variant: Variant = PLAIN,
+        part: tuple[int, int] | None = None,
         **overrides: Unpack[SettingOptions],
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
@@ -53,19 +56,21 @@ class Renderer:
         The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
         A `variant` of the kernel serves experiments.
         `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
+        A `part` (k, n) renders the k-th of n parts of the settings' samples, k from 1.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
+        self._part: Partition | None = one_part(*part, self.settings) if part else None
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
         with ExitStack() as refused:
             if self._owns_context:
                 refused.callback(self.context.gl.release)
             self.pipeline = resolve("compute" if layering != "none" else pipeline, self.context)
-            self.plan = plan_for(scene, self.settings, layering)
+            self.plan = plan_for(scene, self.settings, layering, self._samples.start)
             with self.context.gl:
                 options = KernelOptions(self.pipeline, tier, variant)
                 self._tracer = Tracer(self.context, self.plan, options)
@@ -76,6 +81,24 @@ class Renderer:
     def samples(self) -> int:
         """How many samples each pixel has."""
         return self.film.samples
+
+    @property
+    def wanted_samples(self) -> int:
+        """How many each pixel is to have: those of the settings, or of the part."""
+        return len(self._samples)
+
+    def begin_part(self, number: int) -> None:
+        """Begin another part of the same render."""
+        assert self._part
+        self._part = one_part(number, self._part.count, self.settings)
+        self.plan = replace(self.plan, first_sample=self._samples.start)
+        self._tracer.begin_at(self._samples.start)
+
+    @property
+    def _samples(self) -> range:
+        if not self._part:
+            return range(self.settings.samples)
+        return sample_range(self._part, self._part.numbers[0], self.settings)
 
     @property
     def is_behind(self) -> bool:
@@ -150,7 +173,7 @@ class Renderer:
                 self._tracer.use_aovs(after[1])
             (self.scene, self.settings), self.plan = after, relit
             return cost
-        plan = plan_for(*after, layering)
+        plan = plan_for(*after, layering, self._samples.start)
         with self.context.gl:
             self._tracer, cost = self._tracer.replaced_for(plan)
         (self.scene, self.settings), self.plan = after, plan
@@ -185,7 +208,7 @@ class Renderer:
         Returns whether the picture changed: a frame, one sample of each pixel or more, may take
         several calls. Until it is complete the picture stays as it was.
         """
-        target = self.settings.samples if samples is None else samples
+        target = self.wanted_samples if samples is None else samples
         before, start, spent = self.shown, time.perf_counter(), 0.0
         while (self.samples < target or self.is_behind) and spent <= ENOUGH * seconds:
             self._work(target - self.samples, INTERACTIVE, seconds - spent)
@@ -200,7 +223,7 @@ class Renderer:
         By default, those of the settings; where there are as many already, nothing is done.
         `goes_on` is asked after each dispatch, of which a frame may need several.
         """
-        target = self.settings.samples if samples is None else samples
+        target = self.wanted_samples if samples is None else samples
         while self.samples < target:
             self._work(target - self.samples, HEADLESS)
             if goes_on and not goes_on(self):
@@ -250,6 +273,7 @@ class Renderer:
             tier=self._tracer.tier,
             pipeline=self.pipeline,
             traced=traced(self.plan, weights),
+            partition=self._part,
         )
 
     def _work(self, remaining: int, policy: DispatchPolicy, seconds: float = math.inf) -> None:

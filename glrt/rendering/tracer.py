@@ -64,6 +64,8 @@ class Tracer:
                 refused.callback(self.switch.release)
             self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
+        if not before:
+            self.restart()
 
     def replaced_for(self, plan: Plan) -> tuple["Tracer", Cost]:
         """A tracer for another plan, without samples yet; and what the change cost.
@@ -77,8 +79,8 @@ class Tracer:
             self.film.release()
         if after.aovs is not self.aovs:
             self.aovs.release()
-        after.film.restart()
-        after.aovs.restart()
+        after.film.restart(plan.first_sample)
+        after.aovs.restart(plan.first_sample)
         if after.switch is not self.switch:
             self.switch.release()
             return after, Cost.RECOMPILE
@@ -105,9 +107,14 @@ class Tracer:
     def restart(self) -> None:
         """Begin to accumulate anew."""
         self.switch.schedule.drop()
-        self.film.restart()
-        self.aovs.restart()
+        self.film.restart(self._plan.first_sample)
+        self.aovs.restart(self._plan.first_sample)
         self._tiers.clear()
+
+    def begin_at(self, first_sample: int) -> None:
+        """Begin to accumulate anew, with this sample."""
+        self._plan = replace(self._plan, first_sample=first_sample)
+        self.restart()
 
     def use_aovs(self, settings: Settings) -> None:
         """Gather other AOVs; on an error, which is as the constructor raises it, the same."""

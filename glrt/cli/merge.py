@@ -1,0 +1,87 @@
+"""`glrt merge`: put the parts of a render together."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from glrt.errors import UsageError
+from glrt.image.image import Image, check_writable, read_recipe
+from glrt.image.merge import merged_image
+from glrt.image.recipe import Recipe
+from glrt.text import counted
+
+DESCRIPTION = "Put the parts of a render together, which `glrt render --part K/N` made."
+EPILOG = (
+    "The picture does not depend on the order of the parts. Rendered again from its recipe it has "
+    "the same bits; a render in one piece adds its samples in another order, so its last bits "
+    "differ. Exit codes: 0 done, 2 wrong usage, or parts that are missing or of other renders."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "parts", metavar="PART.exr", nargs="+", help="the parts of one render, in any order"
+    )
+    parser.add_argument(
+        "-o",
+        dest="outputs",
+        metavar="FILE",
+        action="append",
+        required=True,
+        help="output: .exr, .png or .npy; may be repeated",
+    )
+    parser.add_argument(
+        "--incomplete",
+        action="store_true",
+        help="merge what is there, although parts are missing",
+    )
+    parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
+    parser.add_argument("--quiet", action="store_true", help="print no summary")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """0; what cannot be merged is a UsageError."""
+    for output in arguments.outputs:
+        check_writable(output)
+    recipes = _recipes(arguments.parts)
+    image = merged_image(recipes, Image.load, arguments.incomplete)
+    for output in arguments.outputs:
+        image.save(output)
+    _tell(arguments, image)
+    return 0
+
+
+def _recipes(names: list[str]) -> dict[str, Recipe | None]:
+    """The recipes of files, by name; UsageError for what is no part, and for a name given twice."""
+    for name in names:
+        if Path(name).suffix.lower() != ".exr":
+            raise UsageError(f"{name} is not an .exr file: parts are, for they keep their film.")
+        if names.count(name) > 1:
+            raise UsageError(f"{name} is given twice; leave one out.")
+    return {name: read_recipe(name) for name in names}
+
+
+def _tell(arguments: argparse.Namespace, image: Image) -> None:
+    recipe, error = image.recipe, image.error
+    assert recipe
+    assert recipe.partition
+    held, count = len(recipe.partition.numbers), recipe.partition.count
+    if arguments.json:
+        figures = {"parts": held, "of": count, "samples": image.samples, "error": error}
+        print(json.dumps(figures), flush=True)
+    elif not arguments.quiet:
+        known = "" if error is None else f", estimated error {100 * error:.2g} %"
+        names = ", ".join(arguments.outputs)
+        print(
+            f"Wrote {names}: {held} of {counted(count, 'part')}, "
+            f"{counted(image.samples, 'sample')}{known}.",
+            file=sys.stderr,
+        )
+    if " and " in recipe.renderer and not arguments.quiet:
+        print(
+            f"glrt: caution: the parts come from several drivers ({recipe.renderer}): rendered "
+            "again on one, the picture has other last bits.",
+            file=sys.stderr,
+        )

@@ -1,0 +1,199 @@
+"""Parts of a render put together: one picture, whoever rendered them and in whatever order."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.errors import UsageError
+from glrt.image.aovs import AovImage
+from glrt.image.differences import (
+    Pair,
+    differing_fields,
+    differing_scenes,
+    differing_settings,
+    first_of,
+)
+from glrt.image.film_state import FilmState, error_of_mean
+from glrt.image.image import Image
+from glrt.image.moments import Moments, merged
+from glrt.image.partition import Partition
+from glrt.image.recipe import Recipe
+from glrt.settings import Aov, Settings
+from glrt.text import counted
+
+Recipes = Mapping[str, Recipe]  # by the names that messages call pictures
+
+_DRIVERS = ("renderer", "tier", "pipeline")  # by these, the last bits of samples may differ
+_RADIANCE = "radiance"
+
+
+def merge(images: Sequence[Image], incomplete: bool = False) -> Image:
+    """The picture that all parts of a render make (`glrt.render(scene, part=(k, n))`).
+
+    `incomplete`: where parts are missing, the picture of the others, with the error that it has;
+    else that is a UsageError. So are pictures that are no parts, or not of one render, a part that
+    is given twice, and one that was not rendered to its end.
+    """
+    named = {f"image {number}": image for number, image in enumerate(images, 1)}
+    recipes = {name: image.recipe for name, image in named.items()}
+    return merged_image(recipes, named.__getitem__, incomplete)
+
+
+def merged_image(
+    recipes: Mapping[str, Recipe | None], load: Callable[[str], Image], incomplete: bool = False
+) -> Image:
+    """As `merge`, of pictures by name, which are loaded when their turn comes: few at a time."""
+    parts = checked(recipes, incomplete)
+    aovs = next(iter(parts.values())).settings.aov
+    order = sorted(parts, key=lambda name: _number(parts[name]))
+
+    def films_of(name: str) -> Mapping[str, Moments]:
+        return _moments(name, load(name), aovs)
+
+    films = merged([partial(films_of, name) for name in order])
+    recipe = _recipe_of([parts[name] for name in order])
+    objects = {"object": load(order[0]).aovs["object"]} if "object" in aovs else {}
+    found = {name: _aov_image(name, films[name]) for name in aovs if name in films} | objects
+    return _image(films[_RADIANCE], recipe, {name: found[name] for name in aovs})
+
+
+def checked(recipes: Mapping[str, Recipe | None], incomplete: bool) -> Recipes:
+    """The recipes of pictures that can be merged; UsageError says why they cannot."""
+    parts = {name: _part_of(name, recipe) for name, recipe in recipes.items()}
+    if not parts:
+        raise UsageError("There is nothing to merge: give the parts of a render.")
+    (first, recipe), *others = parts.items()
+    for name, other in others:
+        pair = Pair(recipe, other, f"in {first}", f"in {name}")
+        if differences := _differences(pair):
+            raise UsageError(f"Not parts of one render: {first_of(differences)}.")
+    _check_numbers(parts, incomplete)
+    return parts
+
+
+def _part_of(name: str, recipe: Recipe | None) -> Recipe:
+    """The recipe of one part that is whole."""
+    if recipe is None or recipe.partition is None:
+        raise UsageError(f"{name} is not a part of a render: `glrt render --part K/N` makes parts.")
+    if len(recipe.partition.numbers) > 1:
+        raise UsageError(
+            f"{name} was merged already, of parts {recipe.partition}; give the parts themselves, "
+            "so that the bits of the picture do not depend on the order of merges."
+        )
+    wanted = recipe.partition.samples(recipe.settings)
+    if recipe.samples != wanted:
+        raise UsageError(
+            f"{name} has {recipe.samples} of its {counted(wanted, 'sample')}: it was interrupted; "
+            f"finish it with `glrt render --resume {name} -o {name}`."
+        )
+    return recipe
+
+
+def _differences(pair: Pair) -> list[str]:
+    settings = [name for name in Settings.model_fields if name not in ("exposure", "tonemap")]
+    counts = [recipe.partition.count for recipe in (pair.left, pair.right) if recipe.partition]
+    return [
+        *differing_fields(pair, ("version",)),
+        *differing_settings(pair, settings),
+        *pair.tell("the number of parts", *counts),
+        *differing_scenes(pair),
+    ]
+
+
+def _check_numbers(parts: Recipes, incomplete: bool) -> None:
+    held: dict[int, str] = {}
+    for name, recipe in parts.items():
+        number = _number(recipe)
+        if number in held:
+            raise UsageError(
+                f"{held[number]} and {name} are both part {recipe.partition}; leave one out."
+            )
+        held[number] = name
+    missing = _recipe_of(list(parts.values())).partition
+    if missing and not missing.is_complete and not incomplete:
+        numbers, count = missing.missing, missing.count
+        shown = ", ".join(map(str, numbers[:10])) + (", ..." if len(numbers) > 10 else "")
+        raise UsageError(
+            f"{len(numbers)} of {count} parts are missing: {shown}. Render what is missing, "
+            f"as with --part {numbers[0]}/{count}, or give --incomplete for the picture of the "
+            "others."
+        )
+
+
+def _number(recipe: Recipe) -> int:
+    assert recipe.partition
+    return recipe.partition.numbers[0]
+
+
+def _recipe_of(parts: Sequence[Recipe]) -> Recipe:
+    """The recipe of the merged picture."""
+    assert parts[0].partition
+    numbers = tuple(sorted(map(_number, parts)))
+    partition = Partition(count=parts[0].partition.count, numbers=numbers)
+    drivers = {n: " and ".join(sorted({getattr(p, n) for p in parts})) for n in _DRIVERS}
+    samples = partition.samples(parts[0].settings)
+    return parts[0].model_copy(update={"partition": partition, "samples": samples, **drivers})
+
+
+def _moments(name: str, image: Image, aovs: Sequence[Aov]) -> dict[str, Moments]:
+    """What a picture has gathered, by the names of its films."""
+    state = image.film_state
+    if state is None or any(aov not in image.aovs for aov in aovs):
+        raise UsageError(
+            f"{name} lacks the state of its film: another program saved it again; render it anew."
+        )
+    means = [aov for aov in aovs if aov != "object"]
+    radiance = Moments(
+        _counts(image.samples - state.dropped),
+        image.radiance.astype(np.float64),
+        _counts(state.observations),
+        state.variance.astype(np.float64),
+        _counts(state.begun),
+        state.part.astype(np.float64),
+    )
+    return {_RADIANCE: radiance, **{aov: _aov_moments(image.aovs[aov]) for aov in means}}
+
+
+def _aov_moments(aov: AovImage) -> Moments:
+    """Of an AOV that is an estimate: it holds whole observations."""
+    assert aov.stderr is not None
+    assert aov.count is not None
+    assert aov.observations is not None
+    height, width = aov.count.shape
+    count, observations = _counts(aov.count), _counts(aov.observations)
+    value, stderr = (part.reshape(height, width, -1) for part in (aov.value, aov.stderr))
+    mean = np.where(count > 0, value, 0).astype(np.float64)
+    is_known = observations >= 2
+    variance = np.where(is_known, stderr, 0).astype(np.float64) ** 2 * (observations - 1)
+    nothing = np.zeros_like(mean)
+    return Moments(count, mean, observations, variance, np.zeros_like(count), nothing)
+
+
+def _counts(plane: NDArray[Any]) -> NDArray[np.float64]:
+    return plane[..., None].astype(np.float64)
+
+
+def _image(film: Moments, recipe: Recipe, aovs: Mapping[Aov, AovImage]) -> Image:
+    mean, variance, part = (x.astype(np.float32) for x in (film.mean, film.variance, film.part))
+    count, observations, begun = (
+        x[..., 0].astype(np.float32) for x in (film.samples, film.observations, film.begun)
+    )
+    share = np.asarray(begun / np.maximum(count, 1), np.float32)
+    stderr = error_of_mean(mean, variance, observations, part, share)
+    state = FilmState(variance, recipe.samples - count, observations, part, begun)
+    return Image(mean, stderr, recipe.samples, recipe, state, aovs)
+
+
+def _aov_image(name: str, film: Moments) -> AovImage:
+    mean, variance = film.mean.astype(np.float32), film.variance.astype(np.float32)
+    counts = [x[..., 0].astype(np.uint32) for x in (film.samples, film.observations)]
+    observations = counts[1].astype(np.float32)
+    no_part = np.zeros_like(mean), np.zeros_like(observations)
+    stderr = error_of_mean(mean, variance, observations, *no_part)
+    if name == "depth":
+        value = np.where(film.samples > 0, mean, np.float32(np.inf))
+        return AovImage(value[..., 0], stderr[..., 0], *counts)
+    return AovImage(mean, stderr, *counts)

@@ -1,0 +1,26 @@
+"""A picture that was merged from parts, rendered again to the same bits: part by part."""
+
+from collections.abc import Callable
+
+from glrt.image.image import Image
+from glrt.image.merge import merge
+from glrt.image.partition import Partition
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+
+
+def render_parts(
+    renderer: Renderer,
+    partition: Partition,
+    interruption: Interruption,
+    watch: Callable[[Renderer], None] | None = None,
+) -> Image | None:
+    """The picture that the parts make; if interrupted, of those that are whole, None for none."""
+    whole = []
+    for number in partition.numbers:
+        renderer.begin_part(number)
+        ending = render_to_limit(renderer, Limits(renderer.wanted_samples), interruption, watch)
+        if not ending.image or ending.image.samples < renderer.wanted_samples:
+            break
+        whole.append(ending.image)
+    return merge(whole, incomplete=True) if whole else None
