@@ -52,7 +52,8 @@ def every_control_costs_what_it_says(hand: Hand) -> None:
         cost = session.last_cost or Cost.FREE
         assert order.index(cost) <= order.index(control.cost), (reference, cost)
         restarted = session.restarts - restarts
-        assert restarted == (control.cost in (Cost.RESTART, Cost.RECOMPILE)), reference
+        assert bool(restarted) == (control.cost in (Cost.RESTART, Cost.RECOMPILE)), reference
+        assert restarted <= 2, reference  # twice where a slow machine shows a preview first
         assert restarted or session.samples >= samples, reference
         assert not session.problem, (reference, session.problem)
         after = hand.pixels()
