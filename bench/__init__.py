@@ -1,40 +1,40 @@
-"""Measurements of speed, memory and noise, of glrt and of its rivals. Not part of the wheel.
+"""Measurements of speed, memory and noise of glrt and of other renderers. Not part of the wheel.
 
-Programs, `python -m bench.NAME`; `--help` tells what they take:
+Programs, `python -m bench.NAME`; `--help` lists their options:
 
-- against: is this checkout slower than another commit?
-- gpu: every way to render on this machine, against the first: the one for a new GPU
-- scenes: scenes drawn from a seed, as files
-- kernels: how fast the kernel is, and what its variants give
-- efficiency: what each switch of a render buys, in noise and in time
-- steps: what each step gives that leads from plain light sampling to the defaults
-- many_lamps: what it gives to weigh lamps by nearness where there are many
-- sphere_counts: what a tree over the spheres gives, for more and more of them
-- node_visits: how many nodes of the tree a ray looks at
-- roofline: how near the kernel comes to what the machine can compute
-- dispatches: how long the driver works without a pause
-- memory: how much memory a picture takes, and what for
+- against: whether this checkout is slower than another commit
+- gpu: every route, pipeline and tier on this machine against the first; the test of a new GPU
+- scenes: random scenes by seed, as files
+- kernels: the speed of the kernel and of its variants
+- efficiency: variance and time with one setting of a render changed at a time
+- steps: variance and time of each step from plain light sampling to the defaults
+- many_lamps: variance and time with lamps chosen by distance, for many lamps
+- sphere_counts: the speed-up by a tree over the spheres, by their number
+- node_visits: the number of nodes of the tree that a ray visits
+- roofline: the speed of the kernel relative to the peak of the machine
+- dispatches: the longest dispatch of a render
+- memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
-- calibration: whether the error that a picture claims is the true one
-- false_alarms: how often `glrt compare` calls equal pictures different, and what it finds
-- window_tour: the window, driven by a script and timed
+- calibration: the estimated error of pictures against their true error
+- false_alarms: the rates of false alarms and of detections of `glrt compare`
+- window_tour: frame times of the window, driven by a script
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml
 
 What they share:
 
-- program: options, the machine in words, and errors in one paragraph
-- shader_edits: kernels whose shader text differs from glrt's
-- processes: programs that stay and answer over pipes
-- peer: other renderers as such programs
+- program: options, the description of the machine, and errors in one paragraph
+- shader_edits: kernels with edited shader sources
+- processes: processes that answer requests over pipes
+- peer: other renderers as such processes
 - against_side: one side of `against`, which may import a much older glrt
-- gpu_way: one way to render, tried in a process for `gpu`
-- checkouts: another commit as a folder, for a while
-- ratios: ratios of times from rounds, with intervals
+- gpu_way: one route, pipeline and tier, measured in a process of its own for `gpu`
+- checkouts: another commit in a temporary folder
+- ratios: ratios of times from interleaved rounds, with intervals
 - contest: one renderer against another, from many short renders
-- cold_start: how long a cold process takes to its first picture
+- cold_start: time and memory of a process to its first picture
 - contact_sheet: pictures in rows
-- screens: X servers without a screen
-- dice: chance that is the same on every machine
-- placing: where things stand in a scene by chance
+- screens: virtual X servers
+- dice: random numbers that are the same on every machine
+- placing: random positions without overlaps
 """

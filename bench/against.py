@@ -1,10 +1,10 @@
-"""Is this checkout slower than another commit? Both render the same scenes, in turns.
+"""Measure whether this checkout is slower than another commit, in interleaved renders.
 
-Each side is a process that stays: it imports glrt from its own files, compiles once per scene, and
-renders on request, to the same seeds. A ratio is the time of this checkout over that of the other
-in the same round, until the picture is read back. `bench.ratios` says how intervals are made. Both
-compile with empty caches. The exit code is 1 where all scenes together are slower, else 0; of
-single scenes an interval leaves out the truth once in twenty times.
+Each side is a process that imports glrt from its own files, compiles once per scene with empty
+caches, and renders on request; both use the same seeds. A ratio is the time of this checkout over
+that of the other in the same round, until the picture is read back; `bench.ratios` describes the
+intervals. The exit code is 1 if this checkout is slower over all scenes together, else 0; one in
+twenty intervals of single scenes does not contain the true ratio.
 """
 
 import argparse
@@ -29,23 +29,24 @@ from glrt.settings import MAX_SAMPLES, Method
 
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
 PROGRAM = Path(__file__).with_name("against_side.py")
-TRIAL_SEEDS = 1 << 31  # from here on: rounds have the seeds from 1 on
-LEAST_TRIAL = 1 / 2  # of a run's seconds: shorter trials tell little about it
+TRIAL_SEEDS = 1 << 31  # the first seed of trials; those of rounds start at 1
+LEAST_TRIAL = 1 / 2  # least time of a trial, relative to that of a run
 
 
 class Side:
     """The process of one checkout."""
 
     def __init__(self, name: str, process: Process) -> None:
-        """Of a process that was started."""
+        """Read where the started `process` imports glrt from."""
         self.name, self._process = name, process
-        self.glrt = Path(self._told(process.answer)["glrt"])
+        self.glrt = Path(self._named(process.answer)["glrt"])
 
     def ask(self, do: str, **words: Any) -> dict[str, Any]:
-        """The answer to a request; RenderError says which side failed."""
-        return self._told(lambda: self._process.ask({"do": do, **words}))
+        """Send a request and return the answer; RenderError names the side that failed."""
+        return self._named(lambda: self._process.ask({"do": do, **words}))
 
-    def _told(self, answer: Any) -> dict[str, Any]:
+    def _named(self, answer: Any) -> dict[str, Any]:
+        """The result of `answer`; errors are prefixed with the name of the side."""
         try:
             found: dict[str, Any] = answer()
             return found
@@ -55,25 +56,25 @@ class Side:
 
 @dataclass(frozen=True)
 class Row:
-    """What was measured of one scene, of this checkout and of the other."""
+    """The measurements of one scene, of this checkout and of the other."""
 
     scene: str
-    samples: int  # a pixel, of each run
-    these: list[float]  # seconds, one a round
+    samples: int  # per pixel, of each run
+    these: list[float]  # seconds, one per round
     others: list[float]
     compile_seconds: tuple[float, float]
-    peak_bytes: tuple[int, int]  # of the processes, so far
-    equal: bool  # to the bit, all pictures
+    peak_bytes: tuple[int, int]  # peak memory of the processes up to now
+    equal: bool  # whether all pictures have the same bits
 
     @property
     def ratio(self) -> Ratio:
-        """Of the times."""
+        """The ratio of the times."""
         return ratio_of(self.these, self.others)
 
 
 @contextmanager
 def sides(commit: str, threads: int | None) -> Iterator[tuple[Side, Side]]:
-    """This checkout and a commit, each with a process; both are ended afterwards."""
+    """Start a process for this checkout and one for a commit; end both afterwards."""
     with ExitStack() as stack:
         other = stack.enter_context(exported(commit))
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="glrt-against-")))
@@ -88,19 +89,19 @@ def _started(
     environment = environment_of(checkout, folder)
     if threads:
         environment["LP_NUM_THREADS"] = str(threads)
-    # -P: else modules of bench beside the program could be taken for those of Python.
+    # -P: modules beside the program must not shadow those of the standard library.
     process = Process([sys.executable, "-P", str(PROGRAM)], folder / "log", environment)
     stack.callback(process.close)
     side = Side(name, process)
     if not side.glrt.is_relative_to(checkout):
-        raise RenderError(f"{name}: it imports {side.glrt}, which is not of {checkout}.")
+        raise RenderError(f"{name}: it imports {side.glrt}, which is not in {checkout}.")
     return side
 
 
 def measure(
     both: tuple[Side, Side], scene: str, size: int, method: str, rounds: int, seconds: float
 ) -> tuple[Row, str]:
-    """Interleave both sides in one scene; a run takes about `seconds`. Also the renderer's name."""
+    """Measure one scene in interleaved runs of about `seconds`; also return the renderer's name."""
     settings = {"scene": str(find(scene).resolve()), "size": size, "method": method}
     opened = [side.ask("open", **settings) for side in both]
     samples = samples_for(both, seconds)
@@ -119,18 +120,18 @@ def measure(
 
 
 def _round(both: tuple[Side, Side], number: int, samples: int) -> tuple[Any, Any]:
-    """One run of each; the side that is first changes from round to round."""
+    """One run of each side; which one is first alternates between rounds."""
     this, other = both if number % 2 == 0 else both[::-1]
     first, second = (side.ask("render", samples=samples, seed=1 + number) for side in (this, other))
     return (first, second) if number % 2 == 0 else (second, first)
 
 
 def samples_for(both: Sequence[Side], seconds: float) -> int:
-    """How many samples a pixel take the slower side about so long; a warm-up, too."""
+    """The samples per pixel that take the slower side about `seconds`; also warms up."""
     samples, seeds = 1, count(TRIAL_SEEDS)
 
     def trial(side: Side) -> float:
-        """The faster of two runs: in the first ones drivers warm up, and dispatches begin small."""
+        """Seconds of the faster of two runs, as the first includes warm-up."""
         runs = [side.ask("render", samples=samples, seed=next(seeds)) for _ in range(2)]
         return min(float(run["seconds"]) for run in runs)
 
@@ -140,7 +141,7 @@ def samples_for(both: Sequence[Side], seconds: float) -> int:
 
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
-    """The rows as Markdown, and one over all scenes."""
+    """The rows as Markdown, with a last one over all scenes."""
     yield "| scene | samples | time, this / other | this | other | compile | pictures | verdict |"
     yield "|---|---|---|---|---|---|---|---|"
     for row in rows:
@@ -160,7 +161,7 @@ def table(rows: Sequence[Row]) -> Iterator[str]:
 
 
 def overall(rows: Sequence[Row]) -> Ratio:
-    """Over all scenes."""
+    """The ratio over all scenes."""
     return ratio_over([(row.these, row.others) for row in rows])
 
 
@@ -176,7 +177,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _print(parsed: argparse.Namespace) -> int:
     for scene in parsed.scenes:
-        find(scene)  # what is unknown is told before anything starts
+        find(scene)  # fails for an unknown scene before anything starts
     commit = commit_of(parsed.commit)
     versions = f"this: {state_of()}; other: {commit}"
     found = _measured(parsed, commit)
@@ -206,8 +207,8 @@ def _measured(parsed: argparse.Namespace, commit: str) -> list[tuple[Row, str]]:
 
 
 def _save(file: Path, rows: Sequence[Row], **words: str) -> None:
-    told = [{**asdict(row), "ratio": row.ratio._asdict()} for row in rows]
-    figures = {**words, "ratio": overall(rows)._asdict(), "rows": told}
+    scenes = [{**asdict(row), "ratio": row.ratio._asdict()} for row in rows]
+    figures = {**words, "ratio": overall(rows)._asdict(), "rows": scenes}
     files.write_text(file, json.dumps(figures, indent=1) + "\n")
 
 
@@ -218,9 +219,9 @@ def _parser() -> argparse.ArgumentParser:
     add("--scenes", nargs="+", metavar="NAME", default=SCENES)
     add("--method", choices=get_args(Method), default="mis")
     add_rounds(parser, size=256, rounds=30, least_rounds=LEAST_ROUNDS)
-    add("--seconds", type=float, default=1.0, metavar="S", help="of a run (default: 1)")
-    add("--threads", type=int, metavar="N", help="LP_NUM_THREADS of both (default: as it is)")
-    add("--json", type=Path, metavar="FILE", help="the figures for programs")
+    add("--seconds", type=float, default=1.0, metavar="S", help="time of a run (default: 1)")
+    add("--threads", type=int, metavar="N", help="LP_NUM_THREADS of both (default: unchanged)")
+    add("--json", type=Path, metavar="FILE", help="file for the figures as JSON")
     return parser
 
 

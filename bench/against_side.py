@@ -1,8 +1,8 @@
-"""One side of `bench.against`: a process that renders by the glrt of one checkout.
+"""One side of `bench.against`: a process that renders with the glrt of one checkout.
 
-It is run by path, with PYTHONPATH naming that checkout, which may be much older than this file: so
-it imports the public names of glrt alone, and nothing of bench. Requests and answers are lines of
-JSON, as in `bench.processes`.
+It is run by path, with PYTHONPATH set to that checkout, which may be much older than this file.
+Therefore it imports only the public names of glrt, and nothing of bench. Requests and answers are
+lines of JSON, as in `bench.processes`.
 """
 
 import hashlib
@@ -18,10 +18,10 @@ import glrt
 
 
 class Side:
-    """What answers the requests, each a method."""
+    """The requests that the process answers: one method each."""
 
     def open(self, scene: str, **settings: Any) -> dict[str, Any]:
-        """Compile for a scene; a context of its own belongs to it."""
+        """Open a renderer for a scene, with a context of its own."""
         settings = {"width": settings["size"], "height": settings["size"], **settings}
         del settings["size"]
         self._renderer = glrt.Renderer(glrt.load(scene), tier="baked", **settings)
@@ -31,7 +31,7 @@ class Side:
         }
 
     def render(self, samples: int, seed: int) -> dict[str, Any]:
-        """A picture from an empty film: the seed must be another than that of the last one."""
+        """Render from an empty film; the seed must differ from that of the last picture."""
         start = time.perf_counter()
         self._renderer.update(seed=seed)
         radiance = self._renderer.render(samples).image().radiance
@@ -39,15 +39,15 @@ class Side:
         return {"seconds": seconds, "sha256": hashlib.sha256(radiance.tobytes()).hexdigest()}
 
     def close(self) -> dict[str, Any]:
-        """Free the scene."""
+        """Release the renderer."""
         self._renderer.release()
         return {"peak_bytes": peak_bytes()}
 
 
 def peak_bytes() -> int:
-    """The most memory that this process has held.
+    """The peak resident memory of this process.
 
-    By Linux's own figure where there is one: getrusage counts the starting process as well.
+    On Linux from /proc, as getrusage includes the memory of the parent process before exec.
     """
     status = Path("/proc/self/status")
     found = re.search(r"VmHWM:\s*(\d+) kB", status.read_text()) if status.exists() else None
@@ -60,9 +60,9 @@ def peak_bytes() -> int:
 
 
 def main() -> None:
-    """Answer until stdin ends."""
+    """Answer requests until stdin ends."""
     answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # whatever a library prints must not come between
+    os.dup2(2, 1)  # output of libraries must not mix with the answers
 
     def answer(words: dict[str, Any]) -> None:
         print(json.dumps(words), file=answers, flush=True)
@@ -73,7 +73,7 @@ def main() -> None:
         words = json.loads(line)
         try:
             answer(getattr(side, words.pop("do"))(**words))
-        except Exception as error:  # of another commit: its classes are not ours
+        except Exception as error:  # of any class: those of the other commit are unknown
             answer({"error": f"{type(error).__name__}: {' '.join(str(error).split())}"})
 
 

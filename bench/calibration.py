@@ -1,8 +1,8 @@
-"""Whether the error that a picture claims is the one that repeated renders show.
+"""Compare the estimated error of pictures with the true error found from repeated renders.
 
-Renders of other seeds tell how far the means of blocks of 8 x 8 pixels stray from their mean over
-all renders. The figure is the rms of that over the rms of what the pictures claim: 1 if all is
-well, above 1 if they claim too little.
+Over renders with different seeds, the means of blocks of 8 x 8 pixels vary about their mean. The
+figure is the RMS of that deviation over the RMS of the standard errors in the pictures: 1 if the
+estimate is right, above 1 if it is too small.
 """
 
 import argparse
@@ -25,7 +25,7 @@ SAMPLES = (32, 40, 47, 64, 256)
 
 
 class Ratio(NamedTuple):
-    """True error over the claimed one, with its own standard error, by the spread of blocks."""
+    """True over estimated error, with its standard error from the spread over blocks."""
 
     value: float
     stderr: float
@@ -35,7 +35,7 @@ class Ratio(NamedTuple):
 
 
 def error_ratio(renderer: Renderer, samples: int, renders: int) -> Ratio:
-    """Of pictures of so many samples, with the seeds from 1 on."""
+    """The ratio for pictures of `samples` samples per pixel, with the seeds 1 to `renders`."""
     means, errors = [], []
     for seed in range(renders):
         renderer.update(seed=seed + 1)
@@ -51,19 +51,22 @@ def error_ratio(renderer: Renderer, samples: int, renders: int) -> Ratio:
 def measure(
     context: Context, name: str, samples: Sequence[int], size: int, renders: int, sampler: Sampler
 ) -> list[Ratio]:
-    """One scene at `size` x `size` pixels, a ratio for each number of samples."""
+    """The ratio for each number of samples, for a scene at `size` x `size` pixels.
+
+    Raises UsageError for too few samples to estimate an error.
+    """
     renderer = renderer_of(scene_of(name), Way({"sampler": sampler}), size, context)
     try:
         least = 2 * renderer.settings.block
         if min(samples) < least:
-            raise UsageError(f"--samples: with `{sampler}`, the error is known from {least} on.")
+            raise UsageError(f"--samples: with `{sampler}`, an error is known from {least} on.")
         return [error_ratio(renderer, count, renders) for count in samples]
     finally:
         renderer.release()
 
 
 def table(found: dict[str, list[Ratio]], samples: Sequence[int]) -> Iterator[str]:
-    """As Markdown."""
+    """A row for each scene, as Markdown."""
     yield f"| scene | {' | '.join(f'{count} samples' for count in samples)} |"
     yield "|---" * (len(samples) + 1) + "|"
     for name, ratios in found.items():
@@ -78,7 +81,7 @@ def main(arguments: list[str] | None = None) -> int:
     add("--samples", nargs="+", type=int, metavar="N", default=SAMPLES)
     add("--sampler", choices=get_args(Sampler), default="sobol")
     add("--size", type=int, default=32, metavar="N", help="pixels a side (default: 32)")
-    add("--renders", type=int, default=256, metavar="N", help="of each (default: 256)")
+    add("--renders", type=int, default=256, metavar="N", help="renders per ratio (default: 256)")
     parsed = parser.parse_args(arguments)
     return exit_code_of(lambda: _print(parsed))
 

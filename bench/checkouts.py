@@ -1,4 +1,4 @@
-"""Another commit of this repository as a folder of its own, for a while."""
+"""The files of another commit of this repository in a temporary folder."""
 
 import subprocess
 import tempfile
@@ -12,7 +12,7 @@ from glrt.errors import RenderError, UsageError
 
 
 def commit_of(name: str, repository: Path = ROOT) -> str:
-    """The short hash of a commit; UsageError if there is none by that name."""
+    """The short hash of a commit; raises UsageError if there is none by that name."""
     command = ["rev-parse", "--verify", "--quiet", "--short", "--end-of-options"]
     done = _git(repository, *command, f"{name}^{{commit}}")
     if done.returncode:
@@ -21,16 +21,16 @@ def commit_of(name: str, repository: Path = ROOT) -> str:
 
 
 def state_of(repository: Path = ROOT) -> str:
-    """The commit of a checkout, and whether files differ from it."""
+    """The short hash of the commit of a checkout, with a note if files differ from it."""
     has_changes = bool(_git(repository, "status", "--porcelain").stdout.strip())
     return commit_of("HEAD", repository) + (" with changes" if has_changes else "")
 
 
 @contextmanager
 def exported(commit: str, repository: Path = ROOT) -> Iterator[Path]:
-    """The files of a commit in a temporary folder, which is gone afterwards.
+    """Export a commit into a temporary folder, which is removed afterwards.
 
-    An export, not a worktree: git need not know of it, nor forget it after a crash.
+    It is not a worktree, which git would still list after a crash.
     """
     with tempfile.TemporaryDirectory(prefix="glrt-commit-") as folder:
         archive = Path(folder, "archive.zip")

@@ -1,7 +1,8 @@
-"""How long a cold process takes to its first picture, and how much memory.
+"""Time and memory of a process from its start to its first picture.
 
-`cornell` at 512 x 512 pixels and 1 sample, from the start of Python to the written file, in turns;
-the first turn, which fills the caches of drivers, is not counted.
+Each program renders `cornell` at 512 x 512 pixels and 1 sample, timed from the start of Python to
+the written file. Rounds are interleaved; the first one, which fills the driver caches, is not
+counted.
 """
 
 import os
@@ -22,14 +23,14 @@ WORK = ["cornell", "--width", "512", "--height", "512", "--samples", "1"]
 
 
 class Start(NamedTuple):
-    """One process."""
+    """Time and memory of one process."""
 
     seconds: float
     peak: float  # bytes resident
 
 
 def starts(programs: Mapping[str, Sequence[str]], rounds: int) -> dict[str, Start]:
-    """The median of the rounds for each program; one that fails is absent."""
+    """Medians over the rounds for each program; programs that fail are left out."""
     turns = [{n: start_of(command) for n, command in programs.items()} for _ in range(rounds + 1)]
     found = {}
     for name in programs:
@@ -39,7 +40,7 @@ def starts(programs: Mapping[str, Sequence[str]], rounds: int) -> dict[str, Star
     return found
 
 
-# From a small process, since a process counts as its own the memory of the one that started it.
+# Run by a small process: ru_maxrss of a process includes the memory of its parent before exec.
 LAUNCH = """
 import os, subprocess, sys, time
 begin, quiet = time.perf_counter(), subprocess.DEVNULL
@@ -51,7 +52,7 @@ sys.exit(os.waitstatus_to_exitcode(status) != 0)
 
 
 def start_of(program: Sequence[str], work: Sequence[str] = WORK) -> Start | None:
-    """Run it to its end; None if it fails."""
+    """Run a program to its end; None if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder, "first.exr")
         command = [sys.executable, "-S", "-c", LAUNCH, *program, *work, "-o", str(output)]
@@ -62,12 +63,12 @@ def start_of(program: Sequence[str], work: Sequence[str] = WORK) -> Start | None
 
 
 def _environment() -> dict[str, str]:
-    """That of this process, but Python may keep what it compiles, as where glrt is installed."""
+    """The environment of this process, with bytecode caching as in an installed package."""
     return {name: v for name, v in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
 
 def table(found: Mapping[str, Start]) -> Iterator[str]:
-    """As Markdown."""
+    """A row for each program, as Markdown."""
     yield "| program | first picture | peak memory |"
     yield "|---|---|---|"
     for name, start in found.items():

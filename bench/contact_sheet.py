@@ -17,19 +17,19 @@ Codes = NDArray[np.uint8]  # (H, W, 3) sRGB
 FORMATS = {".jpg": "JPEG", ".jpeg": "JPEG", ".png": "PNG"}
 MOST_BYTES = 300_000
 WIDTH = 1200  # pixels
-COLUMNS = 3
+COLUMNS = 3  # pictures in a row
 GAP = 6  # pixels between pictures
-GAP_COLOR = (127, 127, 127)  # fits a light page and a dark one
+GAP_COLOR = (127, 127, 127)  # visible on light and dark pages
 
 _JPEG = [{"quality": quality, "subsampling": 0} for quality in (92, 88, 84, 80, 76, 72, 68, 64)]
 _TRIES: dict[str, list[dict[str, Any]]] = {"JPEG": _JPEG, "PNG": [{"optimize": True}]}
 
 
 def save_sheet(pictures: Sequence[Path], file: Path, most_bytes: int = MOST_BYTES) -> None:
-    """Write a contact sheet of pictures on disk, JPEG or PNG by suffix, below `most_bytes`.
+    """Write a contact sheet of picture files, JPEG or PNG by suffix, smaller than `most_bytes`.
 
-    Lowers quality first, then width. Raises `UsageError` for another suffix, `RenderError` if
-    nothing is small enough or the file cannot be written.
+    Quality is reduced first, then width. Raises `UsageError` for another suffix, `RenderError` if
+    no sheet is small enough or the file cannot be written.
     """
     encodings = _encodings(_sheet([_opened(path) for path in pictures]), _format(file))
     data = next((data for data in encodings if len(data) < most_bytes), None)
@@ -42,7 +42,7 @@ def save_sheet(pictures: Sequence[Path], file: Path, most_bytes: int = MOST_BYTE
 
 
 def check_sheet(file: Path) -> None:
-    """Raise `UsageError` if `save_sheet` could not write there; leaves nothing behind."""
+    """Raise `UsageError` if `save_sheet` could not write to `file`; creates no file."""
     _format(file)
     files.check_writable(file)
 
@@ -64,7 +64,7 @@ def _opened(path: Path) -> Codes:
 
 
 def _sheet(pictures: Sequence[Codes]) -> Codes:
-    """Rows of COLUMNS pictures, whole, each row as high as makes it WIDTH wide."""
+    """Rows of COLUMNS uncropped pictures, each row scaled to WIDTH."""
     rows = [_row(pictures[i : i + COLUMNS]) for i in range(0, len(pictures), COLUMNS)]
     gap = _blank(GAP)
     parts = [part for row in rows for part in (gap, row)]
@@ -74,7 +74,7 @@ def _sheet(pictures: Sequence[Codes]) -> Codes:
 def _row(pictures: Sequence[Codes]) -> Codes:
     aspects = [picture.shape[1] / picture.shape[0] for picture in pictures]
     room = WIDTH - GAP * (len(pictures) - 1)
-    height = min(round(room / sum(aspects)), WIDTH // COLUMNS)  # a short row stays low
+    height = min(round(room / sum(aspects)), WIDTH // COLUMNS)  # an incomplete row is not enlarged
     row = _blank(height)
     left = 0.0
     for picture, aspect in zip(pictures, aspects, strict=True):
@@ -97,7 +97,7 @@ def _resized(picture: Codes, width: int, height: int) -> Codes:
 
 
 def _encodings(sheet: Codes, kind: str) -> Iterator[bytes]:
-    """The sheet as files, best first."""
+    """The sheet as encoded files, in decreasing quality."""
     for width, options in product(range(WIDTH, 0, -100), _TRIES[kind]):
         height = max(1, round(len(sheet) * width / WIDTH))
         yield _encoded(_resized(sheet, width, height), kind, options)

@@ -1,8 +1,8 @@
-"""What a second of rendering buys: one renderer against another, from many short renders.
+"""Efficiency of one renderer against another, from many short interleaved renders.
 
-Time to an error = relative variance of a sample x seconds a sample / error^2. Its two factors are
-told apart. Renders of both take turns, so a ratio is that of two renders of one round; intervals
-come from drawing rounds anew (bootstrap).
+Time to an error = relative variance of one sample x seconds per sample / error^2; variance and
+speed are reported separately, too. Ratios are of two renders of the same round, and intervals are
+from the bootstrap over rounds.
 """
 
 from dataclasses import dataclass
@@ -15,37 +15,37 @@ from glrt.error.estimate import DARK
 
 Array = NDArray[np.float64]
 
-REDRAWN = 2000  # times that rounds are drawn anew
-TAILS = (2.5, 97.5)  # of a 95 % interval, in percent
+REDRAWN = 2000  # bootstrap resamples
+TAILS = (2.5, 97.5)  # percentiles at the ends of a 95 % interval
 
 
 @dataclass(frozen=True, eq=False)
 class Runs:
-    """The renders of one renderer and scene, one a round, each with its own random numbers."""
+    """The renders of one renderer and scene, one per round, each with its own seed."""
 
     renderer: str
-    samples: int  # a pixel, of each render
+    samples: int  # per pixel, of each render
     seconds: Array  # (rounds,)
     pictures: NDArray[np.float32]  # (rounds, H, W, 3)
 
     @property
     def mean(self) -> Array:
-        """Of all pictures, (H, W, 3)."""
+        """The mean of all pictures, (H, W, 3)."""
         mean: Array = self.pictures.mean(axis=0, dtype=np.float64)
         return mean
 
     @property
     def rates(self) -> Array:
-        """Pixel samples a second, of each round."""
+        """Pixel samples per second in each round, (rounds,)."""
         height, width = self.pictures.shape[1:3]
         return np.asarray(width * height * self.samples / self.seconds)
 
     def variances(self, level: Array) -> Array:
-        """Relative variance of one sample, of each round; its mean is without bias.
+        """Relative variance of one sample from each round, (rounds,); the mean is unbiased.
 
-        `level`, (H, W, 3), is the picture with hardly any noise, by which variance becomes
-        relative, as in `relative_error`. It must be another render than these: a level
-        that shares their hits makes them look small. But the variance is about their own mean.
+        `level`, (H, W, 3), is a picture with little noise, to which the variance is relative as in
+        `relative_error`. It must be independent of these renders: sharing their bright samples, it
+        would reduce the result. The variance itself is taken about their own mean.
         """
         scale = np.square(level) + DARK * level.mean() ** 2
         rounds, mean = len(self.seconds), self.mean
@@ -54,7 +54,7 @@ class Runs:
 
 
 class Factor(NamedTuple):
-    """How many times better, with a 95 % interval."""
+    """An improvement as a factor, with a 95 % interval."""
 
     value: float
     low: float
@@ -65,22 +65,22 @@ class Factor(NamedTuple):
 
 
 class Lead(NamedTuple):
-    """How far one renderer is ahead of another; above 1 it is."""
+    """Factors by which one renderer is better than another; above 1, it is."""
 
     time: Factor  # to the same error: rate x variance
-    rate: Factor  # samples a second
+    rate: Factor  # samples per second, its own over the other's
     variance: Factor  # of one sample, the other's over its own
 
 
 def seconds_to(error: float, runs: Runs, level: Array) -> float:
-    """How long the picture takes to a relative RMS error."""
+    """Seconds that a picture takes to reach a relative RMS error."""
     height, width = level.shape[:2]
     variance = runs.variances(level).mean()
     return float(variance / error**2 * width * height / np.median(runs.rates))
 
 
 def lead_of(ours: Runs, theirs: Runs, level: Array) -> Lead:
-    """How far `ours` is ahead; both were rendered in the same rounds."""
+    """The factors by which `ours` is better; both were rendered in the same rounds."""
     ratios = ours.rates / theirs.rates
     a, b = ours.variances(level), theirs.variances(level)
     draws = np.random.default_rng(0).integers(len(ratios), size=(REDRAWN, len(ratios)))

@@ -1,4 +1,4 @@
-"""How long the driver works without a pause: the longest dispatch, the first ones left out."""
+"""The longest dispatch of a render, without the first ones."""
 
 import sys
 import time
@@ -16,18 +16,18 @@ from glrt.rendering.tracer import Tracer
 from glrt.scene.scene import Scene
 
 SIZE = 1920, 1080  # of the picture, in pixels
-SAMPLES = 10
+SAMPLES = 10  # per pixel
 
 
 def longest(work: Callable[[], object]) -> float:
-    """Seconds of the longest dispatch that is planned while this works."""
+    """Seconds of the longest dispatch of a tracer while `work` runs."""
     with _timed() as seconds:
         work()
     return max(seconds)
 
 
 def row(name: str, scene: Scene, context: Context) -> str:
-    """Of the table: a scene rendered at once, and a little at a time, as the window does."""
+    """A row of the table: a scene rendered in one call, and in small steps as in the window."""
     width, height = SIZE
     headless, window = (
         Renderer(scene, context=context, width=width, height=height) for _ in range(2)
@@ -45,6 +45,7 @@ def row(name: str, scene: Scene, context: Context) -> str:
 
 @contextmanager
 def _timed() -> Iterator[list[float]]:
+    """Seconds of every dispatch of a tracer, appended while the context lasts."""
     seconds: list[float] = []
     work_on = Tracer.work_on
 
@@ -68,7 +69,7 @@ def _print() -> None:
     print(f"{machine(context.renderer)}, {SIZE[0]} x {SIZE[1]} pixels, {SAMPLES} samples\n")
     print("| scene | `glrt render` | `Renderer.advance` |\n|---|---|---|")
     scenes = {"`cornell`": load("cornell"), "`weekend`": load("weekend")}
-    scenes |= {f"{count:,} balls on a floor": crowd(count) for count in (10_000, 65_000)}
+    scenes |= {f"{count:,} spheres on a floor": crowd(count) for count in (10_000, 65_000)}
     for name, scene in scenes.items():
         print(row(name, scene, context), flush=True)
 

@@ -1,8 +1,8 @@
-"""What each switch of a render buys: variance a sample, time a sample, and 1 / (variance x time).
+"""Variance and time per sample with one setting changed, and their efficiency.
 
-Every round renders each variant once, with random numbers of its own; a variant differs from the
-defaults in one setting. The variance is that of pictures about the mean of all of them, so that
-no claim of a picture about its own noise is believed, relative to the radiance as in `stats`.
+The efficiency is 1 / (variance x time), relative to the defaults. Every round renders each variant
+once, with its own seed. The variance is measured over pictures of different seeds, not taken from
+their own standard errors, and is relative to the radiance as in `stats`.
 """
 
 import statistics
@@ -25,10 +25,10 @@ from glrt.settings import settings_for
 
 
 class Way(NamedTuple):
-    """How a variant differs from the defaults of its scene."""
+    """How a variant differs from the defaults of a scene."""
 
     settings: Mapping[str, Any]
-    edits: Sequence[Edit] = ()  # of the shaders
+    edits: Sequence[Edit] = ()  # of shader sources
 
 
 SWITCHES = {
@@ -39,27 +39,27 @@ SWITCHES = {
     "naive": Way({"method": "naive"}),
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
-SAMPLES = 32  # of a run: two blocks of Sobol's points
+SAMPLES = 32  # per pixel of a run: two blocks of Sobol' points
 
 
 class Row(NamedTuple):
-    """The figures of one variant; ratios are to the first one of its scene."""
+    """The figures of one variant; ratios are relative to the first variant of the scene."""
 
     scene: str
     variant: str
     variance: float  # relative, of one sample
-    uncertainty: float  # of the variance, relative: one standard error
-    microseconds: float  # a pixel sample, median
-    fewer_samples: float  # for the same error
-    slower: float  # median over the rounds
-    efficiency: float
+    uncertainty: float  # relative standard error of the variance
+    microseconds: float  # per pixel sample, median
+    fewer_samples: float  # variance of the first variant over this variance
+    slower: float  # time over that of the first variant: median over the rounds
+    efficiency: float  # fewer_samples / slower
 
 
 class Runs:
-    """What one variant did."""
+    """The runs of one variant."""
 
     def __init__(self, renderer: Renderer) -> None:
-        """Nothing yet."""
+        """Without runs yet."""
         self.renderer = renderer
         self.seconds: list[float] = []
         self.pictures: list[NDArray[np.float32]] = []
@@ -87,16 +87,16 @@ def measure(
     rounds: int,
     ways: Mapping[str, Way] = SWITCHES,
 ) -> list[Row]:
-    """Interleave the variants of one scene, at `size` x `size` pixels."""
+    """Measure the variants of a named scene in interleaved rounds, at `size` x `size` pixels."""
     return measure_scene(context, name, scene_of(name), size, rounds, ways)
 
 
 def measure_scene(
     context: Context, name: str, scene: Scene, size: int, rounds: int, ways: Mapping[str, Way]
 ) -> list[Row]:
-    """The same of any scene, under this name."""
+    """The same for any scene; `name` is its name in the rows."""
     runs = {label: Runs(renderer_of(scene, way, size, context)) for label, way in ways.items()}
-    for number in range(rounds + 1):  # the first one warms up
+    for number in range(rounds + 1):  # the first one is warm-up
         for place, one in enumerate(runs.values()):
             one.add(seed=1 + number * len(runs) + place)
     for one in runs.values():
@@ -106,13 +106,13 @@ def measure_scene(
 
 
 def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer:
-    """Of constants where there are few shapes; `KeyError` if an edit has no place."""
+    """A renderer, baked where possible; raises `KeyError` if an edit does not apply."""
     settings = settings_for(scene.render, width=size, height=size, **way.settings)
     return Renderer(scene, settings, context, "baked", variant=edited(*way.edits))
 
 
 def scene_of(name: str) -> Scene:
-    """A scene by name; `room` is `cornell` with a white ball for the one of glass: no caustic."""
+    """A scene by name; `room` is `cornell` with a white sphere instead of glass: no caustic."""
     if name != "room":
         return load(name)
     cornell = load("cornell")
@@ -144,7 +144,8 @@ def _rows(name: str, runs: Mapping[str, Runs]) -> Iterator[Row]:
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
     """The rows as Markdown."""
-    yield "| scene | variant | variance a sample | us a sample | 1 / variance | time | efficiency |"
+    columns = ["variance per sample", "us per sample", "1 / variance", "time", "efficiency"]
+    yield f"| scene | variant | {' | '.join(columns)} |"
     yield "|---|---|---|---|---|---|---|"
     for row in rows:
         variance = f"{row.variance:.3g} +- {100 * row.uncertainty:.0f} %"

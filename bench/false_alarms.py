@@ -1,8 +1,8 @@
-"""How often `glrt compare` calls equal pictures different, and what it finds.
+"""Rates of false alarms and of detections of `glrt compare`.
 
 `python -m bench.false_alarms` prints the tables of docs/results/compare.md. A picture of 256 or
-4,096 samples is made of independent ones of 64. Pairs share no render, but for the pictures of
-4,096 samples: there is one of them for each 64 renders, and pairs take turns with them.
+4,096 samples is averaged from independent ones of 64. Pairs share no renders, except that there are
+only as many pictures of 4,096 samples as there are sets of 64 renders, which pairs use in turn.
 """
 
 import math
@@ -28,31 +28,31 @@ Floats = NDArray[np.float32]
 Change = Callable[[Image], Image]
 
 SIZE = 48  # pixels on a side
-ALPHA = 0.01
+ALPHA = 0.01  # significance level
 LARGE = 4096  # samples of a picture with little noise
 FINDS = ((64, 64), (64, LARGE), (1024, 1024))  # samples of image and reference
 
 
 @dataclass(frozen=True)
 class Pool:
-    """Independent renders: means and variances of an observation, (renders, H, W, 3)."""
+    """Independent renders: mean, and variance of an observation, (renders, H, W, 3) each."""
 
     means: Floats
     variances: Floats
-    samples: int  # of each render
+    samples: int  # per pixel, of each render
     block: int = 1  # samples of an observation
-    recipe: Recipe | None = None  # of any of them
+    recipe: Recipe | None = None  # of one of the renders
 
     def part(self, first: int, end: int | None = None) -> "Pool":
-        """Some of the renders."""
+        """The renders from `first` to before `end`."""
         return replace(self, means=self.means[first:end], variances=self.variances[first:end])
 
     def pictures(self, samples: int) -> int:
-        """How many pictures of so many samples there are."""
+        """The number of independent pictures with this many samples."""
         return len(self.means) // (samples // self.samples)
 
     def picture(self, index: int, samples: int) -> Image:
-        """A picture of so many samples; the pictures share no render."""
+        """A picture with this many samples; pictures of different indices share no render."""
         group = samples // self.samples
         means = self.means[index * group : (index + 1) * group].astype(np.float64)
         inner = self.variances[index * group : (index + 1) * group].mean(axis=0, dtype=np.float64)
@@ -62,7 +62,7 @@ class Pool:
 
 
 def gather(context: Context, case: Case, samples: int, renders: int, seed: int) -> Pool:
-    """Renders with the seeds from `seed` on."""
+    """A pool of renders of a case with the seeds `seed` to `seed` + `renders` - 1."""
     settings: dict[str, Any] = {
         "width": SIZE,
         "height": SIZE,
@@ -88,7 +88,7 @@ def compared(
     alike: bool | None = True,
     change: Change = lambda image: image,
 ) -> list[Comparison]:
-    """Pairs in turn, of the pictures that the pools hold."""
+    """Compare every image with a reference; references are reused in turn if there are fewer."""
     have = [pool.pictures(n) for pool, n in zip((images, references), samples, strict=True)]
     found = []
     for i in range(have[0]):
@@ -100,7 +100,7 @@ def compared(
 
 
 def brighter(factor: float) -> Change:
-    """Multiply the radiance and its error."""
+    """A change that multiplies the radiance and its standard error."""
     scale = np.float32(factor)
     return lambda image: replace(
         image, radiance=image.radiance * scale, stderr=image.stderr * scale
@@ -108,7 +108,7 @@ def brighter(factor: float) -> Change:
 
 
 def wrong_pixel(factor: float) -> Change:
-    """Multiply the radiance of one pixel in the middle of the floor."""
+    """A change that multiplies the radiance of one pixel in the middle of the floor."""
 
     def change(image: Image) -> Image:
         radiance = image.radiance.copy()
@@ -119,7 +119,7 @@ def wrong_pixel(factor: float) -> Change:
 
 
 def without_errors(image: Image) -> Image:
-    """As it is read from an NPY file."""
+    """A picture without standard errors, as read from an NPY file."""
     return replace(image, stderr=np.full_like(image.stderr, np.nan))
 
 
@@ -134,10 +134,10 @@ CHANGES: dict[str, Change] = {
 
 
 class Experiment:
-    """Tables of rows; what two of them need is rendered once."""
+    """The rows of all tables; renders that several tables use are made once."""
 
     def __init__(self, context: Context, count: int) -> None:
-        """Of `count` pairs of equal pictures, and a tenth of it of each kind of different ones."""
+        """With `count` pairs of equal pictures, and a tenth of that for each kind of difference."""
         self._context = context
         self.count = count
         self.tenth = max(count // 10, 1)
@@ -154,7 +154,7 @@ class Experiment:
         return self._gathered(CASES, 64, 4 * self.count + LARGE // 64)
 
     def equal(self) -> list[list[str]]:
-        """Of equal pictures: scene, methods, then what `_tally` tells of each mix of samples."""
+        """Rows of equal pictures: scene, methods, then `_tally`, for each pair of sample counts."""
         rows = []
         of_16 = self._gathered(CASES, 16, self.count)
         others = self._gathered(OTHERS, 64, self.count)
@@ -174,7 +174,7 @@ class Experiment:
         return rows
 
     def sobol(self) -> list[list[str]]:
-        """The same of Sobol's points, which know their noise by blocks."""
+        """The same with Sobol' points, whose standard errors are over blocks of 16 samples."""
         rows = []
         independent = {name: CASES[name] for name in SOBOL}
         others = {name: replace(OTHERS[name], sampler="sobol") for name in SOBOL}
@@ -186,12 +186,12 @@ class Experiment:
             images, rest = pool.part(0, self.count), pool.part(self.count)
             methods = f"{others[name].method} against {SOBOL[name].method}"
             mixes: list[tuple[str, tuple[int, int], Pool, bool | None, Change]] = [
-                ("same", (32, 64), few[name], True, _as_it_is),
-                ("same", (64, 64), images, True, _as_it_is),
-                ("same", (64, LARGE), images, True, _as_it_is),
+                ("same", (32, 64), few[name], True, _unchanged),
+                ("same", (64, 64), images, True, _unchanged),
+                ("same", (64, LARGE), images, True, _unchanged),
                 ("same, image without errors", (64, 64), images, None, without_errors),
-                ("same, image of independent numbers", (64, 64), by_chance[name], None, _as_it_is),
-                (methods, (64, 64), by_other[name], None, _as_it_is),
+                ("same, image of independent numbers", (64, 64), by_chance[name], None, _unchanged),
+                (methods, (64, 64), by_other[name], None, _unchanged),
             ]
             for what, samples, a, alike, change in mixes:
                 found = compared(a, rest, samples, alike, change)
@@ -199,7 +199,7 @@ class Experiment:
         return rows
 
     def different(self) -> list[list[str]]:
-        """Of different pictures: what differs, scene, and the share found for each of FINDS."""
+        """Rows of different pictures: scene, difference, and share detected for each of FINDS."""
         rows = []
         lamp = {name: case for name, case in FOUND.items() if name not in CASES}
         pools = {**self._pools, **self._gathered(lamp, 64, 32 * self.tenth + LARGE // 64)}
@@ -207,7 +207,7 @@ class Experiment:
         for name, pool in pools.items():
             images, rest = pool.part(0, 16 * self.tenth), pool.part(16 * self.tenth)
             kinds = [(what, images, change) for what, change in CHANGES.items()]
-            kinds += [(what, cases[name], _as_it_is) for what, cases in planted.items()]
+            kinds += [(what, cases[name], _unchanged) for what, cases in planted.items()]
             for what, a, change in kinds:
                 rows.append([name, what])
                 for samples in FINDS:
@@ -218,7 +218,7 @@ class Experiment:
         return rows
 
 
-def _as_it_is(image: Image) -> Image:
+def _unchanged(image: Image) -> Image:
     return image
 
 
@@ -227,7 +227,7 @@ def _share(found: list[Comparison]) -> float:
 
 
 def _tally(samples: tuple[int, int], found: list[Comparison]) -> list[str]:
-    """Samples, false alarms with their 95 % interval, and the median of what would have shown."""
+    """Samples, false alarms with their 95 % interval, and median of the detectable difference."""
     alarms = sum(not comparison for comparison in found)
     low, high = wilson(alarms, len(found))
     shown = float(np.median([comparison.shown for comparison in found]))
@@ -240,7 +240,7 @@ def _tally(samples: tuple[int, int], found: list[Comparison]) -> list[str]:
 
 
 def wilson(hits: int, trials: int, z: float = 1.96) -> tuple[float, float]:
-    """The interval of a share (Wilson 1927)."""
+    """The score interval of a proportion (Wilson 1927)."""
     share, narrow = hits / trials, z * z / trials
     middle = (share + narrow / 2) / (1 + narrow)
     half = z / (1 + narrow) * math.sqrt(share * (1 - share) / trials + narrow / (4 * trials))
@@ -252,7 +252,10 @@ def _markdown(head: list[str], rows: list[list[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-ALARMS = ["scene", "methods", "samples", "called different", "95 % interval", "would have shown"]
+ALARMS = [
+    *("scene", "methods", "samples", "called different", "95 % interval"),
+    "detectable difference",
+]
 TABLES = {
     "equal": (ALARMS, Experiment.equal),
     "sobol": (ALARMS, Experiment.sobol),
@@ -267,7 +270,7 @@ def main(arguments: list[str] | None = None) -> int:
     """`python -m bench.false_alarms`; returns the exit code."""
     parser = parser_of("false_alarms", __doc__)
     add_tables(parser, TABLES)
-    parser.add_argument("--pairs", type=int, default=1000, metavar="N", help="pairs of a row")
+    parser.add_argument("--pairs", type=int, default=1000, metavar="N", help="pairs per row")
     parsed = parser.parse_args(arguments)
     return exit_code_of(lambda: _print(parsed.tables, parsed.pairs))
 

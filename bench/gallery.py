@@ -23,20 +23,20 @@ from glrt.version import VERSION
 
 @dataclass(frozen=True)
 class Picture:
-    """A rendered scene: what the page says about it. Size in pixels."""
+    """A rendered scene with the figures for the page; `size` in pixels."""
 
     name: str
     title: str
     file: Path
     size: tuple[int, int]
     samples: int
-    seconds: float  # of rendering, without opening OpenGL and compiling
+    seconds: float  # of rendering, without opening OpenGL and compilation
     error: float | None
     driver: str
 
     @property
     def rate(self) -> float:
-        """Pixel samples a second."""
+        """Pixel samples per second."""
         return self.samples * self.size[0] * self.size[1] / max(self.seconds, 1e-9)
 
 
@@ -57,16 +57,16 @@ def main(arguments: list[str] | None = None) -> int:
 def render_gallery(
     folder: Path, names: Sequence[str], context: Context | None = None, **settings: Any
 ) -> list[Picture]:
-    """Render scenes into FOLDER/NAME.png and write FOLDER/index.html; tells stderr of each.
+    """Render scenes into FOLDER/NAME.png and write FOLDER/index.html; progress goes to stderr.
 
-    `settings` are fields of Settings; the rest is each scene's own. Raises `UsageError` for a
-    folder that cannot be written and a bad setting, `SceneError` for a scene that does not exist.
+    `settings` are fields of Settings that replace those of the scenes. Raises `UsageError` for a
+    folder that cannot be written or a bad setting, `SceneError` for a scene that does not exist.
     """
     files.make_folder(folder, "index.html")
     gl = context or open_context()
     pictures = []
     for number, name in enumerate(names, start=1):
-        with _told(f"[{number}/{len(names)}] {name}: "):
+        with _progress(f"[{number}/{len(names)}] {name}: "):
             pictures.append(_render(folder, name, gl, settings))
         print(_figures(pictures[-1]), file=sys.stderr)
     page = _page(pictures)
@@ -99,7 +99,7 @@ def _run(arguments: argparse.Namespace) -> None:
 
 
 def _known(names: Sequence[str]) -> list[str]:
-    """The names, each once; `UsageError` for one that is no scene's."""
+    """The names without repetitions; raises `UsageError` for one that is not of a scene."""
     scenes = scene_names()
     for name in names:
         if name not in scenes:
@@ -126,8 +126,8 @@ def _render(folder: Path, name: str, context: Context, settings: dict[str, Any])
 
 
 @contextmanager
-def _told(text: str) -> Iterator[None]:
-    """Begin a line on stderr; end it if something fails, so that the error has its own."""
+def _progress(text: str) -> Iterator[None]:
+    """Begin a line on stderr; end it on an error, so that the message has a line of its own."""
     print(text, end="", file=sys.stderr, flush=True)
     try:
         yield
@@ -137,7 +137,7 @@ def _told(text: str) -> Iterator[None]:
 
 
 def _figures(picture: Picture) -> str:
-    """Size, samples, time, speed and error in a line."""
+    """Size, samples, time, speed and error in one line."""
     width, height = picture.size
     error = "" if picture.error is None else f", estimated error {100 * picture.error:.2g} %"
     return (

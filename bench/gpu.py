@@ -1,10 +1,10 @@
-"""Every way to render on this machine, against the first: for one with a GPU, and one without.
+"""Check and time every route, pipeline and tier on this machine, with or without a GPU.
 
-For every route that opens, each pipeline and each tier render the same scenes from the same two
-seeds, each in a process of its own with empty caches of drivers: one that crashes or hangs is a
-row of the table. A way is right if its pictures are those of the first one to the bit, or if they
-differ by less than 1 % of what the pictures of the two seeds do (rms over pixels and channels).
-The exit code is 1 if a way fails or is not right. Memory is that of the process, not of the GPU.
+Every combination renders the same scenes with the same two seeds, each in a process of its own
+with empty driver caches, so that a crash or a hang becomes a row of the table. Its pictures are
+right if they equal those of the first combination that works, bit for bit, or if the RMS difference
+over pixels and channels is below 1 % of that between the two seeds. The exit code is 1 if one fails
+or is not right. Memory is that of the process, not of the GPU.
 """
 
 import argparse
@@ -27,12 +27,13 @@ from bench.program import at_least, exit_code_of, machine, parser_of
 from glrt import files
 from glrt.doctor.report import examine_all, findings
 from glrt.image.image import Pixels
-from glrt.rendering.pipelines import Resolved, Tier
+from glrt.rendering.passes import Resolved
+from glrt.rendering.pipelines import Tier
 
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
 TIERS: tuple[Tier, ...] = ("generic", "baked")
-PATIENCE = 300.0  # seconds for one way and scene
-RIGHT = 0.01  # of the rms between two seeds
+PATIENCE = 300.0  # seconds for one combination and scene
+RIGHT = 0.01  # largest difference, relative to the RMS difference between the two seeds
 PROGRAM = (sys.executable, "-m", "bench.gpu_way")
 QUICK = {"size": 48, "samples": 16, "seconds": 0.0}
 FULL = {"size": 512, "samples": 256, "seconds": 1.0}
@@ -40,15 +41,15 @@ FULL = {"size": 512, "samples": 256, "seconds": 1.0}
 
 @dataclass(frozen=True)
 class Row:
-    """What was found of one way and scene."""
+    """The result of one combination and scene."""
 
     work: Work
-    found: dict[str, Any]  # as `bench.gpu_way` tells it, or the error alone
-    difference: float | None = None  # 0 for the same bits; None for the first way and failures
+    found: dict[str, Any]  # the answer of `bench.gpu_way`, or only the error
+    difference: float | None = None  # 0 for the same bits; None for the first one and failures
 
     @property
     def verdict(self) -> str:
-        """In a few words."""
+        """The result in a few words; relative difference in percent of the noise."""
         if "error" in self.found:
             return "fails"
         if self.difference is None:
@@ -60,12 +61,12 @@ class Row:
 
     @property
     def is_right(self) -> bool:
-        """Whether it rendered what the first way did."""
+        """Whether it rendered the same pictures as the first combination."""
         return "error" not in self.found and (self.difference is None or self.difference < RIGHT)
 
 
 def ways(routes: Sequence[tuple[str, int]], scenes: Sequence[str], **much: Any) -> Iterator[Work]:
-    """All of them, scene by scene; `much` is how much to render."""
+    """Every route, pipeline and tier, scene by scene; `much` has size, samples and seconds."""
     for scene in scenes:
         for route, device in routes:
             for pipeline in get_args(Resolved):
@@ -74,7 +75,7 @@ def ways(routes: Sequence[tuple[str, int]], scenes: Sequence[str], **much: Any) 
 
 
 def tried(work: Work, pictures: Path, patience: float = PATIENCE) -> dict[str, Any]:
-    """What a process finds of a way, or its error."""
+    """Measure one combination in a process of its own; return its result, or the error."""
     with tempfile.TemporaryDirectory(prefix="glrt-gpu-") as caches:
         environment = environment_of(ROOT, Path(caches))
         arguments = [*PROGRAM, json.dumps(asdict(work)), str(pictures)]
@@ -92,7 +93,7 @@ def tried(work: Work, pictures: Path, patience: float = PATIENCE) -> dict[str, A
 
 
 def _end_of(done: "subprocess.CompletedProcess[str]") -> str:
-    """How a process ended that told nothing."""
+    """How a process without an answer ended."""
     last = (done.stderr.strip().splitlines() or ["no message"])[-1]
     if done.returncode < 0:
         return f"it crashed ({signal.Signals(-done.returncode).name}): {last}"
@@ -100,9 +101,9 @@ def _end_of(done: "subprocess.CompletedProcess[str]") -> str:
 
 
 def difference(first: Pixels, pictures: Pixels) -> float:
-    """Of the pictures of two seeds from the first way's: 0 for the same bits.
+    """RMS difference from the first combination, relative to that between its two seeds.
 
-    Else the rms of what differs over the rms between the first way's seeds.
+    Both arrays are (2, H, W, 3). Exactly 0 for the same bits.
     """
     if first.tobytes() == pictures.tobytes():
         return 0.0
@@ -111,7 +112,7 @@ def difference(first: Pixels, pictures: Pixels) -> float:
 
 
 def measure(all_ways: Sequence[Work], patience: float = PATIENCE) -> Iterator[Row]:
-    """Try the ways one after the other; of each scene, the first that works is the measure."""
+    """Measure one after the other; the first that works for a scene is the reference."""
     first: dict[str, Pixels] = {}
     with tempfile.TemporaryDirectory(prefix="glrt-gpu-") as folder:
         file = Path(folder, "pictures.npy")
@@ -128,13 +129,13 @@ def measure(all_ways: Sequence[Work], patience: float = PATIENCE) -> Iterator[Ro
 
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
-    """The rows as Markdown, errors below them."""
+    """The rows as Markdown, with the errors below them."""
     yield "| scene | route | pipeline | tier | picture | compile | longest dispatch | rate | peak |"
     yield "|---|---|---|---|---|---|---|---|---|"
     errors = []
     for row in rows:
         work, found = row.work, row.found
-        tier = found.get("tier", work.tier)  # many shapes are never baked
+        tier = found.get("tier", work.tier)  # scenes of many shapes are never baked
         named = work.tier if tier == work.tier else f"{tier} for {work.tier}"
         where = f"| {work.scene} | {_route(work)} | {work.pipeline} | {named} | {row.verdict}"
         if "error" in found:
@@ -162,14 +163,14 @@ def _figures(found: dict[str, Any]) -> str:
 
 
 def summary(rows: Sequence[Row]) -> str:
-    """One line."""
+    """The number of renders by verdict, in one line."""
     failed = sum("error" in row.found for row in rows)
     same = sum(row.difference == 0 for row in rows)
     wrong = sum(not row.is_right for row in rows) - failed
     first = sum(row.verdict == "first" for row in rows)
     near = len(rows) - failed - same - wrong - first
     return (
-        f"{len(rows)} ways and scenes: {first} first, {same} with the same bits, {near} within "
+        f"{len(rows)} renders: {first} first, {same} with the same bits, {near} within "
         f"1 % of the noise, {wrong} WRONG, {failed} failed"
     )
 
@@ -183,14 +184,14 @@ def main(arguments: list[str] | None = None) -> int:
 def _print(parsed: argparse.Namespace) -> int:
     files.make_folder(parsed.folder, "gpu.md", "gpu.json")
     much = {**(QUICK if parsed.quick else FULL), **_given(parsed, "size", "samples")}
-    routes, told = ([("auto", 0)], []) if parsed.auto or parsed.quick else _routes()
+    routes, notes = ([("auto", 0)], []) if parsed.auto or parsed.quick else _routes()
     rows = []
     for row in measure(list(ways(routes, parsed.scenes, **much)), parsed.patience):
         print(f"{_name(row.work)}: {row.verdict}", file=sys.stderr)
         rows.append(row)
     renderers = sorted({str(row.found["renderer"]) for row in rows if "renderer" in row.found})
     work = "{size} x {size} pixels, {samples} samples".format(**much)
-    lines = [f"{machine(*renderers)}, {work}", "", *told, *table(rows), "", summary(rows)]
+    lines = [f"{machine(*renderers)}, {work}", "", *notes, *table(rows), "", summary(rows)]
     print("\n".join(lines))
     figures = {"machine": machine(*renderers), "rows": [_plain(row) for row in rows]}
     files.write_text(parsed.folder / "gpu.md", "\n".join(lines) + "\n")
@@ -212,7 +213,7 @@ def _plain(row: Row) -> dict[str, Any]:
 
 
 def _routes() -> tuple[list[tuple[str, int]], list[str]]:
-    """Those that open here, and lines about what their drivers do."""
+    """The routes that open on this machine, and lines about their drivers."""
     routes, lines = [], []
     for one in examine_all():
         name = f"{one.route} {one.device}" if one.device else one.route
@@ -228,7 +229,7 @@ def _routes() -> tuple[list[tuple[str, int]], list[str]]:
 
 
 def _item(line: str) -> str:
-    """A line of the doctor, whose label stands in a column of its own."""
+    """A line of the doctor, with its columns joined by a colon."""
     return re.sub(r"\s{2,}", ": ", line.strip(), count=1)
 
 
@@ -237,14 +238,14 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     folder = Path("build", "gpu")
     add("-o", dest="folder", type=Path, metavar="DIR", default=folder, help=f"default: {folder}")
-    add("--quick", action="store_true", help="small pictures on the best route: a minute")
-    add("--auto", action="store_true", help="the route that `auto` chooses alone")
+    add("--quick", action="store_true", help="small pictures on the best route: about a minute")
+    add("--auto", action="store_true", help="only the route that `auto` chooses")
     add("--scenes", nargs="+", metavar="NAME", default=SCENES)
     told = f"pixels a side (default: {FULL['size']}, or {QUICK['size']})"
     add("--size", type=at_least(1), metavar="N", help=told)
-    told = f"of each pixel (default: {FULL['samples']}, or {QUICK['samples']})"
+    told = f"samples per pixel (default: {FULL['samples']}, or {QUICK['samples']})"
     add("--samples", type=at_least(1), metavar="N", help=told)
-    told = f"seconds for one way and scene (default: {PATIENCE:g})"
+    told = f"seconds for one combination and scene (default: {PATIENCE:g})"
     add("--patience", type=float, metavar="S", default=PATIENCE, help=told)
     return parser
 

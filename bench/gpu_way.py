@@ -1,8 +1,8 @@
-"""One way to render one scene, in a process of its own: what `bench.gpu` starts for each.
+"""One route, pipeline and tier with one scene: the process that `bench.gpu` starts for each.
 
     python -m bench.gpu_way WORK.json PICTURES.npy
 
-What was measured is printed as a line of JSON; a failure is one, too, if the driver lets it.
+It prints its result, or its error if the driver does not crash, as one line of JSON.
 """
 
 import json
@@ -23,25 +23,25 @@ from glrt.image.sources import load
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 
-SEEDS = 1, 2  # of the pictures; the first one warms up
+SEEDS = 1, 2  # of the pictures; the first one is also the warm-up
 
 
 @dataclass(frozen=True)
 class Work:
-    """A way, a scene, and how much of it."""
+    """A route, pipeline and tier, a scene, and the amount of rendering."""
 
     route: str  # or "auto"
-    device: int  # of those that the route offers
+    device: int  # its number among the devices of the route
     pipeline: Pipeline
     tier: Tier
     scene: str
     size: int  # pixels a side
-    samples: int  # a pixel
-    seconds: float  # the last picture is rendered again until so much time is spent
+    samples: int  # per pixel
+    seconds: float  # the last picture is repeated until this time has passed
 
 
 def measure(work: Work, pictures: Path) -> dict[str, Any]:
-    """The figures; the pictures of both seeds, (2, H, W, 3), go to a file."""
+    """Return the figures; write the pictures of both seeds, (2, H, W, 3), to a file."""
     context = open_context() if work.route == "auto" else open_device(work.route, work.device)
     renderer = Renderer(
         load(work.scene),
@@ -58,7 +58,7 @@ def measure(work: Work, pictures: Path) -> dict[str, Any]:
     dispatch = longest(lambda: _repeat(renderer, work.seconds, taken))
     return {
         **_opened(context),
-        "tier": renderer.tier,  # many shapes are never baked
+        "tier": renderer.tier,  # scenes of many shapes are never baked
         "compile_seconds": renderer.compile_seconds,
         "longest_dispatch": dispatch,
         "samples_per_second": work.samples * work.size**2 / statistics.median(taken),
@@ -80,7 +80,7 @@ def _picture(renderer: Renderer, seed: int) -> Pixels:
 
 
 def _repeat(renderer: Renderer, seconds: float, taken: list[float]) -> None:
-    """Render the same picture again and again; once at least. The time of each is added."""
+    """Render the same picture at least once, for `seconds`; append each time to `taken`."""
     while sum(taken) < seconds or not taken:
         start = time.perf_counter()
         renderer.restart()
@@ -89,10 +89,10 @@ def _repeat(renderer: Renderer, seconds: float, taken: list[float]) -> None:
 
 
 def main(work: str, pictures: str) -> None:
-    """Tell what was found."""
+    """Print the result as JSON."""
     try:
         found = measure(Work(**json.loads(work)), Path(pictures))
-    except Exception as error:  # whatever a driver does is a finding
+    except Exception as error:  # any error of a driver is a result
         kind = type(error).__name__
         found = {"error": f"{kind}: {' '.join(str(error).split())}"}
     print(json.dumps(found), flush=True)

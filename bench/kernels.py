@@ -1,7 +1,7 @@
-"""How fast the kernel is, and what its variants give: ratios of interleaved runs.
+"""The speed of the kernel and of its variants, as ratios of interleaved runs.
 
-Every round runs each variant once, so that whatever else the machine does meets all of them; a
-ratio is that of two runs of one round, and its median and quartiles are over the rounds.
+Every round runs each variant once, so that other load on the machine affects all alike. A ratio is
+that of two runs of the same round; median and quartiles are over the rounds.
 """
 
 import argparse
@@ -22,14 +22,14 @@ from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Method
 
-TARGET_ERROR = 0.02
-VARIANCE_SECONDS = 1.5
+TARGET_ERROR = 0.02  # relative RMS
+VARIANCE_SECONDS = 1.5  # of the render that measures the variance
 MOST_SAMPLES = 1024
 
 
 @dataclass(frozen=True)
 class Variant:
-    """A way to render: the same image, another time."""
+    """A configuration of the kernel; all render the same image, at different speeds."""
 
     name: str
     tier: Tier
@@ -52,17 +52,17 @@ class Row:
     variant: str
     compile_seconds: float
     samples_per_second: float  # pixel samples, median
-    ratio: float  # to the first variant, median of the rounds, and quartiles
+    ratio: float  # speed over that of the first variant: median of the rounds, then quartiles
     ratio_low: float
     ratio_high: float
-    relative_variance: float  # of one sample: the error squared, times the samples
-    seconds_to_target: float  # to a relative error of TARGET_ERROR at this size
+    relative_variance: float  # of one sample: squared error times samples
+    seconds_to_target: float  # to a relative RMS error of TARGET_ERROR at this size
 
 
 def measure(
     context: Context, name: str, method: Method, size: int, rounds: int, seconds: float
 ) -> list[Row]:
-    """Interleave the variants of one scene; a run takes about `seconds`."""
+    """Measure the variants of one scene in interleaved runs of about `seconds`."""
     renderers = [
         Renderer(load(name), context=context, tier=v.tier, method=method, width=size, height=size)
         for v in VARIANTS
@@ -83,7 +83,7 @@ def measure(
 
 
 def _relative_variance(renderer: Renderer) -> float:
-    """Of one sample, from many: few would make what is bright by chance look sure."""
+    """Relative variance of one sample, from many samples: few would miss rare bright ones."""
     end = time.perf_counter() + VARIANCE_SECONDS
     image = renderer.render(MOST_SAMPLES, lambda _: time.perf_counter() < end).image()
     return (image.error or float("nan")) ** 2 * image.samples
@@ -118,7 +118,7 @@ def _row(
 
 
 def _samples_for(renderer: Renderer, seconds: float) -> int:
-    """As many samples as the slowest variant takes in that time, from 4 on."""
+    """The samples that the slowest variant takes in `seconds`, at least 4."""
     renderer.step(1)
     start = time.perf_counter()
     renderer.step(1)
@@ -126,7 +126,7 @@ def _samples_for(renderer: Renderer, seconds: float) -> int:
 
 
 def _run(renderer: Renderer, samples: int, variant: Variant) -> float:
-    """Seconds for `samples` samples from an empty film."""
+    """Seconds to render `samples` samples per pixel from an empty film."""
     renderer.update(seed=renderer.settings.seed + 1)
     most = 1 if variant.one_sample_a_dispatch else renderer.most_samples
     start = time.perf_counter()
@@ -177,8 +177,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--scenes", nargs="+", metavar="NAME", default=scenes)
     add("--methods", nargs="+", choices=["naive", "nee", "mis"], default=["naive", "mis"])
     add_rounds(parser, size=128, rounds=9)
-    add("--seconds", type=float, default=0.5, metavar="S", help="of the slowest (default: 0.5)")
-    add("--json", type=Path, metavar="FILE", help="the figures for programs")
+    add("--seconds", type=float, default=0.5, metavar="S", help="run of the slowest (default: 0.5)")
+    add("--json", type=Path, metavar="FILE", help="file for the figures as JSON")
     return parser
 
 

@@ -1,7 +1,8 @@
-"""What it gives to weigh lamps by nearness where there are many: scenes of small ones.
+"""Variance and time with lamps chosen by flux and distance, in scenes of many small lamps.
 
-`hall`: balls of random flux below its ceiling; `mixed`: every other one is a panel; `around`: lamps
-on a sphere around two balls, where none is nearer than another and there is nothing to win.
+`hall`: spherical lamps of random flux below the ceiling of a hall; `mixed`: every other one is a
+quad; `around`: lamps on a sphere around two small spheres, all at nearly the same distance, so
+that distances cannot reduce the variance.
 """
 
 import math
@@ -29,14 +30,14 @@ PARTS_BY_FLUX = [
 ]
 WAYS = {
     "by flux alone": Way({}, BY_FLUX),
-    "clusters by nearness, in them by flux": Way({}, PARTS_BY_FLUX),
-    "parts of a cluster by nearness, too: the default": Way({}),
+    "clusters by distance, lamps in them by flux": Way({}, PARTS_BY_FLUX),
+    "clusters and their parts by distance: the default": Way({}),
 }
 Array = np.ndarray[Any, Any]
 
 
 def hall(count: int, panels: bool = False) -> Scene:
-    """Lamps of random flux between 0.1 and 0.5 below the ceiling of a hall 10 x 4 x 12 large."""
+    """Lamps of random flux, 0.1 to 0.5 below the ceiling of a hall of 10 x 4 x 12 scene units."""
     random = np.random.default_rng(1)
     places = random.uniform([-4, 1.5, -9], [4, 1.9, -1], (count, 3))
     size = _size(count)
@@ -54,7 +55,7 @@ def hall(count: int, panels: bool = False) -> Scene:
 
 
 def around(count: int) -> Scene:
-    """Lamps of random flux on a sphere, fifty times as large as the balls that they light."""
+    """Lamps of random flux on a sphere of radius 50 around two spheres of radius 1."""
     random = np.random.default_rng(1)
     places = random.normal(size=(count, 3))
     places *= 50 / np.linalg.norm(places, axis=1, keepdims=True)
@@ -67,11 +68,12 @@ SCENES = {"hall": hall, "mixed": lambda count: hall(count, panels=True), "around
 
 
 def _size(count: int) -> float:
-    """So small that many lamps leave light between them."""
+    """Half edge or radius of a lamp, smaller for many lamps so that they do not overlap."""
     return 0.05 * min(1.0, math.sqrt(300 / count))
 
 
 def _lit(objects: list[dict[str, Any]], radiance: Array) -> Scene:
+    """A scene of `objects`; the lamps, named by number, have 20 times the given radiances."""
     lamps = {str(number): lamp(20 * float(value)) for number, value in enumerate(radiance)}
     return scene_of(objects, {"matte": matte(0.7), **lamps}, {"fov": 60}, render={"bounces": 4})
 

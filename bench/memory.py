@@ -1,7 +1,8 @@
-"""How much memory a picture takes, and what accounts for it: whole processes, one after the other.
+"""The memory of a process that renders a large picture, and what it is used for.
 
-`cornell` at 1 sample a pixel, saved as EXR. What a picture of 8 x 8 pixels takes is the interpreter
-and the driver; a film has all its textures twice; a picture is what a render can go on from.
+Each process renders `cornell` at 1 sample per pixel and saves it as EXR. The memory for a picture
+of 8 x 8 pixels is that of the interpreter and the driver. The film holds all its textures twice.
+The picture holds everything that is needed to resume the render.
 """
 
 import sys
@@ -16,32 +17,32 @@ from glrt.settings import Sampler, settings_for
 
 SMALL = 8  # pixels a side
 TEXEL = 16  # bytes of RGBA32F
-PICTURE = 40  # bytes a pixel: radiance, standard error, variance, observations
-BEGUN = 16  # of an observation that has begun, as with one of Sobol's points: its mean and samples
+PICTURE = 40  # bytes per pixel: radiance, standard error, variance, observations
+BEGUN = 16  # additional bytes for an incomplete block of Sobol' points: its mean and samples
 
 
 class Row(NamedTuple):
-    """One render; bytes, seconds."""
+    """The memory of one render, in bytes."""
 
     size: int  # pixels a side
     sampler: Sampler
     seconds: float  # of the process
-    peak: float
-    base: float  # the peak of a small picture
+    peak: float  # of the process
+    base: float  # peak with a small picture
     film: int
     picture: int
 
     @property
     def rest(self) -> float:
-        """What neither film nor picture nor a small picture's peak account for."""
+        """The part of the peak that film, picture and the peak with a small picture leave."""
         return self.peak - self.base - self.film - self.picture
 
 
 def measure(size: int, sampler: Sampler) -> Row:
-    """Render two pictures, each in its own process; RenderError if one fails."""
+    """Render a small and a large picture, each in a process; raises RenderError if one fails."""
     small, large = (_start(pixels, sampler) for pixels in (SMALL, size))
     block = settings_for(load("cornell").render, sampler=sampler).block
-    textures = 2 * (2 if block == 1 else 3)  # twice: mean, variance, the block that has begun
+    textures = 2 * (2 if block == 1 else 3)  # mean, variance, incomplete block; all twice
     film = textures * TEXEL * size**2
     picture = (PICTURE + (BEGUN if block > 1 else 0)) * size**2
     return Row(size, sampler, large[0], large[1], small[1], film, picture)
@@ -58,12 +59,12 @@ def _start(size: int, sampler: Sampler) -> tuple[float, float]:
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
     """The rows as Markdown, memory in MiB."""
-    yield "| picture | sampler | process | peak memory | small picture | film | picture | rest |"
+    yield "| size | sampler | process time | peak memory | small picture | film | picture | other |"
     yield "|---|---|---|---|---|---|---|---|"
     for row in rows:
         sizes = (row.peak, row.base, row.film, row.picture, row.rest)
-        told = " | ".join(f"{size / 2**20:.0f}" for size in sizes)
-        yield f"| {row.size} x {row.size} | {row.sampler} | {row.seconds:.1f} s | {told} |"
+        cells = " | ".join(f"{size / 2**20:.0f}" for size in sizes)
+        yield f"| {row.size} x {row.size} | {row.sampler} | {row.seconds:.1f} s | {cells} |"
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -1,7 +1,8 @@
-"""How many nodes of the tree a ray looks at, and how many eight neighbouring pixels wait for.
+"""The number of nodes of the tree that a ray visits, alone and in groups of eight lanes.
 
-Camera and scattered rays of each sample, without those to lamps. Drivers without a GPU follow eight
-pixels of a row at once, each its paths in turn: they wait for the one that looks at the most.
+Counted are the camera and scattered rays of each sample, without shadow rays. Software drivers
+trace eight pixels of a row in parallel lanes, each its paths one after the other, so that every
+search takes as long as that of the lane with the most visits.
 """
 
 import argparse
@@ -29,21 +30,21 @@ SAMPLES = 3
 
 
 def looks_of(scene: Scene, context: Context, size: int, samples: int) -> Looks:
-    """Nodes that each ray looks at, (samples, rays of a path, size, size); 0 where there is none.
+    """Nodes that each ray visits, (samples, rays of a path, size, size); 0 where there is no ray.
 
-    `size` is a multiple of LANES.
+    `size` must be a multiple of LANES.
     """
     rays = range(scene.render.bounces + 1)
     return np.stack([_looks_at(depth, scene, context, size, samples) for depth in rays], axis=1)
 
 
 def per_ray(looks: Looks) -> float:
-    """The mean over all rays."""
+    """The mean number of nodes over all rays."""
     return float(looks[looks > 0].mean())
 
 
 def per_lanes(looks: Looks) -> float:
-    """The mean of the most that any of eight lanes looks at, over the rounds that they make."""
+    """The mean, over the searches of eight lanes in parallel, of the largest number in a lane."""
     samples, rays = looks.shape[:2]
     lanes = looks.transpose(2, 3, 0, 1).reshape(-1, LANES, samples * rays)
     in_turn = np.take_along_axis(lanes, np.argsort(lanes == 0, axis=2, kind="stable"), axis=2)
@@ -52,8 +53,8 @@ def per_lanes(looks: Looks) -> float:
 
 
 def table(scenes: dict[str, Scene], context: Context) -> Iterator[str]:
-    """A row a scene, as Markdown."""
-    yield "| scene | nodes a ray | of the slowest of eight lanes |"
+    """A row for each scene, as Markdown."""
+    yield "| scene | nodes per ray | nodes in the slowest of eight lanes |"
     yield "|---|---|---|"
     for name, scene in scenes.items():
         looks = looks_of(scene, context, SIZE, SAMPLES)
@@ -61,7 +62,7 @@ def table(scenes: dict[str, Scene], context: Context) -> Iterator[str]:
 
 
 def _looks_at(depth: int, scene: Scene, context: Context, size: int, samples: int) -> Looks:
-    """Of the rays after so many scattering events; a seed a sample."""
+    """Nodes of the rays after `depth` bounces, (samples, size, size); one seed per sample."""
     renderer = Renderer(scene, context=context, variant=_counter(depth), width=size, height=size)
     pictures = []
     for seed in range(samples):
@@ -72,7 +73,7 @@ def _looks_at(depth: int, scene: Scene, context: Context, size: int, samples: in
 
 
 def _counter(depth: int) -> Variant:
-    """Renders how many nodes the ray of that depth looks at where others render radiance."""
+    """A kernel that renders the number of nodes visited by the ray of this depth, not radiance."""
     search = "    precise Hit hit = closest_hit(path.ray);\n"
     node = "        precise Node node = node_at(place);\n"
     hit = "struct Hit {"
@@ -96,14 +97,14 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _print(parsed: argparse.Namespace) -> None:
     context = open_context()
-    crowds = {f"{count:,} balls": crowd(count) for count in parsed.spheres}
+    crowds = {f"{count:,} spheres": crowd(count) for count in parsed.spheres}
     print(f"{machine(context.renderer)}, {SIZE} x {SIZE} pixels, {SAMPLES} samples\n")
     for line in table({**crowds, "`weekend`": load("weekend")}, context):
         print(line)
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = parser_of("looks", __doc__)
+    parser = parser_of("node_visits", __doc__)
     parser.add_argument("--spheres", type=int, nargs="+", metavar="N", default=list(CROWDS))
     return parser
 

@@ -1,7 +1,7 @@
-"""Other renderers, each a program that stays and renders on request: its start is not timed.
+"""Other renderers, each in a process that renders on request, so that its start is not timed.
 
-It gets one request a line on stdin and answers each with a line on stdout, both JSON; pictures go
-through files. So glrt never imports them, and a crash of theirs ends them alone.
+Requests and answers are lines of JSON on stdin and stdout; pictures are passed as files. The
+process of the benchmark imports none of these renderers, and a crash of one does not affect it.
 """
 
 import json
@@ -22,13 +22,13 @@ from glrt.image.image import Image
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene, scene_to_dict
 
-PREFIX = "glrt-peer-"  # of folders for pictures on their way, among the temporary files
-FORGOTTEN = 24 * 3600.0  # seconds without a new picture
+PREFIX = "glrt-peer-"  # of the temporary folders in which pictures are passed
+FORGOTTEN = 24 * 3600.0  # seconds since the last picture after which a folder is removed
 
 
 @dataclass(frozen=True)
 class Request:
-    """What to render; a peer ignores what it does not know."""
+    """What to render; a renderer ignores the fields that it does not support."""
 
     scene: str  # as JSON
     width: int
@@ -37,25 +37,25 @@ class Request:
     samples: int
     seed: int
     roulette: bool = True
-    one_sided: bool = False  # quads that emit light do so along their normal alone
-    finite: bool = False  # planes may end far away
-    batches: int = 1  # the picture knows its errors from so many parts: of 1, it does not
+    one_sided: bool = False  # quads emit light only on the side of their normal
+    finite: bool = False  # planes may be replaced by large polygons
+    batches: int = 1  # parts from which standard errors are estimated; with 1 there are none
 
     @classmethod
     def of(cls, scene: Scene, **settings: Any) -> "Request":
-        """A request whose other fields are `settings`."""
+        """A request for `scene` with the fields `settings`."""
         return cls(scene=json.dumps(scene_to_dict(scene)), **settings)
 
     def parsed(self) -> Scene:
-        """The scene."""
+        """The scene of the request."""
         return parse_scene(json.loads(self.scene), "request")
 
 
 class Peer:
-    """The program of another renderer, started and ready."""
+    """The running process of another renderer."""
 
     def __init__(self, command: Sequence[str]) -> None:
-        """Start it; RenderError, with the reason that it gave, if it does not get ready."""
+        """Start it; raises RenderError with its last message if it does not get ready."""
         _remove_forgotten_folders()
         self._folder = tempfile.TemporaryDirectory(prefix=PREFIX)
         self._process = Process(command, Path(self._folder.name, "log"))
@@ -66,7 +66,7 @@ class Peer:
             raise
 
     def render(self, request: Request) -> tuple[Image, float]:
-        """The picture, and the seconds that it took; RenderError if there is none."""
+        """Return a picture and the seconds that it took; raises RenderError on failure."""
         output = Path(self._folder.name, "picture.exr")
         answer = self._process.ask({**asdict(request), "output": str(output)})
         return Image.load(output), answer["seconds"]
@@ -78,7 +78,7 @@ class Peer:
 
 
 def _remove_forgotten_folders() -> None:
-    """Those of processes that were killed: nobody else is left to do it."""
+    """Remove folders left behind by processes that were killed."""
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
         with suppress(OSError):
             if time.time() - folder.stat().st_mtime > FORGOTTEN:
@@ -86,9 +86,9 @@ def _remove_forgotten_folders() -> None:
 
 
 def serve(name: str, render: Callable[[Request], tuple[Image, float]]) -> None:
-    """The other end, in the peer's program: answer requests until stdin ends."""
+    """Answer requests until stdin ends; called in the process of the renderer `name`."""
     answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # whatever a library prints must not come between
+    os.dup2(2, 1)  # output of libraries must not mix with the answers
 
     def answer(**words: Any) -> None:
         print(json.dumps(words), file=answers, flush=True)

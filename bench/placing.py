@@ -1,4 +1,4 @@
-"""Where things stand in a scene by chance: none in another, none before the camera's very eye."""
+"""Random positions of objects in a scene, without overlaps and not too close to the camera."""
 
 import math
 from typing import NamedTuple
@@ -7,22 +7,22 @@ from bench.dice import Dice
 
 Point = tuple[float, float, float]
 
-DIGITS = 5  # after the point, of every number
+DIGITS = 5  # decimal places of all numbers
 SMALLEST = 0.008  # radius
-NEAR = 0.5  # from the camera: nothing comes closer than this, and its own diameter
-GAP = 0.02  # between things, and to a wall
-TRIES = 60  # places that are tried for a thing; after each third it is halved
+NEAR = 0.5  # least distance from the camera; it is also at least the diameter of the object
+GAP = 0.02  # least distance between objects, and to walls
+TRIES = 60  # positions that are tried for an object; after each third its size is halved
 
 
 class Space(NamedTuple):
-    """Where things stand: |x| <= half_width, 0 <= y <= height, |z| <= depth."""
+    """The space for objects: |x| <= half_width, 0 <= y <= height, |z| <= depth."""
 
     half_width: float
     height: float
     depth: float
 
     def holds(self, center: Point, radius: float) -> bool:
-        """Whether a ball is inside, a gap away from walls and ceiling; it may touch the floor."""
+        """Whether a sphere is inside, GAP away from walls and ceiling; it may touch the floor."""
         x, y, z = center
         room = radius + GAP
         is_wide = abs(x) + room <= self.half_width and abs(z) + room <= self.depth
@@ -30,24 +30,24 @@ class Space(NamedTuple):
 
 
 class Ball(NamedTuple):
-    """Space that is taken."""
+    """A sphere of occupied space."""
 
     center: Point
     radius: float
 
 
 class Free:
-    """Finds free balls for things, which are then taken."""
+    """Finds free spheres for objects, and marks them as occupied."""
 
     def __init__(self, dice: Dice, space: Space, eye: Point) -> None:
-        """All is free but the camera's place, `eye`."""
+        """With no objects yet; `eye` is the position of the camera."""
         self.dice, self.space, self.eye = dice, space, eye
         self.taken: list[Ball] = []
 
     def place(self, size: float, height: float | None = None, wide: float = 1) -> Ball | None:
-        """A free ball of about this radius, or None; at `height`, or on the floor.
+        """Occupy a free sphere of radius `size` or less, at `height` or on the floor; None if full.
 
-        `wide` is the share of the space, around its middle, where it may be.
+        Its centre is within the share `wide` of the width and depth, around the middle.
         """
         space, radius = self.space, size
         for attempt in range(TRIES):
@@ -63,7 +63,7 @@ class Free:
         return None
 
     def _is_free(self, ball: Ball) -> bool:
-        """Whether it keeps clear of all others, and does not fill the camera's view."""
+        """Whether it overlaps no other sphere and is not too close to the camera."""
         center, radius = ball
         if math.dist(center, self.eye) < radius + max(NEAR, 2 * radius):
             return False

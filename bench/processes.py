@@ -1,4 +1,4 @@
-"""Programs that stay and answer: a request is a line of JSON on stdin, its answer one on stdout."""
+"""Processes that answer requests: each request and each answer is a line of JSON."""
 
 import json
 import os
@@ -9,16 +9,16 @@ from typing import Any
 
 from glrt.errors import RenderError
 
-ROOT = Path(__file__).resolve().parent.parent  # of this checkout
+ROOT = Path(__file__).resolve().parent.parent  # folder of this checkout
 
 
 class Process:
-    """A program that was started."""
+    """A running program that reads requests from stdin and writes answers to stdout."""
 
     def __init__(
         self, command: Sequence[str], log: Path, environment: Mapping[str, str] | None = None
     ) -> None:
-        """Start it; what it writes to stderr goes to `log`."""
+        """Start it; its stderr is written to `log`."""
         self._log = log
         with log.open("w") as errors:
             self._process = subprocess.Popen(
@@ -31,7 +31,7 @@ class Process:
             )
 
     def ask(self, words: Mapping[str, Any]) -> dict[str, Any]:
-        """The answer to a request; RenderError if it is an error, or if the program has ended."""
+        """Return the answer to a request; RenderError if it is an error or the program ended."""
         assert self._process.stdin
         try:
             print(json.dumps(words), file=self._process.stdin, flush=True)
@@ -43,7 +43,7 @@ class Process:
         return answer
 
     def answer(self) -> dict[str, Any]:
-        """The next answer; RenderError if the program has ended."""
+        """Return the next answer; raises RenderError if the program has ended."""
         assert self._process.stdout
         line = self._process.stdout.readline()
         if not line:
@@ -57,15 +57,16 @@ class Process:
         self._process.communicate()
 
     def _ended(self) -> RenderError:
+        """An error with the last line of the log."""
         code = self._process.wait()
         said = self._log.read_text(errors="replace").strip().splitlines()
         return RenderError(said[-1] if said else f"it ended with exit code {code}")
 
 
 def environment_of(checkout: Path, caches: Path) -> dict[str, str]:
-    """In which Python imports glrt from a checkout, and drivers compile every kernel anew.
+    """Environment variables with which Python imports glrt from a checkout.
 
-    `caches` is an empty folder; what drivers keep there goes with it.
+    The shader caches of drivers are set to `caches`, an empty folder, so that all is compiled.
     """
     path = [str(checkout), *filter(None, [os.environ.get("PYTHONPATH")])]
     return {

@@ -1,4 +1,4 @@
-"""What the programs of `python -m bench` have in common."""
+"""Common parts of the programs of bench: exit codes, options, description of the machine."""
 
 import argparse
 import os
@@ -12,10 +12,10 @@ from glrt.version import VERSION
 
 
 def exit_code_of(work: Callable[[], int | None]) -> int:
-    """Do it, and return what it returns, or 0.
+    """Call `work` and return its exit code, or 0 for None.
 
-    What is wrong is told in one paragraph on stderr, with the exit code of its kind; so are Ctrl-C
-    and SIGTERM, which let it clean up.
+    Errors of glrt are printed as one paragraph on stderr and give the exit code of their class. So
+    do Ctrl-C and SIGTERM, which raise KeyboardInterrupt in `work` to let it clean up.
     """
     try:
         with handled(interrupt):
@@ -29,19 +29,19 @@ def exit_code_of(work: Callable[[], int | None]) -> int:
 
 
 def machine(*renderers: str) -> str:
-    """What figures were measured with."""
+    """The version of glrt, `renderers`, and the number of processors, as a line for results."""
     return ", ".join([f"glrt {VERSION}", *renderers, f"{os.cpu_count()} processors"])
 
 
 def parser_of(name: str, about: str | None) -> argparse.ArgumentParser:
-    """Of `python -m bench.NAME`."""
+    """A parser for `python -m bench.NAME` with the description `about`."""
     return argparse.ArgumentParser(prog=f"python -m bench.{name}", description=about)
 
 
 def add_rounds(
     parser: argparse.ArgumentParser, size: int, rounds: int, least_rounds: int = 2
 ) -> None:
-    """`--size` and `--rounds`, with these defaults."""
+    """Add the options `--size` and `--rounds` with these defaults."""
     told = f"pixels a side (default: {size})"
     parser.add_argument("--size", type=at_least(1), default=size, metavar="N", help=told)
     told = f"runs of each, {least_rounds} or more (default: {rounds})"
@@ -50,7 +50,7 @@ def add_rounds(
 
 
 def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:
-    """The names of some tables, as `tables`; all of them if none is named."""
+    """Add the positional argument `tables`: names of tables to make, by default all."""
     names = list(tables)
 
     def known(text: str) -> str:
@@ -63,7 +63,7 @@ def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:
 
 
 def at_least(least: int) -> Callable[[str], int]:
-    """The type of an option: a whole number from `least` on."""
+    """The type of an option for whole numbers of `least` or more."""
 
     def number(text: str) -> int:
         if (value := int(text)) < least:

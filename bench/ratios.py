@@ -1,9 +1,9 @@
-"""Ratios of times from rounds that ran two programs each: medians with 95 % intervals.
+"""Ratios of times from interleaved rounds of two programs: medians with 95 % intervals.
 
-Of one scene the interval is that of order statistics: two of the sorted ratios, between which the
-true median lies in 95 % of cases or more, whatever their distribution. Over all scenes it is the
-geometric mean of the scenes' medians, and its interval comes from drawing the rounds of each scene
-anew (bootstrap): so a scene that is disturbed in some rounds counts no more than another.
+For one scene the interval is between two order statistics of the ratios, which contain the true
+median with a probability of at least 95 % for any distribution. Over several scenes the ratio is
+the geometric mean of their medians, with an interval from the bootstrap over the rounds of each
+scene, so that disturbed rounds of a scene do not give it more weight.
 """
 
 import math
@@ -13,15 +13,15 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 CONFIDENCE = 0.95
-LEAST_ROUNDS = 6  # of fewer, not even the smallest and the largest ratio make such an interval
-TOLERATED = 1.03  # times as long: less than this is no loss worth a look
-REDRAWN = 4000  # times that rounds are drawn anew
+LEAST_ROUNDS = 6  # with fewer, not even smallest and largest ratio give a 95 % interval
+TOLERATED = 1.03  # ratio below which a program does not count as slower
+REDRAWN = 4000  # bootstrap resamples
 
 Verdict = Literal["no slower", "slower", "not decided: more rounds"]
 
 
 class Ratio(NamedTuple):
-    """How many times as long, with a 95 % interval."""
+    """A ratio of times with its 95 % interval."""
 
     value: float
     low: float
@@ -29,7 +29,7 @@ class Ratio(NamedTuple):
 
     @property
     def verdict(self) -> Verdict:
-        """What the interval decides."""
+        """The conclusion from the interval."""
         if self.high < TOLERATED:
             return "no slower"
         return "slower" if self.low > 1 else "not decided: more rounds"
@@ -39,17 +39,18 @@ class Ratio(NamedTuple):
 
 
 def ratio_of(these: Sequence[float], others: Sequence[float]) -> Ratio:
-    """Of the times of one scene, one of each program a round."""
+    """Median ratio of the times of two programs in one scene; both hold one time per round."""
     ratios = np.sort(np.divide(these, others))
     rank = rank_of(len(ratios))
     return Ratio(float(np.median(ratios)), float(ratios[rank - 1]), float(ratios[-rank]))
 
 
 def rank_of(rounds: int) -> int:
-    """The k of which the k-th smallest and k-th largest of so many values hold the median.
+    """The largest k for which the k-th smallest and k-th largest value contain the true median.
 
-    The number of values below the median is binomial with chance 1/2: the two fail to hold it
-    where fewer than k of the values lie on one side.
+    They do with a probability of at least CONFIDENCE: the number of `rounds` values below the
+    median is binomial with probability 1/2, and they fail if fewer than k values are on one side.
+    Raises ValueError with fewer than LEAST_ROUNDS.
     """
     chances = np.cumsum([math.comb(rounds, k) / 2**rounds for k in range(rounds)])
     rank = int(np.searchsorted(chances, (1 - CONFIDENCE) / 2, side="right"))
@@ -59,7 +60,7 @@ def rank_of(rounds: int) -> int:
 
 
 def ratio_over(scenes: Sequence[tuple[Sequence[float], Sequence[float]]]) -> Ratio:
-    """Of all scenes, from the times of both programs in each."""
+    """Geometric mean of the ratios of several scenes, from the times of both programs in each."""
     rng = np.random.default_rng(0)
     medians, redrawn = [], []
     for these, others in scenes:

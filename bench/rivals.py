@@ -1,9 +1,9 @@
-"""glrt against other renderers, in time to an error of 2 %, at 128 x 128 pixels on this machine.
+"""Time to an error of 2 % with glrt and with other renderers, at 128 x 128 pixels.
 
-Mitsuba 3, on the CPU by LLVM, gets every advantage that its users would give it: light sampling,
-roulette or none, whichever is better, lamps of one side where nobody sees the other, and planes of
-two triangles. The WGSL version is what glrt is the OpenGL fallback of: both scatter alone. A
-renderer that is not installed is left out, and named.
+Mitsuba 3, on the CPU by LLVM, is configured to its advantage: with light sampling, with roulette or
+without, whichever is faster, with one-sided lamps where the other side is not visible, and with
+planes of two triangles. The WGSL version, which glrt ports to OpenGL, is compared with the method
+`naive`, the only one that it has. Renderers that are not installed are named and left out.
 """
 
 import argparse
@@ -30,16 +30,16 @@ from glrt.gpu.context import Context, open_context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 
-TARGET_ERROR = 0.02
-ROUNDS_OF_TRIAL = 6  # in which Mitsuba's roulette is chosen
+TARGET_ERROR = 0.02  # relative RMS
+ROUNDS_OF_TRIAL = 6  # of the choice of roulette for Mitsuba
 ROUNDS_OF_STARTS = 5
-LEVEL_SECONDS = 2.0  # for a picture with little noise
+LEVEL_SECONDS = 2.0  # for the picture that variances are relative to
 MITSUBA, WGSL = "Mitsuba", "WGSL"
 PEERS = {
     MITSUBA: [sys.executable, "-m", "tests.mitsuba.serve"],
     WGSL: [sys.executable, "-m", "tests.wgsl.serve"],
 }
-BACKS_UNSEEN = ("cornell", "room")  # their lamp hangs under the ceiling
+BACKS_UNSEEN = ("cornell", "room")  # the upper side of their lamp is not visible
 
 Picture = np.ndarray[Any, np.dtype[np.float32]]
 Render = Callable[[int, int], tuple[Picture, float]]  # samples, seed -> picture, seconds
@@ -47,11 +47,11 @@ Render = Callable[[int, int], tuple[Picture, float]]  # samples, seed -> picture
 
 @dataclass(frozen=True)
 class Contender:
-    """A way to render a scene, ready."""
+    """A renderer that is ready to render a scene."""
 
     name: str
     render: Render
-    block: int = 1  # samples come in multiples of it
+    block: int = 1  # numbers of samples are multiples of it
 
 
 @dataclass(frozen=True)
@@ -63,20 +63,20 @@ class Row:
     samples_per_second: float  # pixel samples, median
     relative_variance: float  # of one sample
     seconds_to_target: float
-    rival: str | None
-    lead: Lead | None  # over it
+    rival: str | None  # the renderer it is compared with
+    lead: Lead | None  # over the rival
 
 
 class Contest:
-    """All renderers that are there."""
+    """glrt and the other renderers that are installed."""
 
     def __init__(self, context: Context, peers: dict[str, Peer], size: int, rounds: int) -> None:
-        """At size x size pixels."""
+        """With renders of `size` x `size` pixels; `peers` by name."""
         self._context, self._peers = context, peers
         self._size, self._rounds = size, rounds
 
     def rows(self, name: str, seconds: float) -> Iterator[Row]:
-        """The figures of a scene; each of its renders takes about `seconds`."""
+        """The rows of a scene, from renders of about `seconds` each."""
         scene = scene_of(name)
         with ExitStack() as stack:
             ours = [
@@ -92,7 +92,7 @@ class Contest:
             alike: dict[str, Any] = {"roulette": False, "sampler": "independent"}
             ours = [stack.enter_context(self._glrt(scene, "naive", **alike))]
             rivals = [self._peer(WGSL, scene, WGSL)] if WGSL in self._peers else []
-            rounds = max(self._rounds // 3, 2)  # they differ in speed alone
+            rounds = max(self._rounds // 3, 2)  # enough, as they differ only in speed
             runs = interleaved([*ours, *rivals], rounds, seconds)
             yield from _rows(name, runs, bool(rivals), level)
 
@@ -103,7 +103,7 @@ class Contest:
 
         def render(samples: int, seed: int) -> tuple[Picture, float]:
             renderer.update(seed=seed)
-            renderer.restart()  # also from an equal seed
+            renderer.restart()  # also for the seed of the last render
             start = time.perf_counter()
             image = renderer.render(samples).image()
             return image.radiance, time.perf_counter() - start
@@ -115,7 +115,7 @@ class Contest:
             renderer.release()
 
     def _mitsuba(self, name: str, scene: Scene, level: Array, seconds: float) -> Contender:
-        """With or without roulette: what a first trial finds better."""
+        """Mitsuba with or without roulette, whichever is faster in a first trial."""
         asked = {"one_sided": name in BACKS_UNSEEN, "finite": True}
         both = [
             self._peer(MITSUBA, scene, f"Mitsuba, {text}", roulette=roulette, **asked)
@@ -137,7 +137,7 @@ class Contest:
 
 
 def _rows(name: str, runs: list[Runs], has_rival: bool, level: Array) -> Iterator[Row]:
-    """The last of them is the rival, if there is one."""
+    """A row for each of `runs`; with `has_rival` the last one is the rival of the others."""
     rival = runs[-1] if has_rival else None
     for each in runs:
         ahead_of = rival if each is not rival else None
@@ -153,7 +153,7 @@ def _rows(name: str, runs: list[Runs], has_rival: bool, level: Array) -> Iterato
 
 
 def interleaved(contenders: list[Contender], rounds: int, seconds: float) -> list[Runs]:
-    """Renders of all contenders in turns; each takes about `seconds`."""
+    """Interleaved renders of all contenders, about `seconds` each."""
     samples = [_samples_for(each, seconds) for each in contenders]
     renders: list[list[tuple[Picture, float]]] = [[] for _ in contenders]
     for seed in range(1, rounds + 1):
@@ -171,12 +171,12 @@ def interleaved(contenders: list[Contender], rounds: int, seconds: float) -> lis
 
 
 def _level(contender: Contender, seconds: float) -> Array:
-    """The picture with little noise."""
+    """A picture with little noise, (H, W, 3), to which variances are relative."""
     return contender.render(_samples_for(contender, seconds), 0)[0].astype(np.float64)
 
 
 def _samples_for(contender: Contender, seconds: float) -> int:
-    """How many take that time, in whole blocks; the first render compiles."""
+    """The samples that take `seconds`, in whole blocks; the first render is warm-up."""
     samples = 16
     contender.render(samples, 0)
     taken = contender.render(samples, 0)[1]
@@ -184,8 +184,9 @@ def _samples_for(contender: Contender, seconds: float) -> int:
 
 
 def table(rows: list[Row]) -> Iterator[str]:
-    """The rows as Markdown."""
-    yield "| scene | renderer | million samples/s | variance | to 2 % | time | rate | of variance |"
+    """The rows as Markdown; gains are the factors of `Lead`."""
+    gains = ["time gain", "rate gain", "variance gain"]
+    yield f"| scene | renderer | million samples/s | variance | to 2 % | {' | '.join(gains)} |"
     yield "|---|---|---|---|---|---|---|---|"
     for row in rows:
         lead = [str(factor) for factor in row.lead] if row.lead else [""] * 3
@@ -251,8 +252,8 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("--scenes", nargs="+", choices=SCENES, metavar="NAME", default=SCENES)
     add_rounds(parser, size=128, rounds=30)
-    add("--seconds", type=float, default=0.16, metavar="S", help="of a render (default: 0.16)")
-    add("--json", type=Path, metavar="FILE", help="the figures for programs")
+    add("--seconds", type=float, default=0.16, metavar="S", help="time of a render (default: 0.16)")
+    add("--json", type=Path, metavar="FILE", help="file for the figures as JSON")
     return parser
 
 

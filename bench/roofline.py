@@ -1,11 +1,11 @@
-"""How near the kernel comes to what the machine can compute: an estimate.
+"""An estimate of the arithmetic throughput of the kernel, relative to the peak of the machine.
 
-The peak is measured: a kernel of multiplications and additions alone, in chains that do not wait
-for each other, on the same renderer. The operations of a sample are counted: rays by the kernel
-itself, those of a ray in the text of the shaders, where each addition, multiplication, division and
-root of a component is one, and so are sine and cosine. Comparisons, choices and integers are left
-out, and so is what software drivers compute for lanes that do not need it. So the share of the peak
-is a lower bound of how busy the machine is, good to a factor of two.
+The peak is measured with a kernel of independent chains of multiplications and additions on the
+same renderer. The operations of a sample are its number of rays, counted by the kernel, times the
+operations of a ray, counted in the shader sources: each addition, multiplication, division, square
+root, sine and cosine of a component is one. Comparisons, selections and integer operations are not
+counted, nor are operations for inactive lanes. Therefore the share of the peak is a lower bound of
+the utilisation, accurate to about a factor of two.
 """
 
 import statistics
@@ -25,14 +25,14 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Method
 
-# Of one ray against one shape: sphere_distance, plane_distance, quad_distance in shape.glsl.
+# Operations of one ray and shape: sphere_, plane_ and quad_distance in shaders_glsl/shapes.
 SEARCH = {"sphere": 32, "plane": 14, "quad": 33}
-# Around a ray: the surface met (25), its frame (30), directions into it and out (30), scattering or
-# a point on a lamp with its densities (35), weights of the path (20), the mean (10).
+# Other operations of a ray: surface hit (25), its local frame (30), directions to and from it (30),
+# scattering or light sampling with densities (35), throughput and weights (20), the mean (10).
 AROUND = 150
 
 METHODS: tuple[Method, ...] = ("naive", "mis")
-PIXELS, CHAINS, ROUNDS = 512, 16, 2000  # a side; of an invocation
+PIXELS, CHAINS, ROUNDS = 512, 16, 2000  # pixels a side; chains and rounds of an invocation
 _CHAINS = f"""
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430) buffer Data {{ float data[]; }};
@@ -52,18 +52,18 @@ void main() {{
 
 
 class Row(NamedTuple):
-    """One scene and method; seconds are of one sample of one pixel."""
+    """One scene and method; seconds are for one sample of one pixel."""
 
     scene: str
     method: str
-    rays: float  # a sample
-    operations: float  # a sample, counted
+    rays: float  # per sample
+    operations: float  # per sample
     seconds: float
-    share: float  # of the peak: median of the rounds
+    share: float  # of the peak, median over the rounds
 
 
 class Peak:
-    """A kernel that only multiplies and adds."""
+    """A kernel that only multiplies and adds, to measure the peak."""
 
     def __init__(self, context: Context) -> None:
         """Compile it, and run it once."""
@@ -74,7 +74,7 @@ class Peak:
         self.operations_per_second()
 
     def operations_per_second(self) -> float:
-        """As measured now."""
+        """Additions and multiplications per second, from one run."""
         with self._gl:
             start = time.perf_counter()
             self._kernel.bind({"Data": self._data}, {})
@@ -83,20 +83,20 @@ class Peak:
             return 2 * CHAINS * ROUNDS * PIXELS**2 / (time.perf_counter() - start)
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release the kernel and its buffer."""
         self._kernel.release()
         self._data.release()
 
 
 def operations_of_ray(scene: Scene) -> int:
-    """Of one ray that looks at every shape."""
+    """Operations of one ray that is intersected with every shape of a scene."""
     return AROUND + sum(SEARCH[shape.shape] for shape in scene.objects)
 
 
 def measure(
     context: Context, scenes: Sequence[str], size: int, rounds: int, samples: int = 32
 ) -> tuple[float, list[Row]]:
-    """The peak, in operations a second, and a row for each scene and method; all in turns."""
+    """The peak in operations per second, and a row for each scene and method; interleaved."""
     peak, jobs = Peak(context), list(product(scenes, METHODS))
     renderers = [
         Renderer(load(n), context=context, tier="baked", method=m, width=size, height=size)
@@ -138,7 +138,8 @@ def _row(
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
     """The rows as Markdown."""
-    yield "| scene | method | rays a sample | operations | million samples/s | share of the peak |"
+    columns = ["rays per sample", "operations", "million samples/s", "share of the peak"]
+    yield f"| scene | method | {' | '.join(columns)} |"
     yield "|---|---|---|---|---|---|"
     for row in rows:
         yield (
@@ -161,7 +162,7 @@ def _print(scenes: Sequence[str], size: int, rounds: int) -> None:
     context = open_context(pipeline="compute")
     peak, rows = measure(context, scenes, size, rounds)
     print(machine(context.renderer))
-    print(f"peak: {peak / 1e9:.1f} billion additions and multiplications a second\n")
+    print(f"peak: {peak / 1e9:.1f} billion additions and multiplications per second\n")
     print("\n".join(table(rows)))
 
 

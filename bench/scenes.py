@@ -1,9 +1,9 @@
-"""Scenes drawn from a seed: rooms and open floors with balls, panels and lamps of many sizes.
+"""Random scenes by seed: rooms and open floors with spheres, quads and lamps of many sizes.
 
     python -m bench.scenes SEED [-o FILE.toml]
 
-The same seed is the same scene on every machine: chance is that of PCG64, and numbers have five
-digits after the point. Lengths are in scene units, of which a room is 2 to 3 high.
+A seed gives the same scene on every machine: random numbers are from PCG64, and numbers in scenes
+have five decimal places. Lengths are in scene units; rooms are 2 to 3 units high.
 """
 
 import argparse
@@ -31,30 +31,30 @@ TURNED = {"position", "look_at", "up", "center", "point", "normal", "corner", "e
 
 
 class Builder(Free):
-    """A scene that grows."""
+    """Materials and objects of a scene under construction."""
 
     def __init__(self, dice: Dice, space: Space, eye: Point) -> None:
-        """Empty, with the camera at `eye`."""
+        """Without materials and objects; `eye` is the position of the camera."""
         super().__init__(dice, space, eye)
         self.materials: dict[str, Table] = {}
         self.objects: list[Table] = []
 
     def add(self, material: str, **shape: Any) -> None:
-        """An object."""
+        """Add an object."""
         self.objects.append({**shape, "material": material})
 
 
 def random_scene(seed: int) -> Scene:
-    """The scene of a seed."""
+    """The random scene of a seed."""
     return parse_scene(random_tables(seed), f"seed {seed}")
 
 
 def random_tables(seed: int) -> Table:
-    """The same as in a file."""
+    """The random scene of a seed as the tables of a scene file."""
     dice = Dice(seed)
     space = Space(dice.within(1.4, 2.6), dice.within(2.0, 3.0), dice.within(1.8, 3.2))
     is_room = dice.chance(0.5)
-    # In a room just inside the front wall; in front of an open floor outside of it.
+    # The camera is just inside the front wall of a room, or outside of an open floor.
     distance = space.depth - 0.25 if is_room else space.depth + dice.within(0.5, 2.0)
     side = dice.within(-0.5, 0.5) * space.half_width
     eye = (side, dice.within(0.6, 0.75 * space.height), distance)
@@ -80,7 +80,7 @@ def random_tables(seed: int) -> Table:
 
 
 def _add_palette(builder: Builder) -> None:
-    """Materials for bodies: of each type one or more."""
+    """Add materials for objects: one or more of each type."""
     dice, materials = builder.dice, builder.materials
     for number in range(dice.count(2, 5)):
         materials[f"matte {number + 1}"] = {"type": "lambertian", "color": _color(dice, 0.1, 0.9)}
@@ -97,10 +97,10 @@ def _color(dice: Dice, low: float, high: float) -> list[float]:
 
 
 def _add_walls(builder: Builder, is_room: bool) -> None:
-    """Six planes, one of them sometimes of metal, or a floor and sometimes a wall behind it."""
+    """Add the six planes of a room, or a floor and sometimes a wall behind it."""
     dice, (half_width, height, depth) = builder.dice, builder.space
     for name in ("floor", "walls", "left wall", "right wall"):
-        level = dice.within(0.4, 0.75)  # hardly any colour: each bounce would deepen it
+        level = dice.within(0.4, 0.75)  # low saturation, as every bounce increases it
         color = _color(dice, level - 0.1, level + 0.1)
         builder.materials[name] = {"type": "lambertian", "color": color}
     if not is_room and dice.chance(0.4):
@@ -120,9 +120,9 @@ def _add_walls(builder: Builder, is_room: bool) -> None:
 
 
 def _add_subject(builder: Builder) -> Point:
-    """A ball in the middle, which the camera looks at; where it is."""
+    """Add a sphere in the middle, which the camera looks at; return its centre."""
     ball = builder.place(builder.dice.within(0.3, 0.5), wide=0.3)
-    assert ball, "the middle is empty yet"
+    assert ball, "the middle is still free"
     builder.add(_any_material(builder), shape="sphere", center=ball.center, radius=ball.radius)
     return ball.center
 
@@ -133,7 +133,7 @@ def _any_material(builder: Builder, *excluded: str) -> str:
 
 
 def _add_body(builder: Builder) -> None:
-    """A ball or a panel, on the floor or in the air; none where there is no room left."""
+    """Add a sphere or a quad, on the floor or above it, if there is space left."""
     dice = builder.dice
     height = dice.within(0.3, builder.space.height) if dice.chance(0.3) else None
     ball = builder.place(dice.decades(*BODY_SIZES), height)
@@ -145,7 +145,7 @@ def _add_body(builder: Builder) -> None:
 
 
 def _panel(dice: Dice, ball: Ball, is_level: bool = False) -> Table:
-    """A rectangle or a parallelogram within a ball, level or turned anyhow."""
+    """A rectangle or parallelogram within a sphere, horizontal or randomly oriented."""
     along, other = np.array(dice.direction()), np.array(dice.direction())
     if is_level:
         along, other = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
@@ -158,17 +158,17 @@ def _panel(dice: Dice, ball: Ball, is_level: bool = False) -> Table:
 
 
 def _add_lamps(builder: Builder, count: int, is_room: bool) -> None:
-    """Balls in the air and panels, each with its share of the light that the place needs."""
+    """Add `count` spherical and quad lamps, whose flux adds up to what lights the scene well."""
     half_width, height, depth = builder.space
     lit = 8 * (half_width * (height + 2 * depth) + height * depth) if is_room else 150.0
-    irradiance = builder.dice.within(0.5, 1.0)  # of a first bounce
+    irradiance = builder.dice.within(0.5, 1.0)  # direct, on average
     for number in range(count):
         flux = irradiance * lit / count * builder.dice.within(0.4, 1.6)
         _add_lamp(builder, f"lamp {number + 1}", flux)
 
 
 def _add_lamp(builder: Builder, name: str, flux: float) -> None:
-    """Of so much flux; none where there is no room left."""
+    """Add a lamp of this flux, if there is space left."""
     dice = builder.dice
     low, high = 0.35 * builder.space.height, builder.space.height
     ball = builder.place(dice.decades(*LAMP_SIZES), dice.within(low, high))
@@ -189,7 +189,7 @@ def _add_lamp(builder: Builder, name: str, flux: float) -> None:
 
 
 def _camera(dice: Dice, eye: Point, subject: Point) -> Table:
-    """It looks at the first ball or past it; a third has a lens, sharp at that ball or there."""
+    """A camera that looks near `subject`; a third have a lens, focused there or on `subject`."""
     target = [place + dice.within(-0.3, 0.3) for place in subject]
     camera: Table = {"position": eye, "look_at": target, "fov": dice.within(35, 70)}
     if dice.chance(0.2):
@@ -202,7 +202,7 @@ def _camera(dice: Dice, eye: Point, subject: Point) -> Table:
 
 
 def _background(dice: Dice, is_room: bool) -> Table:
-    """Black in rooms, which nothing of it gets into, and above some floors; else a gradient."""
+    """Black in closed rooms and above some floors; else a vertical gradient."""
     if is_room or dice.chance(0.35):
         return {}
     brightness = dice.decades(0.1, 1.2)
@@ -213,7 +213,7 @@ def _background(dice: Dice, is_room: bool) -> Table:
 
 
 def _turned(value: Any, angle: float, key: str = "") -> Any:
-    """Tables whose points and directions are turned about the y axis."""
+    """The tables with points and directions rotated about the y axis by `angle` radians."""
     if isinstance(value, dict):
         return {name: _turned(item, angle, name) for name, item in value.items()}
     if key == "objects":
@@ -226,7 +226,7 @@ def _turned(value: Any, angle: float, key: str = "") -> Any:
 
 
 def _rounded(value: Any) -> Any:
-    """Tables as in a file, with numbers of few digits."""
+    """The tables with plain lists, and floats rounded to DIGITS decimal places."""
     if isinstance(value, dict):
         return {name: _rounded(item) for name, item in value.items()}
     if isinstance(value, list | tuple | np.ndarray):

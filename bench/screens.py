@@ -1,4 +1,4 @@
-"""X servers without a screen."""
+"""Virtual X servers, Xvfb, which need no screen."""
 
 import os
 import subprocess
@@ -8,7 +8,10 @@ from contextlib import contextmanager
 
 @contextmanager
 def screen(size: str = "64x64") -> Iterator[str]:
-    """An X server of its own; it chooses the number. Not xvfb-run: that needs xauth too."""
+    """Start an X server with a screen of this size; yield its display name, such as ":1".
+
+    Xvfb is run directly, since xvfb-run also needs xauth.
+    """
     told, end = os.pipe()
     command = ["Xvfb", "-displayfd", str(end), "-screen", "0", f"{size}x24", "-nolisten", "tcp"]
     with subprocess.Popen(command, pass_fds=[end], stderr=subprocess.DEVNULL) as server:

@@ -1,4 +1,4 @@
-"""Kernels whose shader text differs from glrt's: what a choice in it gives."""
+"""Kernels with edited shader sources, to measure the effect of a choice in them."""
 
 from typing import NamedTuple
 
@@ -7,7 +7,7 @@ from glrt.rendering.pipelines import Variant
 
 
 class Edit(NamedTuple):
-    """Another text in place of one that stands in a shader file, once or more often."""
+    """The replacement of every occurrence of a text in a shader file."""
 
     file: str
     old: str
@@ -15,7 +15,7 @@ class Edit(NamedTuple):
 
 
 def edited(*edits: Edit) -> Variant:
-    """A kernel with these edits, in turn; `KeyError` if one has no place."""
+    """A kernel with these edits in order; raises `KeyError` if a text to replace is not found."""
     texts: dict[str, str] = {}
     for edit in edits:
         text = texts.get(edit.file) or read(edit.file)

@@ -1,7 +1,7 @@
-"""What a tree over the spheres gives: balls on a floor, more and more of them.
+"""The speed-up by a tree over the spheres, by their number: spheres on a floor.
 
-The balls cover the same share of the floor whatever their number, so that paths are as long. Every
-round runs each variant once; a ratio is that of two runs of one round.
+The spheres cover the same share of the floor whatever their number, so that paths are equally long.
+Rounds are interleaved; a ratio is that of two runs of the same round.
 """
 
 import argparse
@@ -27,12 +27,12 @@ from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene
 
 COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
-FIRST = 485  # the crowd that others are compared with
-CONSTANTS = 128  # balls: 3 s of compiling, which grows with their square
+FIRST = 485  # number of spheres with which others are compared
+CONSTANTS = 128  # most baked spheres: 3 s of compilation, which grows quadratically
 
 
 def crowd(count: int, seed: int = 1) -> Scene:
-    """So many balls on a floor of 2 x 2, side by side, matte and of metal, under a bright sky."""
+    """A scene of `count` spheres, matte and metal, on a floor of 2 x 2 units under a bright sky."""
     rng = np.random.default_rng(seed)
     columns = math.ceil(math.sqrt(count))
     cell = 2 / columns
@@ -47,7 +47,7 @@ def crowd(count: int, seed: int = 1) -> Scene:
     floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "clay"}
     return parse_scene(
         {
-            "title": f"{count} balls on a floor",
+            "title": f"{count} spheres on a floor",
             "camera": {"position": [0, 1.5, 2.5], "look_at": [0, 0, 0]},
             "background": {"bottom": [0.9, 0.9, 0.9], "top": [0.5, 0.7, 1.0]},
             "materials": {
@@ -61,20 +61,20 @@ def crowd(count: int, seed: int = 1) -> Scene:
 
 
 class Row(NamedTuple):
-    """The figures of one crowd; seconds are for one sample of every pixel."""
+    """The figures for one number of spheres; seconds are for one sample of every pixel."""
 
     spheres: int
-    setup_seconds: float  # pack the scene, build the tree, compile
+    setup_seconds: float  # to pack the scene, build the tree and compile
     tree_seconds: float
-    loop_seconds: float | None  # without a tree; None where the loop limit forbids it
-    gain: tuple[float, float, float] | None  # of the tree: median and quartiles
-    growth: tuple[float, float, float] | None  # of the tree's time over that of FIRST spheres
+    loop_seconds: float | None  # without a tree; None beyond the loop limit of the driver
+    gain: tuple[float, float, float] | None  # speed-up by the tree: median and quartiles
+    growth: tuple[float, float, float] | None  # time with the tree over that of FIRST spheres
 
 
 def measure(
     context: Context, counts: Sequence[int], size: int, rounds: int, constants: int = CONSTANTS
 ) -> list[Row]:
-    """Interleave all crowds, with a tree and without: there in constants up to so many balls."""
+    """Measure all `counts` interleaved, with a tree, and without (baked up to `constants`)."""
     tree, loop, setup = {}, {}, {}
     for count in counts:
         scene = crowd(count)
@@ -82,7 +82,7 @@ def measure(
         tree[count] = _renderer(context, scene, size, tree_from=1)
         setup[count] = time.perf_counter() - start
         try:
-            baked = constants + 1  # and the floor
+            baked = constants + 1  # with the floor
             loop[count] = _renderer(context, scene, size, tree_from=count + 1, most_baked=baked)
         except SceneError:
             continue
@@ -99,7 +99,7 @@ def measure(
 def _renderer(
     context: Context, scene: Scene, size: int, tree_from: int, most_baked: int = MOST_BAKED
 ) -> Renderer:
-    """A renderer that uses a tree from so many spheres on, and constants up to so many shapes."""
+    """A renderer with a tree from `tree_from` spheres on, baked up to `most_baked` shapes."""
     with (
         patch.object(features, "TREE_FROM", tree_from),
         patch.object(pipelines, "MOST_BAKED", most_baked),
@@ -135,18 +135,18 @@ def _ratio(a: Sequence[float], b: Sequence[float]) -> tuple[float, float, float]
 def table(rows: Sequence[Row], pixels: int) -> Iterator[str]:
     """The rows as Markdown."""
     yield (
-        "| spheres | set-up | one by one, million samples/s | tree | tree over one by one "
+        "| spheres | set-up | loop over all, million samples/s | tree | speed-up by the tree "
         f"| time over that of {FIRST} |"
     )
     yield "|---|---|---|---|---|---|"
     for row in rows:
         loop = f"{pixels / row.loop_seconds / 1e6:.3f}" if row.loop_seconds else "refused"
         rate = f"{pixels / row.tree_seconds / 1e6:.2f}"
-        ratios = f"{_told(row.gain)} | {_told(row.growth)}"
+        ratios = f"{_text(row.gain)} | {_text(row.growth)}"
         yield f"| {row.spheres:,} | {row.setup_seconds:.2f} s | {loop} | {rate} | {ratios} |"
 
 
-def _told(ratio: tuple[float, float, float] | None) -> str:
+def _text(ratio: tuple[float, float, float] | None) -> str:
     return "{:.2f} ({:.2f}-{:.2f})".format(*ratio) if ratio else "-"
 
 
@@ -166,11 +166,11 @@ def _print(parsed: argparse.Namespace) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = parser_of("crowds", __doc__)
+    parser = parser_of("sphere_counts", __doc__)
     add = parser.add_argument
     add("--spheres", type=int, nargs="+", metavar="N", default=list(COUNTS))
     add_rounds(parser, size=96, rounds=9)
-    told = f"most balls to bake for the loop over all (default: {CONSTANTS})"
+    told = f"most spheres to bake for the loop over all (default: {CONSTANTS})"
     add("--constants", type=int, default=CONSTANTS, metavar="N", help=told)
     return parser
 

@@ -1,8 +1,9 @@
-"""What each step gives that leads from plain light sampling to glrt's defaults.
+"""Variance and time of each step from plain light sampling to glrt's defaults.
 
-`steps` adds them in turn, `alone` takes one back from the defaults or adds one that is not among
-them, `roulette` lets it start elsewhere. A step is taken back by a setting, or by a text in the
-shaders as it was before: a text that has gone is a KeyError, so no row measures nothing.
+The table `steps` adds one step after the other, `alone` removes one from the defaults or adds one
+that is not among them, `roulette` varies threshold and first bounce of Russian roulette. A step is
+removed by a setting or by an edit of the shader sources; an edit that does not apply raises
+KeyError, so that no row silently measures the defaults.
 """
 
 import statistics
@@ -19,7 +20,7 @@ INDEPENDENT, SOBOL = "independent", "sobol"
 
 
 def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
-    """Survival is min(throughput / threshold, 1), from so many scatterings on."""
+    """Edits for a survival probability of min(throughput / threshold, 1), from `bounce` on."""
     edits = [Edit("integrators/path.glsl", "4.0 * CHANCES", f"CHANCES / {threshold}")]
     if bounce:
         call = "if (ROULETTE && {}roulette_ends("
@@ -29,11 +30,11 @@ def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
 
 
 BEFORE = roulette("1.0", 3)
-BY_FLUX = [  # and one lamp costs a random number
+BY_FLUX = [  # also draws a random number to choose a single lamp
     Edit("lights/choice.glsl", "max(dot(away, away), cluster.reach2)", "1.0"),
     Edit("lights/sampling.glsl", "if (CLUSTERS > 1) choice.x", "choice.x"),
 ]
-STRIPS = [  # points on quads by solid angle, as in `nee`
+STRIPS = [  # samples quads by solid angle, as `nee` does
     Edit("lights/sampling.glsl", "if (QUADS_BY_AREA) {", "if (false) {"),
     Edit("lights/sampling.glsl", "!QUADS_BY_AREA", "true"),
 ]
@@ -41,16 +42,18 @@ STEPS = {
     "plain: independent numbers, lamps by flux, roulette below 1 from bounce 3": Way(
         {"sampler": INDEPENDENT}, [*BY_FLUX, *BEFORE]
     ),
-    "+ lamps by flux / distance^2, one lamp not chosen": Way({"sampler": INDEPENDENT}, BEFORE),
+    "+ lamps by flux / distance^2, no choice of a single lamp": Way(
+        {"sampler": INDEPENDENT}, BEFORE
+    ),
     "+ roulette below 1/4, at any bounce": Way({"sampler": INDEPENDENT}),
-    "+ Sobol's points: the defaults": Way({}),
+    "+ Sobol' points: the defaults": Way({}),
 }
 ALONE = {
     "defaults": Way({}),
     "lamps by flux": Way({}, BY_FLUX),
     "roulette below 1 from bounce 3": Way({}, BEFORE),
-    "points on quads by strips in `mis` too": Way({}, STRIPS),
-    "`nee`, by strips": Way({"method": "nee"}),
+    "quads by solid angle in `mis`, too": Way({}, STRIPS),
+    "`nee`, quads by solid angle": Way({"method": "nee"}),
 }
 STARTS = {
     "below 1/4, any bounce": Way({}),
@@ -70,15 +73,15 @@ TABLES: Mapping[str, Mapping[str, Way]] = {"steps": STEPS, "alone": ALONE, "roul
 
 
 def by_start(rows: Sequence[Row]) -> Iterator[str]:
-    """The rows of `roulette` as Markdown: efficiency with Sobol's points, in brackets without."""
+    """The rows of `roulette` as Markdown: efficiency with Sobol' points (independent numbers)."""
     efficiency = {(row.scene, row.variant): row.efficiency for row in rows}
     scenes = list(dict.fromkeys(row.scene for row in rows))
     yield f"| start | {' | '.join(scenes)} | mean (geometric, Sobol) |"
     yield "|---" * (len(scenes) + 2) + "|"
     for start in STARTS:
         pairs = [[efficiency[s, f"{start}, {n}"] for n in (SOBOL, INDEPENDENT)] for s in scenes]
-        cells = " | ".join(f"{even:.2f} ({independent:.2f})" for even, independent in pairs)
-        mean = statistics.geometric_mean(even for even, _ in pairs)
+        cells = " | ".join(f"{sobol:.2f} ({independent:.2f})" for sobol, independent in pairs)
+        mean = statistics.geometric_mean(sobol for sobol, _ in pairs)
         yield f"| {start} | {cells} | {mean:.2f} |"
 
 

@@ -1,9 +1,9 @@
 """Writes scenes/weekend.toml: the picture on the cover of "Ray Tracing in One Weekend".
 
-Three large balls, of glass, matte brown and metal, stand in a row among some 480 small ones that
-lie strewn over grey ground under a pale sky. The picture is described in Peter Shirley, Trevor
-David Black, Steve Hollasch, "Ray Tracing in One Weekend", https://raytracing.github.io; the
-placement and the colours here are this file's own. The same seed writes the same file.
+Three large spheres, of glass, matte brown and metal, are in a row among some 480 small ones on grey
+ground under a pale sky. The picture is described in Peter Shirley, Trevor David Black, Steve
+Hollasch, "Ray Tracing in One Weekend", https://raytracing.github.io; the positions and colours are
+chosen here. Equal seeds give equal files.
 
     python -m bench.weekend
 """
@@ -15,9 +15,9 @@ from collections.abc import Iterator
 from glrt.resources import folder
 
 SEED = 35
-GRID = range(-11, 11)  # one small ball a cell, cells 1 apart in x and z
+GRID = range(-11, 11)  # cells of edge 1 in x and z, with at most one small sphere each
 SMALL, LARGE = 0.2, 1.0  # radii
-GAP = 0.02  # kept free between any two balls
+GAP = 0.02  # least distance between two spheres
 
 MATTE = {
     "coral": (0.82, 0.27, 0.21),
@@ -66,7 +66,7 @@ Point = tuple[float, float]  # x, z on the ground
 
 
 def small_balls(rng: random.Random) -> Iterator[tuple[Point, str]]:
-    """Place and material of each small ball, in cells where one finds room."""
+    """Position and material of each small sphere; cells without enough space stay empty."""
     placed: list[Point] = []
     for a in GRID:
         for b in GRID:
@@ -77,7 +77,7 @@ def small_balls(rng: random.Random) -> Iterator[tuple[Point, str]]:
 
 
 def _free_point(rng: random.Random, a: int, b: int, placed: list[Point]) -> Point | None:
-    """A point in cell (a, b), rounded as it will be written, away from every ball."""
+    """A point in cell (a, b), rounded as in the file, away from all spheres; None if none fits."""
     for _ in range(20):
         point = (round(a + rng.random(), 3), round(b + rng.random(), 3))
         if _is_free(point, placed):
@@ -86,7 +86,7 @@ def _free_point(rng: random.Random, a: int, b: int, placed: list[Point]) -> Poin
 
 
 def _is_free(point: Point, placed: list[Point]) -> bool:
-    # Two balls that touch the ground touch each other at a distance of twice the geometric mean.
+    # Two spheres on the ground touch if their points of contact with it are 2 sqrt(r1 r2) apart.
     of_large = 2 * math.sqrt(SMALL * LARGE) + GAP
     large = all(math.dist(point, (x, 0.0)) > of_large for _, x in LARGE_BALLS.values())
     return large and all(math.dist(point, other) > 2 * SMALL + GAP for other in placed)

@@ -1,7 +1,7 @@
 """The window, driven by a script: `python -m bench.window_tour drag`, `rest`, or `film FILE.webp`.
 
-`drag` measures frames while the camera turns, `rest` while nothing is edited; `film` makes the
-README's moving picture. Without a display they use an X server without a screen, Xvfb.
+`drag` measures frame times while the camera turns, `rest` while nothing is edited; `film` makes the
+animation of the README. Without a display a virtual X server, Xvfb, is used.
 """
 
 import argparse
@@ -24,22 +24,22 @@ from glrt.settings import settings_for
 from glrt.view.state.preferences import Preferences
 
 DRAG = 60  # frames
-WAITED = 256  # samples of a picture at rest
-WARM = 30  # frames before them, in which kernels are compiled and times learnt
-STEP = 0.004  # of the window's width that a frame of the drag turns by
-SHARES = (50, 95, 99)  # percentiles that are told
-FILM_SIZE = (620, 400)
+WAITED = 256  # samples per pixel of a picture at rest
+WARM = 30  # frames before a drag, for compilation and for the measurement of dispatch times
+STEP = 0.004  # motion per frame of a drag, in widths of the window
+SHARES = (50, 95, 99)  # percentiles of frame times
+FILM_SIZE = (620, 400)  # pixels
 MOST_BYTES = 300_000
 
 Script = Iterator[None]
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Measure a drag or a rest, or make the film."""
+    """Measure a drag or a rest, or make the film; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m bench.window_tour", description=__doc__)
     parser.add_argument("task", choices=["drag", "rest", "film"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
-    parser.add_argument("--scene", default="cornell", help="what is shown (default: cornell)")
+    parser.add_argument("--scene", default="cornell", help="scene to show (default: cornell)")
     parsed = parser.parse_args(arguments)
     has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
     if not has_display and not shutil.which("Xvfb"):
@@ -66,12 +66,12 @@ class Frame(NamedTuple):
     """A frame of a camera drag."""
 
     seconds: float
-    size: tuple[int, int]  # pixels of the picture meanwhile
-    samples: float  # of each of them
+    size: tuple[int, int]  # pixels of the picture in the frame
+    samples: float  # per pixel
 
 
 def measure_drag(scene: str, width: int = 640, height: int = 480) -> tuple[str, list[Frame]]:
-    """The frames of a camera drag, and what drew them."""
+    """Measure a camera drag; return a description with the driver, and the frames."""
     frames: list[Frame] = []
     drawn_by: list[str] = []
 
@@ -91,29 +91,29 @@ def measure_drag(scene: str, width: int = 640, height: int = 480) -> tuple[str, 
 
 
 def told(place: str, frames: list[Frame]) -> Iterator[str]:
-    """A table in Markdown."""
+    """The results as a Markdown table: percentiles of frame times, and size of the picture."""
     seconds = [frame.seconds for frame in frames]
     shares = [f"{1e3 * np.percentile(seconds, share):.0f} ms" for share in SHARES]
     width, height = sorted(frame.size for frame in frames)[len(frames) // 2]
     samples = sum(frame.samples for frame in frames) / len(frames)
-    yield f"| camera drag of {len(frames)} frames | p50 | p95 | p99 | meanwhile |"
+    yield f"| camera drag of {len(frames)} frames | p50 | p95 | p99 | picture |"
     yield "|---|---|---|---|---|"
-    cells = [place, *shares, f"{width} x {height} pixels, {samples:.1f} samples a frame"]
+    cells = [place, *shares, f"{width} x {height} pixels, {samples:.1f} samples per frame"]
     yield f"| {' | '.join(cells)} |"
 
 
 class Wait(NamedTuple):
-    """A picture that was looked at until it had its samples."""
+    """The render of a picture at rest, to all its samples."""
 
-    rests: bool  # whether the window may take a faster kernel
+    rests: bool  # whether the window may switch to the kernel with constants
     seconds: float  # to all samples
-    rate: float  # million samples of a pixel in a second, over the last quarter of them
-    frames: list[float]  # seconds each
+    rate: float  # million pixel samples per second, over the last quarter of the samples
+    frames: list[float]  # seconds of each frame
 
 
 def measure_rest(scene: str, rests: bool, width: int = 640, height: int = 480) -> Wait:
-    """Open a scene and edit nothing."""
-    times: list[tuple[float, float]] = []  # and samples of each pixel
+    """Open a scene, and measure its frames until it has all samples, without edits."""
+    times: list[tuple[float, float]] = []  # with the samples per pixel at each time
 
     def script(window: Any) -> Script:
         if not rests:
@@ -132,8 +132,8 @@ def measure_rest(scene: str, rests: bool, width: int = 640, height: int = 480) -
 
 
 def told_rest(scene: str, waits: list[Wait]) -> Iterator[str]:
-    """A table in Markdown."""
-    rates = "million samples/s in the end"
+    """The results as a Markdown table: percentiles of frame times, and size of the picture."""
+    rates = "million samples/s, last quarter"
     yield f"| {scene} at rest | to {WAITED} samples | {rates} | frames p50 | p99 | longest |"
     yield "|---|---|---|---|---|---|"
     for wait in waits:
@@ -144,7 +144,7 @@ def told_rest(scene: str, waits: list[Wait]) -> Iterator[str]:
 
 
 def make_film(file: Path) -> None:
-    """Lamps are tuned and the camera is turned; RuntimeError if the file gets too large."""
+    """Film changes of lamps and of the camera; raises RuntimeError if the file is too large."""
     from PIL import Image
 
     scene, pictures = load("lamps"), []
@@ -173,7 +173,7 @@ def make_film(file: Path) -> None:
 
 
 def frames_until_done(window: Any) -> Script:
-    """Frames that pass until the picture has all its samples, and is on the screen."""
+    """Yield for each frame until the picture has all its samples and is displayed."""
     for _ in range(5):
         yield
     while not window.app.session.is_done:
@@ -183,17 +183,17 @@ def frames_until_done(window: Any) -> Script:
 
 
 def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None:
-    """Open a window, go on with the script after each frame, close the window at its end."""
+    """Open a window, continue the script after each frame, and close the window at its end."""
     from glrt.view.window import Window
 
     window = Window(scene.title or "", scene, settings_for(scene.render, **settings))
     window.params.ini_disable = True
 
-    def acted() -> Script:
-        window.app.preferences = Preferences()  # whatever the user prefers
+    def with_defaults() -> Script:
+        window.app.preferences = Preferences()  # the defaults, not those of the user
         yield from script(window)
 
-    running = acted()
+    running = with_defaults()
 
     def go_on() -> None:
         if next(running, "end") == "end":

@@ -1,6 +1,6 @@
-"""Nearby lamps in groups, and tables for drawing one of many in constant time.
+"""Clusters of nearby lamps, and alias tables for drawing one of many lamps in constant time.
 
-Arrays in, arrays out.
+All functions take and return arrays.
 """
 
 from collections.abc import Sequence
@@ -12,7 +12,10 @@ Array = np.ndarray[Any, Any]
 
 
 def light_probabilities(power: Sequence[float]) -> Array:
-    """How often each lamp is chosen: half by its power, half evenly, so that none is left out."""
+    """The probability of choosing each lamp, (n,): half proportional to power, half uniform.
+
+    Every lamp has a probability above 0. It is uniform if the total power is 0.
+    """
     weight = np.asarray(power, np.float64)
     count = len(weight)
     even = np.full(count, 1 / max(count, 1))
@@ -20,10 +23,12 @@ def light_probabilities(power: Sequence[float]) -> Array:
 
 
 def grouped(place: Array, weight: Array, most: int) -> list[Array]:
-    """Indices of nearby places, (n, 3), in `most` groups; of fewer places each is one.
+    """Divide the points `place`, (n, 3), into `most` groups; return the indices of each group.
 
-    The group whose weight times variance is largest is cut in two across its longest axis, at the
-    mean, until there are enough (as colours by Wan et al., SIGGRAPH Computer Graphics 1990).
+    With `most` points or fewer, each is a group. Otherwise the group with the largest product of
+    total weight and variance is split at its weighted mean, along its axis of largest variance,
+    until there are enough (as for colours: Wan et al., "Variance-based color image quantization for
+    frame buffer display", Color Research & Application 1990).
     """
     count = len(weight)
     if count <= most:
@@ -39,7 +44,11 @@ def grouped(place: Array, weight: Array, most: int) -> list[Array]:
 
 
 def alias_table(probability: Array) -> tuple[Array, Array]:
-    """Vose's tables (`keep`, `alias`) for drawing an index in constant time (IEEE TSE 1991)."""
+    """Return Vose's tables (`keep`, `alias`), (n,) each, for `probability`, (n,) (IEEE TSE 1991).
+
+    To draw an index in constant time, draw i uniformly, and take i with probability keep[i],
+    else alias[i].
+    """
     count = len(probability)
     keep, alias = np.ones(count), np.arange(count)
     share = np.asarray(probability, np.float64) * count
@@ -55,6 +64,7 @@ def alias_table(probability: Array) -> tuple[Array, Array]:
 
 
 def _cut(group: Array, place: Array, weight: Array) -> list[Array]:
+    """Split a group in two non-empty parts, at its mean along the axis of largest variance."""
     mean, variance = _spread(group, place, weight)
     axis = int(np.argmax(variance))
     ordered = group[np.argsort(place[group, axis], kind="stable")]
@@ -64,14 +74,14 @@ def _cut(group: Array, place: Array, weight: Array) -> list[Array]:
 
 
 def _cost(group: Array, place: Array, weight: Array) -> float:
-    """Below 0 for what cannot be cut."""
+    """Total weight times variance of a group; -1 for a single point, which cannot be split."""
     if len(group) == 1:
         return -1.0
     return float(weight[group].sum() * _spread(group, place, weight)[1].sum())
 
 
 def _spread(group: Array, place: Array, weight: Array) -> tuple[Array, Array]:
-    """Mean and variance along each axis, weighted."""
+    """Weighted mean and variance of the points of a group along each axis, (3,) each."""
     share = weight[group] / weight[group].sum()
     mean = share @ place[group]
     return mean, share @ (place[group] - mean) ** 2

@@ -1,8 +1,8 @@
 """The tree over the spheres as rows of the struct `Node` of structs/shapes.glsl, 32 bytes each.
 
-Boxes lie on a grid around all of them: their corners are whole numbers of cells, of 16 bits,
-rounded outwards. The largest sphere stands at the root, beside the grid: a ground does not
-make cells large.
+Corners of boxes are stored as 16-bit coordinates on a grid, in cells, rounded outwards. The grid
+covers the boxes below the root. The root itself holds the largest sphere, so that a huge sphere
+used as ground does not make the cells large.
 """
 
 import math
@@ -14,16 +14,17 @@ from glrt.accel import bvh
 
 Array = np.ndarray[Any, Any]
 
-# Of boxes, as of rays in shapes/sphere_tree.glsl: the float32 rounding of a box is far below.
+# Relative margin of boxes, as of rays in shapes/sphere_tree.glsl: far above float32 rounding.
 SLACK = 2.0**-18
-MOST_CELLS = 2**16 - 1  # along the grid
+MOST_CELLS = 2**16 - 1  # along each axis of the grid
 
 
 def pack_nodes(spheres: Array, dtype: np.dtype[Any], known: Array | None = None) -> Array:
-    """Rows of Node for rows of Sphere: one for the grid, then the tree, its boxes wide enough for
-    float32. None without spheres.
+    """Return rows of Node for `spheres`, n rows of Sphere: one for the grid, then n nodes.
 
-    `known` are nodes of the same spheres, seen from elsewhere: their order serves again.
+    Boxes are wide enough for intersection tests in float32. Without spheres there are no rows.
+    `known` are the rows of the same spheres relative to another camera position; the new tree
+    takes over their topology.
     """
     if not len(spheres):
         return np.zeros(0, dtype)
@@ -45,13 +46,13 @@ def pack_nodes(spheres: Array, dtype: np.dtype[Any], known: Array | None = None)
 
 
 def _order(nodes: Array) -> tuple[Array, Array]:
-    """The items of a tree, and where each node goes on."""
+    """`item` and `skip` of a packed tree (see `bvh.Tree`), (n,) each."""
     links = nodes["box"][1:, 3].astype(int)
     return links & 0xFFFF, (links >> 16) + np.arange(len(links)) + 1
 
 
 def _grid(lower: Array, upper: Array) -> tuple[Array, float]:
-    """Corner, in float32, and cell, a power of two, of a grid that holds a box."""
+    """Lower corner, exact in float32, and cell edge, a power of two, of a grid over a box."""
     nearest = lower.astype(np.float32)
     corner = np.where(nearest > lower, np.nextafter(nearest, np.float32(-np.inf)), nearest)
     extent = float((upper - corner).max())

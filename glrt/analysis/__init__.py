@@ -2,10 +2,10 @@
 
 Modules, each importing only what stands above it:
 
-- reference: what a picture should be
-- variants: the ways to render a scene
+- reference: the true radiance, as well as it is known
+- variants: the methods and settings that are compared
 - plot: the style of charts
-- chart: error against time of every method
+- chart: error against time for every method
 - method_choice: the cheapest method that reaches an error
-- stress: sweeps into where methods fail
+- stress: parameter sweeps up to where methods fail
 """

@@ -1,7 +1,7 @@
-"""The house style of charts: log-log, readable without colour, files written whole.
+"""The common style of charts: log-log axes, readable without colour, files written atomically.
 
-Colours are those of Okabe and Ito, which the colour-blind tell apart; markers and dashes say the
-same in black and white. Matplotlib is loaded when the first chart is drawn.
+Colours are those of Okabe and Ito, which remain distinct with colour blindness; markers and dashes
+distinguish curves in black and white. Matplotlib is imported when the first chart is drawn.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FORMATS = (".svg", ".png")
-_STYLES = (  # colour, marker, dashes of the first curve, the second, and so on
+_STYLES = (  # colour, marker, dashes: one row for each curve of a chart
     ("#0072b2", "o", "-"),
     ("#d55e00", "s", "--"),
     ("#009e73", "^", "-."),
@@ -31,7 +31,7 @@ _STYLES = (  # colour, marker, dashes of the first curve, the second, and so on
 )
 _HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
-    "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same chart everywhere
+    "font.family": ["DejaVu Sans"],  # comes with matplotlib: identical charts everywhere
     "font.size": 10.0,
     "axes.titlesize": 11.0,
     "axes.titlelocation": "left",
@@ -42,35 +42,35 @@ _LOOK: dict[Any, Any] = {
     "grid.linewidth": 0.6,
     "legend.frameon": False,
     "savefig.dpi": 110,
-    "svg.hashsalt": "glrt",  # the same chart gives the same file
+    "svg.hashsalt": "glrt",  # identical charts give identical files
 }
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Values over a parameter. Zeros, which have no logarithm, are drawn hollow at the bottom."""
+    """Values y over x. Zeros, which have no logarithm, are drawn at the bottom, hollow."""
 
     label: str
     x: Sequence[float]
     y: Sequence[float]
-    is_bound: bool = False  # a thin line without markers: what must not be passed
+    is_bound: bool = False  # an upper bound: a thin line without markers
 
 
 @dataclass(frozen=True)
 class Chart:
-    """What one pair of axes shows; labels name the unit. Both axes are logarithmic."""
+    """The content of one pair of logarithmic axes; labels include the unit."""
 
     title: str
     x_label: str
     y_label: str
     curves: Sequence[Curve]
-    limit: float | None = None  # of the parameter: a vertical line
+    limit: float | None = None  # a value of x, marked by a vertical line
     limit_label: str = ""
     note: str = ""  # a line below the title
 
 
 def check_matplotlib() -> None:
-    """UsageError if what draws charts is not installed."""
+    """Raise UsageError if matplotlib is not installed."""
     if find_spec("matplotlib") is None:
         raise UsageError(
             "Charts are drawn by matplotlib, which is not installed: pip install 'glrt[chart]', "
@@ -79,7 +79,7 @@ def check_matplotlib() -> None:
 
 
 def save_chart(chart: Chart, path: Path) -> None:
-    """Write one chart, in the format that the suffix names: .svg or .png."""
+    """Write one chart; the suffix of `path` is its format, .svg or .png."""
     with open_figure((7.2, 5.0)) as figure:
         axes = figure.subplots()
         _draw(axes, chart)
@@ -88,7 +88,7 @@ def save_chart(chart: Chart, path: Path) -> None:
 
 
 def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4) -> None:
-    """Write all charts side by side, each with its own legend."""
+    """Write all charts into one figure, in rows of `columns`, each with its own legend."""
     rows = -(-len(charts) // columns)
     columns = min(columns, len(charts))
     with open_figure((4.1 * columns, 3.7 * rows + 0.4)) as figure:
@@ -105,7 +105,7 @@ def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4
 
 @contextmanager
 def open_figure(size: tuple[float, float], font: float = 10.0) -> "Iterator[Figure]":
-    """An empty figure, `size` in inches, in the house style; `font` in points."""
+    """An empty figure in the common style; `size` in inches, `font` in points."""
     check_matplotlib()
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -122,7 +122,7 @@ def _draw(axes: "Axes", chart: Chart) -> None:
     axes.set_ylabel(chart.y_label)
     bottom = _bottom(chart.curves)
     styles = iter(_STYLES)
-    width = 2.6  # of the first curve: those that cover it are thinner, and it shows below
+    width = 2.6  # of the first curve: wider, so that it shows below others that cover it
     for curve in chart.curves:
         if curve.is_bound:
             axes.plot(curve.x, curve.y, color="#555555", lw=1.0, ls=(0, (2, 2)), label=curve.label)
@@ -147,13 +147,16 @@ def _draw_curve(axes: "Axes", curve: Curve, style: Any, bottom: float, width: fl
 
 
 def _bottom(curves: Sequence[Curve]) -> float:
-    """Where zeros are drawn: a power of ten below everything else."""
+    """The ordinate at which zeros are drawn: a power of ten below all positive values."""
     positive = [y for curve in curves for y in curve.y if y > 0]
     return float(10 ** (np.floor(np.log10(min(positive))) - 1)) if positive else 1.0
 
 
 def save_figure(figure: "Figure", path: Path) -> None:
-    """Write a figure whole, in the format that the suffix names: .svg or .png."""
+    """Write a figure atomically; the suffix of `path` is its format, .svg or .png.
+
+    Raises UsageError for another suffix.
+    """
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         raise UsageError(f"Cannot write {path}: the name of a chart ends in .svg or .png.")

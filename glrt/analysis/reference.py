@@ -1,9 +1,10 @@
-"""What a picture should be: a closed form, or two independent renders much better than the tested.
+"""Reference images: a closed form, or two independent renders with far less noise than the tested.
 
-With r1 and r2 of independent random numbers, mean((x - r1) (x - r2)) is the squared error of x
-without bias: the noise of the references averages out of it, and no floor is to be subtracted.
-References draw independent numbers from another family of hashes than pictures do: no seed gives
-both the same ones, and what one family did wrong would show as an error.
+If r1 and r2 are independent and unbiased, mean((x - r1) (x - r2)) is an unbiased estimator of the
+squared error of a picture x: the noise of the references cancels in the mean, so no noise floor has
+to be subtracted. References take their random numbers from another hash function than pictures, so
+that they are independent of pictures of every seed, and that a defect of either hash shows as an
+error.
 """
 
 import hashlib
@@ -36,44 +37,44 @@ from glrt.version import VERSION
 
 Floats = NDArray[np.float64]
 
-SEEDS = (0x52454631, 0x52454632)  # of the halves: far from the seeds that people and tests choose
-SAMPLER = "independent"  # the plainest: it judges the others
-BOUNCES = 256  # as good as without limit: an albedo of 0.95 leaves 2e-6 beyond them
-FIRST_LOOK = 64  # samples
+SEEDS = (0x52454631, 0x52454632)  # of the two halves; unlikely to be chosen by users or tests
+SAMPLER = "independent"  # the simplest one, as others are judged by it
+BOUNCES = 256  # practically unlimited: with an albedo of 0.95 they leave out 2e-6 of the light
+FIRST_LOOK = 64  # samples per pixel before the error is computed for the first time
 
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """Two estimates of the true radiance, (H, W, 3) each; equal ones for a closed form."""
+    """Two independent estimates of the true radiance, (H, W, 3) each; equal for a closed form."""
 
     first: Floats
     second: Floats
-    samples: int  # of each half; 0: a closed form
-    bounces: int  # limit of the paths
+    samples: int  # per pixel, in each half; 0 for a closed form
+    bounces: int  # the limit of the paths
 
     @cached_property
     def radiance(self) -> Floats:
-        """The best estimate, (H, W, 3)."""
+        """The mean of both estimates, (H, W, 3)."""
         return 0.5 * (self.first + self.second)
 
     @cached_property
     def scale(self) -> Floats:
-        """What squared errors are relative to: radiance^2 + 0.01 mean(radiance)^2."""
+        """What squared errors are divided by, (H, W, 3): radiance^2 + 0.01 mean(radiance)^2."""
         scale: Floats = np.square(self.radiance) + DARK * self.radiance.mean() ** 2
         return scale
 
     @cached_property
     def error(self) -> float:
-        """The relative RMS error of `radiance` itself, from how its halves differ."""
+        """The relative RMS error of `radiance` itself, from the difference of its halves."""
         return float(np.sqrt(self.relative(0.25 * np.square(self.first - self.second))))
 
     def squared_error(self, radiance: ArrayLike) -> float:
-        """The squared relative RMS error of a picture; below 0 by chance near the noise."""
+        """Unbiased estimate of the squared relative RMS error of a picture; it may be negative."""
         picture = np.asarray(radiance, np.float64)
         return self.relative((picture - self.first) * (picture - self.second))
 
     def relative(self, squares: ArrayLike) -> float:
-        """Mean over pixels and channels of squares, each relative to its pixel's radiance."""
+        """Mean over pixels and channels of `squares`, (H, W, 3), each divided by `scale`."""
         squares = np.asarray(squares, np.float64)
         return float(np.divide(squares, self.scale, out=squares * 0, where=self.scale > 0).mean())
 
@@ -87,11 +88,12 @@ def reference_for(
     watch: Callable[[float], None] | None = None,
     check: Callable[[Renderer], bool] | None = None,
 ) -> Reference:
-    """The reference of a scene in the frame of `settings`, from the cache if it is there.
+    """Return the reference of a scene in the frame of `settings`, from the cache if it is there.
 
-    Its samples double until its own relative RMS error is at most `error`, or until that would
-    take longer than `seconds`, or more samples than a picture holds. `watch` is told the share
-    that is done; `check` is called after each dispatch, and may raise to give up.
+    The number of samples doubles until the relative RMS error of the reference itself is at most
+    `error`, or until the next doubling would exceed `seconds` or MAX_SAMPLES. `watch` is called
+    with the share of the work that is done; `check` is called after each dispatch and may raise to
+    stop.
     """
     radiance = closed_form(scene)
     if radiance is not None:
@@ -112,22 +114,22 @@ def reference_for(
 
 
 def closed_form(scene: Scene) -> float | None:
-    """The radiance of a scene that has the same everywhere, whatever its geometry; else None.
+    """The radiance of a scene if it is the same everywhere, whatever the geometry; else None.
 
-    Under an even background L, a surface that gives back what it lacks of L by its own emission,
-    e + albedo L = L, is invisible. Glass and rough metal are left to rendering: glass scales
-    radiance inside it, and rough metal loses what would scatter twice.
+    Under a uniform background L a surface is invisible if it emits what it absorbs, e + albedo L =
+    L (white furnace). Glass and rough metal are excluded: radiance is scaled inside glass, and
+    rough metal loses the light of multiple scattering between microfacets.
     """
     low, high = scene.background_colors
     level = low[0]
     if level == 0 or len({*low, *high}) > 1:
         return None
     parts = [(scene.materials[shape.material], shape.material) for shape in scene.objects]
-    hidden = all(_gives_back(material, scene.emission(name), level) for material, name in parts)
+    hidden = all(_is_invisible(material, scene.emission(name), level) for material, name in parts)
     return level if hidden else None
 
 
-def _gives_back(material: Material, emission: tuple[float, ...], level: float) -> bool:
+def _is_invisible(material: Material, emission: tuple[float, ...], level: float) -> bool:
     if not isinstance(material, Lambertian | Light | Metal):
         return False
     if isinstance(material, Metal) and material.roughness:
@@ -136,13 +138,13 @@ def _gives_back(material: Material, emission: tuple[float, ...], level: float) -
     return all(emitted + albedo * level == level for emitted, albedo in pairs)
 
 
-# Random numbers from a hash by shifts and products, where others have PCG's.
+# Random numbers from a hash of shifts and products, instead of the PCG hash of other renders.
 _OTHER_HASH = read("sampling/other_hash.glsl")
 OTHER_NUMBERS = Variant(texts={"sampling/hash.glsl": _OTHER_HASH})
 
 
 def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:
-    """Renderers of BOUNCES, or of as many as the driver's loop limit leaves."""
+    """The renderers of both halves, with BOUNCES or as many as the driver's loop limit allows."""
     bounces = max(BOUNCES, settings.bounces)
     while True:
         try:
@@ -179,13 +181,13 @@ def _rendered(
 
 
 def _cache_folder() -> Path:
-    """The user's cache, by the XDG base directory specification."""
+    """The folder of references in the user's cache (XDG base directory specification)."""
     base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(base) / "glrt" / "references"
 
 
 def _key(scene: Scene, settings: Settings, error: float, seconds: float) -> str:
-    """Names all that the halves depend on, the text of the kernel included."""
+    """A hash of everything that the halves depend on, shader sources included."""
     root = folder("shaders_glsl")
     texts = [(file, file.read_text("utf-8")) for file in shader_files()]
     shaders = {file.relative_to(root).as_posix(): text for file, text in texts}
@@ -196,7 +198,7 @@ def _key(scene: Scene, settings: Settings, error: float, seconds: float) -> str:
 
 
 def _loaded(path: Path) -> Reference | None:
-    """What the cache holds; None if that is nothing, or not readable."""
+    """The reference in a file of the cache; None if there is none or it cannot be read."""
     try:
         with path.open("rb") as file, np.load(file) as arrays:
             first, second = (arrays[name].astype(float) for name in ("first", "second"))
@@ -206,7 +208,7 @@ def _loaded(path: Path) -> Reference | None:
 
 
 def _save(reference: Reference, path: Path) -> None:
-    """Keep it for the next time; a cache that cannot be written is not needed."""
+    """Write a reference into the cache; failures to write are ignored."""
     first, second = (half.astype(np.float32) for half in (reference.first, reference.second))
     counts = (reference.samples, reference.bounces)
     with suppress(OSError, RenderError):

@@ -1,4 +1,4 @@
-"""The ways to render a scene that a chart sets beside each other."""
+"""The combinations of method, bounces, roulette and sampler that a chart compares."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 @dataclass(frozen=True)
 class Variant:
-    """A name for people, and the settings it stands for."""
+    """Settings with the name under which they are reported."""
 
     name: str
     settings: Settings
@@ -24,9 +24,10 @@ class Variant:
 def variants_of(
     scene: Scene, settings: Settings, methods: Sequence[str] = METHODS, leads: bool = True
 ) -> list[Variant]:
-    """Every method; with `leads`, LEAD with few and many bounces, without roulette, by samplers.
+    """Return a variant for every method; with `leads`, also variants of the method LEAD.
 
-    Those that one kernel renders, such as all methods where there is no lamp, are one variant.
+    Those have few or many bounces, no roulette, or another sampler. Variants that the same kernel
+    renders, such as all methods in a scene without lamps, are merged into one, "a = b = c".
     """
     named = [(method, {"method": method}) for method in methods]
     if leads:

@@ -32,9 +32,10 @@ def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
     scene = load("methods/glass")
     verdict = verdict_on(scene, 0.2, context)
     text = "\n".join(advice(scene, verdict))
-    start = f"For an error of 20 % (relative RMS) by sampler {settings_for(scene.render).sampler}, "
+    sampler = settings_for(scene.render).sampler
+    start = f"For an error of 20 % (relative RMS) with sampler {sampler}, "
     assert text.startswith(f"{start}measured on {SIZE} x {SIZE} pixels")
-    assert text.count("the fewest that keep it below") == 1
+    assert text.count("the fewest below the error") == 1
     for words in ("whitted", "no indirect light", "glass is black", "light beyond"):
         assert words in text
     assert text.endswith(conclusion(verdict))
@@ -44,7 +45,7 @@ def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
 def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> None:
     sky = scene_of([], {}, background={"color": [1, 0.5, 0.2]})
     text = "\n".join(advice(sky, verdict_on(sky, 0.2, context)))
-    assert "nothing was seen beyond 1 bounce" in text
+    assert "no light detected beyond 1 bounce" in text
     assert "light beyond" not in text
     cut = furnace()
     text = "\n".join(advice(cut, verdict_on(cut, 0.2, context)))
@@ -56,8 +57,8 @@ def test_an_error_beyond_reach_is_told(context: Context) -> None:
     assert verdict.best is None
     assert candidate(verdict, "mis").bias.value == pytest.approx(0.25, rel=0.05)
     assert re.fullmatch(
-        r"Nothing reaches 2 %: `\w+` with 1 bounce misses the least, and that is \d\d %. Allow "
-        "more bounces, or ask for a larger error.",
+        r"No method reaches 2 %: the smallest bias is \d\d %, of `\w+` with 1 bounce. Allow more "
+        "bounces, or ask for a larger error.",
         conclusion(verdict),
     )
 
@@ -67,7 +68,7 @@ def test_a_bias_that_may_be_chance_is_told_as_noise() -> None:
     noisy = replace(of_bias(0.0), bias=Bias(0.01**2, 0.01**2))
     verdict = Verdict(0.009, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
     assert verdict.best is None
-    assert conclusion(verdict).startswith("Nothing is known to reach 0.9 %: what a measurement of")
+    assert conclusion(verdict).startswith("No method is known to reach 0.9 %: the measurement, of")
 
 
 def test_more_samples_than_a_picture_holds_are_not_enough() -> None:
@@ -75,7 +76,7 @@ def test_more_samples_than_a_picture_holds_are_not_enough() -> None:
     verdict = Verdict(1.0, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
     assert verdict.best is None
     assert conclusion(verdict) == (
-        "Nothing reaches 100 %: `mis` would take 2,000,000 samples, and a picture holds 1,048,576. "
+        "No method reaches 100 %: `mis` needs 2,000,000 samples, and the limit is 1,048,576. "
         "Ask for a larger error."
     )
     one = replace(verdict, candidates=(replace(noisy, variance=1.0, seconds_per_sample=1e-5),))
@@ -138,7 +139,7 @@ def test_auto_without_time_to_measure_renders_and_says_so(tmp_path: Path) -> Non
     picture = tmp_path / "a.png"
     line = ("render", "methods/glass", "-o", picture, "--width", "16", "--height", "16")
     done = glrt(*line, "--method", "auto", "--error", "0.9", "--time", "0.001")
-    assert "Not decided: half of --time is too short to measure. Taken: `mis` with" in done.stderr
+    assert "Not decided: half of --time is too short to measure. Using `mis` with" in done.stderr
     assert picture.exists()
 
 

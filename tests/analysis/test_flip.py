@@ -81,7 +81,7 @@ def test_every_point_of_a_chart_has_it(context: Context, folder: Path) -> None:
     assert flips["whitted", "1"] > flips["mis", "32"] > 0
     page = save_page([result], folder).read_text()
     assert "| FLIP at the end |" in page
-    assert "FLIP says how different a picture looks" in page
+    assert "FLIP is the perceived difference" in page
 
 
 @pytest.mark.usefixtures("evaluator")

@@ -73,8 +73,7 @@ def test_ways_are_held_against_the_first_that_works() -> None:
     assert [row.is_right for row in rows] == [False, True, True, False, False, True, True, False]
     assert rows[0].found == {"error": "it crashed (SIGABRT): out of registers"}
     assert summary(rows) == (
-        "8 ways and scenes: 1 first, 2 with the same bits, 1 within 1 % of the noise, 2 WRONG, "
-        "2 failed"
+        "8 renders: 1 first, 2 with the same bits, 1 within 1 % of the noise, 2 WRONG, 2 failed"
     )
 
 

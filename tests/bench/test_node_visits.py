@@ -40,4 +40,4 @@ def test_the_table_has_a_row_a_scene(
     monkeypatch.setattr(node_visits, "SAMPLES", 1)
     assert main(["--spheres", "100"]) == 0
     rows = [line for line in capsys.readouterr().out.splitlines() if line.startswith("| ")]
-    assert [row.split("|")[1].strip() for row in rows] == ["scene", "100 balls", "`weekend`"]
+    assert [row.split("|")[1].strip() for row in rows] == ["scene", "100 spheres", "`weekend`"]

@@ -1,14 +1,14 @@
-"""Error against time of every method.
+"""Error against time for every method.
 
 Modules, each importing only what stands above it:
 
-- rays: rays a sample takes
-- flip: how different two pictures look
-- measure: every variant in every round
-- rounds: rounds kept in a file
-- curves: what rounds say: slopes, bias, intervals
-- experiment: one scene measured
-- words: what a chart shows, in words
+- rays: number of rays per sample
+- flip: perceived difference of two pictures
+- measure: interleaved rounds of all variants
+- rounds: measured rounds in a file
+- curves: statistics of the rounds: error, intervals, slope, bias
+- experiment: the measurement of one scene
+- words: the results as sentences and tables
 - drawing: the chart of one scene
-- files: pictures, page, CSV and JSON
+- files: charts, page, CSV and JSON
 """

@@ -1,4 +1,4 @@
-"""What rounds of a measurement say: curves with 95 % intervals, slopes, bias, the Pareto front."""
+"""Statistics of measured rounds: curves with 95 % intervals, slopes, bias, the Pareto front."""
 
 import math
 import statistics
@@ -11,14 +11,14 @@ import numpy as np
 from glrt.analysis.chart.measure import Look, Round, Run, of_variant
 
 LEVELS = (0.1, 0.03, 0.01)  # relative errors at which methods are compared
-# 97.5 % points of Student's t for 1, 2, ... degrees of freedom.
+# 97.5 % quantiles of Student's t for 1, 2, ... degrees of freedom.
 _STUDENT = (12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179)
-_LEAST_POINTS = 4
-_NOISE_RULES = 3.0  # a slope is fitted where the error is this many times the bias
+_LEAST_POINTS = 4  # of a fitted slope
+_NOISE_OVER_BIAS = 3.0  # a slope is fitted where the error is more than this many times the bias
 
 
 class Interval(NamedTuple):
-    """An estimate with its 95 % interval."""
+    """An estimate with its 95 % confidence interval."""
 
     value: float
     low: float
@@ -26,38 +26,38 @@ class Interval(NamedTuple):
 
 
 class Point(NamedTuple):
-    """One number of samples: median time with quartiles, error with its 95 % interval."""
+    """One point of a curve: median time with quartiles, error with its 95 % interval."""
 
-    samples: int
-    milliseconds: Interval  # quartiles, not 95 %
-    error: Interval
-    flip: float | None = None  # mean over the rounds that asked
+    samples: int  # per pixel
+    milliseconds: Interval  # median and quartiles, not a 95 % interval
+    error: Interval  # relative RMS
+    flip: float | None = None  # mean over the rounds in which it was computed
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A variant: error against time, and what that shows."""
+    """Error against time of one variant, with slope and bias."""
 
     name: str
     points: tuple[Point, ...]
-    slope: Interval | None  # of log error over log samples, where noise rules
-    bias: Interval  # relative, 0 where none is seen
+    slope: Interval | None  # of log error over log samples, where noise exceeds the bias
+    bias: Interval  # relative RMS
 
     @property
     def seen_bias(self) -> float:
-        """The bias, 0 where it may be chance."""
+        """The bias; 0 if its interval includes 0."""
         return self.bias.value if self.bias.low > 0 else 0.0
 
     @property
     def is_biased(self) -> bool:
-        """Whether its error ends in a bias: at least half of what is left."""
+        """Whether the bias is more than half of the error at the last point."""
         return self.seen_bias > 0.5 * self.points[-1].error.value
 
     def milliseconds_to(self, error: float) -> tuple[float, bool] | None:
-        """Time until an error is reached, and whether it was measured; None if it never is.
+        """Time to reach an error, and whether it was measured; None if the bias prevents it.
 
-        Between two points on a straight line in logarithms. Beyond the last one, what is not bias
-        falls with the square root of the time.
+        Interpolated linearly in logarithms between two points. Beyond the last point the time is
+        extrapolated: there the squared error without bias is taken to fall as 1 / time.
         """
         before = None
         for point in self.points:
@@ -73,15 +73,16 @@ class Curve:
 
 
 def curves_of(rounds: Sequence[Round], least_bias: float = 0.0) -> list[Curve]:
-    """A curve for each variant, in the order of their names in the first round."""
+    """A curve for each variant, in the order of the first round."""
     names = [run.variant for run in rounds[0]]
     return [curve_of(name, of_variant(rounds, name), least_bias) for name in names]
 
 
 def curve_of(name: str, runs: Sequence[Run], least_bias: float = 0.0) -> Curve:
-    """The curve of one variant over the samples that all its runs reached.
+    """The curve of one variant over the numbers of samples that all its runs reached.
 
-    A bias below `least_bias` may be the reference's: its noise is in what errors are relative to.
+    The interval of a bias below `least_bias` is extended to 0, since such a bias may come from the
+    noise of the reference.
     """
     shared = min(len(run.looks) for run in runs)
     bias = squared_interval([run.squared_bias for run in runs])
@@ -94,7 +95,7 @@ def curve_of(name: str, runs: Sequence[Run], least_bias: float = 0.0) -> Curve:
 
 
 def front(points: Sequence[tuple[float, float]]) -> list[int]:
-    """Places of the points (time, error) that no other beats in both, in the order of time."""
+    """Indices of the points (time, error) on the Pareto front, in the order of time."""
     best = math.inf
     places = []
     for place in sorted(range(len(points)), key=lambda i: points[i]):
@@ -105,7 +106,7 @@ def front(points: Sequence[tuple[float, float]]) -> list[int]:
 
 
 def mean_interval(values: Sequence[float]) -> Interval:
-    """Mean of independent values with Student's interval; of one value, an endless one."""
+    """Mean of independent values with Student's 95 % interval, infinite for a single value."""
     mean = statistics.fmean(values)
     if len(values) < 2:
         return Interval(mean, -math.inf, math.inf)
@@ -116,7 +117,7 @@ def mean_interval(values: Sequence[float]) -> Interval:
 
 
 def squared_interval(squares: Sequence[float]) -> Interval:
-    """The root of the mean of squares, each unbiased and so at times below 0."""
+    """Root of the mean of unbiased estimates of a square, with its interval; 0 below 0."""
     return Interval(*(math.sqrt(max(value, 0.0)) for value in mean_interval(squares)))
 
 
@@ -132,13 +133,13 @@ def _point(looks: Sequence[Look]) -> Point:
 
 
 def _slope(runs: Sequence[Run], points: Sequence[Point], bias: Interval) -> Interval | None:
-    """A line through the logarithms of points, by least squares; None with too few points.
+    """Slope of log error over log samples by least squares; None with fewer than _LEAST_POINTS.
 
-    Its interval is the jackknife's: Student's over what each run adds to a fit without it. Not the
-    mean of fits to single runs, in which the logarithm of rare large errors flattens the line.
+    Its interval is Student's over jackknife pseudovalues, leaving out one run at a time. The mean
+    of fits to single runs would be too flat, as they take logarithms of rare large errors.
     """
     floor = bias.value if bias.low > 0 else 0.0
-    places = [i for i, p in enumerate(points) if p.error.value > max(_NOISE_RULES * floor, 0.0)]
+    places = [i for i, p in enumerate(points) if p.error.value > max(_NOISE_OVER_BIAS * floor, 0.0)]
     if len(places) < _LEAST_POINTS:
         return None
     samples = np.log([points[place].samples for place in places])
@@ -154,6 +155,7 @@ def _slope(runs: Sequence[Run], points: Sequence[Point], bias: Interval) -> Inte
 
 
 def _between(before: Point | None, after: Point, error: float) -> float:
+    """Milliseconds to an error between two points, interpolated linearly in logarithms."""
     if before is None:
         return after.milliseconds.value
     (t0, e0), (t1, e1) = (

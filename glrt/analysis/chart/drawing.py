@@ -1,7 +1,7 @@
-"""The chart of one scene: error against time, and against rays, in logarithms.
+"""The chart of one scene: error against time and against rays, with logarithmic axes.
 
-Made to be read in black and white and at half its size: variants differ by marker and by the name
-at the end of their curve, what is on the Pareto front is black, and everything else grey.
+It is readable in black and white and at half its size: variants differ by marker and are named at
+the end of their curves, points on the Pareto front are black, and everything else is grey.
 """
 
 import math
@@ -35,9 +35,9 @@ def _fill(figure: Any, experiment: Experiment) -> None:
     figure.suptitle(f"{experiment.title}: {width} x {height} pixels", weight="bold")
     _draw(times, experiment.curves, _milliseconds(experiment))
     _draw(rays, experiment.curves, _rays(experiment))
-    times.set(xlabel="milliseconds a picture", ylabel="relative RMS error")
+    times.set(xlabel="milliseconds per picture", ylabel="relative RMS error")
     times.yaxis.set_major_formatter(lambda error, _place: percent(error))
-    rays.set(xlabel="rays a pixel")
+    rays.set(xlabel="rays per pixel")
     _mark_levels(times, experiment.curves)
     _mark_levels(rays, [])
     _name_curves(times, experiment.curves)
@@ -54,7 +54,7 @@ def _rays(experiment: Experiment) -> list[list[float]]:
 
 
 def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]]) -> None:
-    """Curves over their places on the x axis, and the front of all of them as steps."""
+    """Draw curves over their x coordinates `places`, and their common Pareto front as steps."""
     axes.set(xscale="log", yscale="log")
     dots = [
         (x, point.error.value, number)
@@ -67,7 +67,7 @@ def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]])
     for number, (curve, xs) in enumerate(zip(curves, places, strict=True)):
         errors = [point.error.value for point in curve.points]
         low, high = ([getattr(p.error, end) for p in curve.points] for end in ("low", "high"))
-        has_end = [end > 0 for end in low]  # else a band would reach down for ever
+        has_end = [end > 0 for end in low]  # no band where its logarithm is undefined
         axes.fill_between(xs, low, high, where=has_end, color=PALE, lw=0, zorder=0)
         axes.plot(xs, errors, MARKERS[number % len(MARKERS)] + "-", color=GREY, ms=6, lw=1)
     for x, error, number in steps:
@@ -77,7 +77,7 @@ def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]])
 
 
 def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
-    """A line at each level of error, and how much faster than naive the fastest gets there."""
+    """Draw a line at each of LEVELS, with the speed-up of the fastest variant over naive."""
     bottom, top = axes.get_ylim()
     left, right = axes.get_xlim()
     axes.set_xlim(left, right)
@@ -99,7 +99,7 @@ def _mark_levels(axes: Any, curves: Sequence[Curve]) -> None:
 
 
 def _name_curves(axes: Any, curves: Sequence[Curve]) -> None:
-    """Names at the right of the axes, each on a line to the end of its curve."""
+    """Write the names of the curves right of the axes, with lines to the ends of the curves."""
     bottom, top = (math.log(limit) for limit in axes.get_ylim())
     ends = sorted(
         ((math.log(curve.points[-1].error.value) - bottom) / (top - bottom), number)
@@ -122,10 +122,10 @@ def _name_curves(axes: Any, curves: Sequence[Curve]) -> None:
 
 
 def _spread(heights: Sequence[float], gap: float = 0.055) -> list[float]:
-    """Ascending heights moved apart to `gap`, as little as that takes: clusters keep their middle.
+    """Ascending heights, moved apart to at least `gap` with the least squared displacement.
 
-    Less their share of gaps, the heights must not fall: pools of neighbours that do take their
-    mean (isotonic regression).
+    With place * gap subtracted, the result must be non-decreasing: isotonic regression by pooling
+    adjacent violators, which take their mean.
     """
     pools: list[list[float]] = []
     for place, height in enumerate(heights):

@@ -1,4 +1,4 @@
-"""One scene measured: reference, rays, rounds, and the curves that they make."""
+"""The measurement of one scene: reference, number of rays, rounds, and the resulting curves."""
 
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -18,16 +18,16 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
 
-SAMPLER = "independent"  # of all variants but those that are named after another
-REFERENCE_ERROR = 0.005
-REFERENCE_SHARE = 0.5  # of the time of the rounds, at most, that the reference may take beside it
+SAMPLER = "independent"  # of all variants whose names do not contain another one
+REFERENCE_ERROR = 0.005  # relative RMS
+REFERENCE_SHARE = 0.5  # most time for the reference, relative to that of the rounds
 
-Tell = Callable[[str, float], None]  # what is done now, and the share of everything that is done
+Tell = Callable[[str, float], None]  # called with the current step and the share of all work done
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How a scene is measured: height of its frame, rounds, and seconds for all of them."""
+    """How a scene is measured: height of the frame in pixels, rounds, seconds for all rounds."""
 
     height: int = 64
     rounds: int = 5
@@ -36,16 +36,16 @@ class Plan:
 
 @dataclass(frozen=True)
 class Experiment:
-    """What was measured on one scene."""
+    """The results of one scene."""
 
     name: str
     title: str
-    rounds: int
+    rounds: int  # number of rounds
     reference: Reference
     variants: tuple[Variant, ...]
-    curves: tuple[Curve, ...]  # of the variants, in their order
-    rays: tuple[float, ...]  # a sample, of each variant
-    place: str  # version, driver, processors
+    curves: tuple[Curve, ...]  # one per variant, in the same order
+    rays: tuple[float, ...]  # mean number per sample, for each variant
+    place: str  # version, driver, number of processors
 
     @property
     def size(self) -> tuple[int, int]:
@@ -57,7 +57,7 @@ class Experiment:
 def measure_scene(
     name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path, tell: Tell
 ) -> Experiment:
-    """Measure a scene, going on from the rounds that the file holds already."""
+    """Measure a scene; rounds that `rounds_file` holds from an earlier run are not repeated."""
     settings = settings_for(frame_of(scene, plan.height), sampler=SAMPLER)
     variants = [
         variant
@@ -81,7 +81,7 @@ def measure_scene(
         tell(text, (allowed + share * plan.seconds) / whole)
 
     bench = Bench(scene, variants, reference, context)
-    for done in _rounds_to_come(bench, plan, rounds, len(variants), tell_round):
+    for done in _missing_rounds(bench, plan, rounds, len(variants), tell_round):
         save_rounds(rounds_file, key, done)
     bench.release()
     curves = tuple(curves_of(_in_order(rounds, variants), reference.error))
@@ -90,23 +90,23 @@ def measure_scene(
 
 
 def frame_of(scene: Scene, height: int) -> Settings:
-    """The scene's settings in a frame of that height and the scene's aspect."""
+    """The settings of a scene for a frame of this height, with the aspect ratio of the scene."""
     wish = scene.render
     width = max(1, round(height * wish.width / wish.height))
     return settings_for(wish, width=width, height=height)
 
 
 def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
-    """Whether one sample fits into the driver's loop limit."""
+    """Whether one sample stays within the loop limit of the driver."""
     rounds = iterations_per_sample(scene, settings)
     usable = usable_rounds(context, rounds)
     return usable is None or rounds <= usable
 
 
-def _rounds_to_come(
+def _missing_rounds(
     bench: Bench, plan: Plan, rounds: list[Round], variants: int, tell: Callable[[float], None]
 ) -> Iterator[list[Round]]:
-    """Adds what the plan wants to `rounds`, and yields them after each."""
+    """Measure the rounds that the plan still lacks; append each to `rounds` and yield the list."""
     missing = plan.rounds - len(rounds)
     for number in range(missing):
         runs: Round = []
@@ -117,5 +117,6 @@ def _rounds_to_come(
 
 
 def _in_order(rounds: Sequence[Round], variants: Sequence[Variant]) -> list[Round]:
+    """The rounds with their runs in the order of the variants."""
     names = [variant.name for variant in variants]
     return [sorted(runs, key=lambda run: names.index(run.variant)) for runs in rounds]

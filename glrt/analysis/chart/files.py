@@ -1,4 +1,4 @@
-"""The files of a chart: pictures and a page for people, CSV and JSON for programs."""
+"""The files of a chart: plots and a Markdown page, and the figures as CSV and JSON."""
 
 import csv
 import io
@@ -23,14 +23,14 @@ def save_chart(experiment: Experiment, folder: Path) -> None:
 
 
 def save_page(experiments: Sequence[Experiment], folder: Path) -> Path:
-    """Write chart.md, which shows and tells of all scenes; returns its path."""
+    """Write chart.md, the page with the results of all scenes, and return its path."""
     path = folder / "chart.md"
     files.write_text(path, page(experiments))
     return path
 
 
 def rows(experiment: Experiment) -> Iterator[dict[str, Any]]:
-    """Every point of every curve; times in milliseconds, errors as fractions."""
+    """A row for every point of every curve; times in milliseconds, errors as fractions."""
     dots = [
         (point.milliseconds.value, point.error.value, curve.name, point.samples)
         for curve in experiment.curves
@@ -57,7 +57,7 @@ def rows(experiment: Experiment) -> Iterator[dict[str, Any]]:
 
 
 def figures(experiment: Experiment) -> dict[str, Any]:
-    """Everything as JSON: the curves, and how they were measured."""
+    """All results as a table for JSON: curves, points, and how they were measured."""
     reference = experiment.reference
     return {
         "scene": experiment.name,

@@ -1,9 +1,9 @@
-"""FLIP: how different two pictures look to someone who flips between them.
+"""FLIP: the perceived difference of two pictures that are shown in alternation.
 
-Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020. From 0, equal, to
-1, black beside white: the mean over pixels of differences in colour and at edges, as seen from
-where 67 pixels fill a degree. Pictures are taken as glrt writes PNG files, so that what a tone
-curve hides does not count.
+Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020. The mean over
+pixels of differences in colour and at edges, at a viewing distance of 67 pixels per degree: 0 for
+equal pictures, 1 for black against white. Pictures are compared with the tone curve and encoding of
+glrt's PNG files, so differences that those do not show do not count.
 """
 
 import os
@@ -21,13 +21,13 @@ _PACKAGE = "flip_evaluator"
 
 
 def is_installed() -> bool:
-    """Whether the package flip-evaluator, which computes it, is there."""
+    """Whether the package flip-evaluator, which computes FLIP, is installed."""
     return find_spec(_PACKAGE) is not None
 
 
 def flip(radiance: ArrayLike, truth: ArrayLike) -> float:
-    """FLIP of a picture beside what it should show; both are radiance, (H, W, 3)."""
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # else its threads disturb what is timed
+    """Mean FLIP of a picture against the reference `truth`; both are radiance, (H, W, 3)."""
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # else its idle threads disturb timings
     evaluator = import_module(_PACKAGE)
     pictures = [_as_shown(each) for each in (truth, radiance)]
     _, mean, _ = evaluator.evaluate(*pictures, "LDR", applyMagma=False)
@@ -35,6 +35,7 @@ def flip(radiance: ArrayLike, truth: ArrayLike) -> float:
 
 
 def _as_shown(radiance: ArrayLike) -> NDArray[Any]:
+    """sRGB values from 0 to 1, float32, as in a PNG file with the default exposure."""
     fields = Settings.model_fields
     codes = expose_and_encode(radiance, fields["exposure"].default, fields["tonemap"].default)
     return np.divide(codes, 255, dtype=np.float32)

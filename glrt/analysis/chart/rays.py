@@ -1,4 +1,4 @@
-"""How many rays a sample takes: the cost of a picture on any machine."""
+"""The number of rays per sample: a measure of cost that does not depend on the machine."""
 
 from glrt.gpu.context import Context
 from glrt.rendering.pipelines import Variant
@@ -7,11 +7,11 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 SAMPLES = 32
-COUNTING = Variant({"COUNT_RAYS": True})  # rays a sample in place of radiance
+COUNTING = Variant({"COUNT_RAYS": True})  # renders the number of rays in place of radiance
 
 
 def rays_per_sample(scene: Scene, settings: Settings, context: Context) -> float:
-    """The mean over the frame: camera, scattered and shadow rays."""
+    """The mean number of camera, scattered and shadow rays per sample, over the whole frame."""
     counter = Renderer(scene, settings, context, tier="baked", variant=COUNTING)
     mean = float(counter.render(SAMPLES).image().radiance.mean())
     counter.release()

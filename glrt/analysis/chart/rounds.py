@@ -1,4 +1,4 @@
-"""The rounds of a measurement as a file, so that an interruption loses one round at most."""
+"""The rounds of a measurement in a file, so that an interruption loses at most one round."""
 
 import hashlib
 import json
@@ -15,7 +15,7 @@ from glrt.scene.toml import scene_to_dict
 
 
 def key_of(scene: Scene, variants: Sequence[Variant], reference: Reference, place: str) -> str:
-    """Names what rounds must share to stand on one chart."""
+    """A hash of everything that rounds must have in common to be combined in one chart."""
     ways = [(variant.name, variant.settings.model_dump(mode="json")) for variant in variants]
     truth = hashlib.sha256(reference.radiance.tobytes()).hexdigest()
     parts = [scene_to_dict(scene), ways, truth, place, flip.is_installed()]
@@ -23,7 +23,7 @@ def key_of(scene: Scene, variants: Sequence[Variant], reference: Reference, plac
 
 
 def load_rounds(path: Path, key: str) -> list[Round]:
-    """The rounds that a file holds; none if it is of another measurement."""
+    """The rounds in a file; empty if it is missing, damaged or of another measurement."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
         if data["key"] != key:
@@ -37,6 +37,6 @@ def load_rounds(path: Path, key: str) -> list[Round]:
 
 
 def save_rounds(path: Path, key: str, rounds: Sequence[Round]) -> None:
-    """Replace the file."""
+    """Write the rounds, replacing the file."""
     text = json.dumps({"key": key, "rounds": rounds}) + "\n"
     files.write_text(path, text)

@@ -1,4 +1,4 @@
-"""What a chart shows, in words."""
+"""The results of charts as Markdown: sentences and tables."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -8,21 +8,21 @@ from glrt.analysis.chart.experiment import SAMPLER, Experiment
 
 
 def percent(share: float) -> str:
-    """Two digits: 0.0123 is "1.2 %"."""
+    """A fraction in percent with two significant digits: 0.0123 is "1.2 %"."""
     value = 100 * share
     return f"{value:.0f} %" if value >= 9.95 else f"{value:.2g} %"
 
 
 def ending(curve: Curve) -> str:
-    """A curve in a word: its name, and the bias if it ends in one."""
+    """The label at the end of a curve: its name, and its bias if it is biased."""
     return f"{curve.name}: bias {percent(curve.bias.value)}" if curve.is_biased else curve.name
 
 
-BASE = "naive"  # the method that others are compared with: the thesis's
+BASE = "naive"  # the baseline of speed-ups: the method of the thesis
 
 
 class SpeedUp(NamedTuple):
-    """Milliseconds of the fastest variant to a level and of BASE, and what that means."""
+    """Milliseconds to an error by the fastest variant and by BASE, and the speed-up in words."""
 
     fast: float
     slow: float
@@ -30,7 +30,7 @@ class SpeedUp(NamedTuple):
 
 
 def speed_up(curves: Sequence[Curve], level: float) -> SpeedUp | None:
-    """How much sooner than BASE the fastest reaches a level; None if BASE is the fastest."""
+    """The speed-up of the fastest variant over BASE at an error; None if BASE is the fastest."""
     known = _times_to(curves, level)
     bases = [(time, measured) for time, name, measured in known if BASE in name.split(" = ")]
     if not bases or known[0][0] == bases[0][0]:
@@ -41,18 +41,18 @@ def speed_up(curves: Sequence[Curve], level: float) -> SpeedUp | None:
 
 
 def number(value: float) -> str:
-    """Three digits, without an exponent."""
+    """A number with three significant digits, without an exponent."""
     return f"{value:.3g}" if value < 1000 else f"{float(f'{value:.3g}'):,.0f}"
 
 
 def page(experiments: Sequence[Experiment]) -> str:
-    """Markdown: what was measured and how, then chart, words and table of each scene."""
+    """The page: how it was measured, then chart, findings and table of each scene."""
     sections = ["\n".join(section(experiment)) for experiment in experiments]
     return "\n".join([*_introduction(experiments[0]), *sections])
 
 
 def section(experiment: Experiment) -> Iterator[str]:
-    """The part of the page that tells of one scene."""
+    """The lines of the page about one scene."""
     name = experiment.name
     yield f"## {name}: {experiment.title}"
     yield ""
@@ -74,11 +74,11 @@ def sentences(experiment: Experiment) -> Iterator[str]:
 
 
 def table(experiment: Experiment) -> Iterator[str]:
-    """The curves as Markdown."""
-    columns = ["variant", "rays a sample", "error at the end", "bias", "slope"]
+    """A row for each curve, as Markdown."""
+    columns = ["variant", "rays per sample", "error at the end", "bias", "slope"]
     columns += [f"ms to {percent(level)}" for level in LEVELS]
-    asked = _has_flip(experiment)
-    columns += ["FLIP at the end"] if asked else []
+    with_flip = _has_flip(experiment)
+    columns += ["FLIP at the end"] if with_flip else []
     yield f"| {' | '.join(columns)} |"
     yield "|---" * len(columns) + "|"
     for curve, rays in zip(experiment.curves, experiment.rays, strict=True):
@@ -86,7 +86,7 @@ def table(experiment: Experiment) -> Iterator[str]:
         end = f"{percent(last.error.value)} at {last.samples}"
         cells = [curve.name, f"{rays:.3g}", end, _bias(curve.bias), _slope(curve.slope)]
         cells += [_time(curve.milliseconds_to(level)) for level in LEVELS]
-        cells += ["-" if last.flip is None else f"{last.flip:.2g}"] if asked else []
+        cells += ["-" if last.flip is None else f"{last.flip:.2g}"] if with_flip else []
         yield f"| {' | '.join(cells)} |"
 
 
@@ -94,22 +94,22 @@ def _introduction(experiment: Experiment) -> Iterator[str]:
     yield "# Speed against accuracy"
     yield ""
     yield (
-        f"Measured by {experiment.place}. The error is the relative RMS error over pixels and "
-        "channels against a reference; a time is that of all dispatches of a picture, without "
-        "compiling. Every round runs each variant once, in another order and with other random "
-        "numbers: times are medians; errors and slopes have 95 % intervals over the rounds, of "
-        "which one in twenty misses the truth by chance. A time after `~` lies beyond what was "
-        "measured. Black in the charts is what nothing else beats in both time and error; on the "
-        "line of an error stands how many times as fast the fastest gets there. Random numbers are "
-        f"`{SAMPLER}` where the name of a variant does not say otherwise."
+        f"Measured with {experiment.place}. The error is the relative RMS error over pixels and "
+        "channels against a reference; the time is that of all dispatches of a picture, without "
+        "compilation. Every round runs each variant once, in another order and with other seeds. "
+        "Times are medians; errors and slopes have 95 % confidence intervals over the rounds. A "
+        "time after `~` is extrapolated. Points drawn in black are on the Pareto front: no other "
+        "point has both less time and less error. At the line of an error, the chart compares "
+        f"the fastest variant with `{BASE}`. The sampler is `{SAMPLER}` unless the name of a "
+        "variant contains another."
     )
     yield ""
     if _has_flip(experiment):
         yield (
-            "FLIP says how different a picture looks from the reference to someone who flips "
-            "between their PNG files, where 67 pixels fill a degree: from 0, the same, to 1, black "
-            "beside white (Andersson et al. 2020). One picture is asked, and the noise of the "
-            "reference is in it."
+            "FLIP is the perceived difference from the reference when their PNG files are shown "
+            "in alternation at 67 pixels per degree: 0 for equal pictures, 1 for black against "
+            "white (Andersson et al. 2020). It is computed in the first round, and includes the "
+            "noise of the reference."
         )
         yield ""
 
@@ -119,17 +119,18 @@ def _has_flip(experiment: Experiment) -> bool:
 
 
 def _winner(curves: Sequence[Curve], level: float) -> str:
+    """The variants in the order in which they reach an error, with times relative to the first."""
     known = _times_to(curves, level)
     if not known:
-        return f"Nothing reaches {percent(level)}."
+        return f"No variant reaches {percent(level)}."
     time, name, measured = known[0]
     text = f"{percent(level)} is reached first by `{name}`, after {_time((time, measured))} ms"
     others = [f"`{who}` ({number(other / time)} x)" for other, who, _ in known[1:]]
-    return f"{text}; then by {', '.join(others)}." if others else f"{text}, and by nothing else."
+    return f"{text}; then by {', '.join(others)}." if others else f"{text}, and by no other."
 
 
 def _times_to(curves: Sequence[Curve], level: float) -> list[tuple[float, str, bool]]:
-    """Milliseconds, name, and whether that was measured, fastest first."""
+    """Milliseconds to an error, name, and whether it was measured, fastest first."""
     reached = [(curve.milliseconds_to(level), curve.name) for curve in curves]
     return sorted((time[0], name, time[1]) for time, name in reached if time)
 
@@ -137,20 +138,23 @@ def _times_to(curves: Sequence[Curve], level: float) -> list[tuple[float, str, b
 def _biases(curves: Sequence[Curve]) -> Iterator[str]:
     biased = [f"`{c.name}` at {percent(c.bias.value)}" for c in curves if c.is_biased]
     if biased:
-        yield f"More samples do not help what is biased: {', '.join(biased)}."
+        yield f"Biased, however many samples: {', '.join(biased)}."
 
 
 def _front(curves: Sequence[Curve]) -> str:
     dots = [(p.milliseconds.value, p.error.value, c.name) for c in curves for p in c.points]
     names = [dots[place][2] for place in front([dot[:2] for dot in dots])]
     ordered = ", then ".join(f"`{name}`" for name in dict.fromkeys(names))
-    return f"The best for its time is, from quick to slow, {ordered}."
+    return f"On the Pareto front are, from fast to slow, {ordered}."
 
 
 def _slopes(curves: Sequence[Curve]) -> Iterator[str]:
     fitted = [f"`{c.name}` {_slope(c.slope)}" for c in curves if c.slope and not c.is_biased]
     if fitted:
-        yield f"Slopes of error over samples (-0.5: independent): {', '.join(fitted)}."
+        yield (
+            "Slopes of log error over log samples (-0.5 for independent samples): "
+            f"{', '.join(fitted)}."
+        )
 
 
 def _reference(experiment: Experiment) -> str:
@@ -161,7 +165,7 @@ def _reference(experiment: Experiment) -> str:
         return f"The reference is a closed form ({frame})."
     return (
         f"The reference, two halves of {reference.samples} samples and up to {reference.bounces} "
-        f"bounces, has an error of {percent(reference.error)} itself ({frame})."
+        f"bounces, has itself an error of {percent(reference.error)} ({frame})."
     )
 
 
@@ -175,7 +179,7 @@ def _time(time: tuple[float, bool] | None) -> str:
 def _bias(bias: Interval) -> str:
     if bias.low > 0:
         return f"{percent(bias.value)} ({percent(bias.low)} to {percent(bias.high)})"
-    return f"none seen above {percent(bias.high)}"
+    return f"none detected above {percent(bias.high)}"
 
 
 def _slope(slope: Interval | None) -> str:

@@ -1,4 +1,4 @@
-"""What suffices for an error, in plain words: `inspect --error` and `render --method auto`."""
+"""The method and bounces that reach an error, for `inspect --error` and `render --method auto`."""
 
 import argparse
 import math
@@ -18,24 +18,26 @@ from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
-SHARE = 0.5  # of what is left of `--time`, at most, that the measurement takes
+SHARE = 0.5  # most time of the measurement, relative to what is left of `--time`
 
 
 def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> None:
-    """Measure and print what `arguments.error` takes; bounces that were given stay."""
+    """Measure and print what reaches `arguments.error`, with `arguments.bounces` if given."""
     print("\n" + "\n".join(advice(scene, _verdict(arguments, scene, settings, arguments.error))))
 
 
 def choose(
     arguments: argparse.Namespace, scene: Scene, settings: Settings, limits: Limits
 ) -> tuple[Settings, Limits]:
-    """Settings with the cheapest method that reaches the error, and limits that leave room for
-    its bias. The samples that it is known to need come before its own estimate is believed, which
-    is too low where few paths carry the light. Where a deadline leaves no time to measure, LEADER
-    with the bounces of `settings`. Raises UsageError without an error.
+    """Return settings with the fastest method that reaches the error, and limits for its render.
+
+    The limits reduce the error by the bias of the method, and set the first look at the estimated
+    error to the number of samples that the measurement found necessary: the estimate is too low
+    where few paths carry the light. If a deadline leaves no time to measure, the method is LEADER
+    with the bounces of `settings`. Raises UsageError if `limits` has no error.
     """
     if limits.error is None:
-        raise UsageError("--method auto is chosen by the error that is asked for: give --error E.")
+        raise UsageError("--method auto chooses the method by the requested error: give --error E.")
     left = math.inf if limits.deadline is None else limits.deadline - time.perf_counter()
     try:
         verdict = _verdict(arguments, scene, settings, limits.error, SHARE * left)
@@ -73,24 +75,24 @@ def _tell(arguments: argparse.Namespace, text: str) -> None:
 
 def _undecided(settings: Settings) -> str:
     return (
-        f"Not decided: half of --time is too short to measure. Taken: `{settings.method}` with "
+        f"Not decided: half of --time is too short to measure. Using `{settings.method}` with "
         f"{_count(settings.bounces, 'bounce')}. Give more --time, or choose --method yourself."
     )
 
 
 def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
-    """Lines: the bounces with their proof, every method with its reason, and what to take."""
+    """The lines of the advice: error by number of bounces, results by method, and conclusion."""
     height, width, _ = verdict.reference.radiance.shape
     sampler = verdict.candidates[0].settings.sampler
     yield (
-        f"For an error of {percent(verdict.error)} (relative RMS) by sampler {sampler}, measured "
-        f"on {width} x {height} pixels against a reference with "
-        f"{percent(verdict.reference.error)} of its own:"
+        f"For an error of {percent(verdict.error)} (relative RMS) with sampler {sampler}, measured "
+        f"on {width} x {height} pixels against a reference with an error of "
+        f"{percent(verdict.reference.error)}:"
     )
     yield ""
-    yield "bounces  light of longer paths"
+    yield "bounces  bias from longer paths"
     for limit, bias in verdict.beyond.items():
-        mark = "  the fewest that keep it below" if limit == verdict.least_bounces else ""
+        mark = "  the fewest below the error" if limit == verdict.least_bounces else ""
         yield f"{limit:>7}  {percent(bias.value):<8}{mark}".rstrip()
     yield ""
     width = max(len(candidate.name) for candidate in verdict.candidates)
@@ -102,7 +104,7 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
 
 
 def conclusion(verdict: Verdict) -> str:
-    """What to take, or that nothing is known to do, and what was not tried for want of time."""
+    """Which method to use, or why none is known to suffice, and methods that were not tried."""
     found = _finding(verdict)
     if not verdict.untried:
         return found
@@ -116,20 +118,21 @@ def _finding(verdict: Verdict) -> str:
         wanted = verdict.nearest.samples_to(verdict.error)
         if wanted is not None:
             return (
-                f"Nothing reaches {percent(verdict.error)}: `{verdict.nearest.settings.method}` "
-                f"would take {wanted:,} samples, and a picture holds {MAX_SAMPLES:,}. Ask for a "
-                "larger error."
+                f"No method reaches {percent(verdict.error)}: `{verdict.nearest.settings.method}` "
+                f"needs {wanted:,} samples, and the limit is {MAX_SAMPLES:,}. Ask for a larger "
+                "error."
             )
         least = min(verdict.candidates, key=lambda candidate: candidate.bias.value)
         if least.bias.least >= verdict.error:
             return (
-                f"Nothing reaches {percent(verdict.error)}: `{least.settings.method}` with "
-                f"{_count(least.settings.bounces, 'bounce')} misses the least, and that is "
-                f"{percent(least.bias.value)}. Allow more bounces, or ask for a larger error."
+                f"No method reaches {percent(verdict.error)}: the smallest bias is "
+                f"{percent(least.bias.value)}, of `{least.settings.method}` with "
+                f"{_count(least.settings.bounces, 'bounce')}. Allow more bounces, or ask for a "
+                "larger error."
             )
         return (
-            f"Nothing is known to reach {percent(verdict.error)}: what a measurement of some "
-            "seconds finds is too noisy. Ask for a larger error."
+            f"No method is known to reach {percent(verdict.error)}: the measurement, of some "
+            "seconds, is too noisy to tell. Ask for a larger error."
         )
     settings, (width, height) = best.settings, best.settings.size
     return (
@@ -144,7 +147,7 @@ def _count(number: int, thing: str) -> str:
 
 
 def _seconds(value: float) -> str:
-    """Three digits; what is less than a millisecond is not worth telling apart."""
+    """Seconds with three significant digits, at least 0.001."""
     return number(max(value, 0.001))
 
 
@@ -155,8 +158,8 @@ def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> st
     bias = percent(candidate.bias.value)
     if settings.method in CLASSIC:
         missing = omissions(scene, settings)
-        reason = "; ".join(missing) if missing else "leaves nothing out here"
+        reason = "; ".join(missing) if missing else "leaves out nothing in this scene"
     else:
-        seen = "light" if candidate.bias.value > 0 else "nothing was seen"
+        seen = "leaves out light" if candidate.bias.value > 0 else "no light detected"
         reason = f"{seen} beyond {_count(settings.bounces, 'bounce')}"
     return f"{candidate.name:<{width}} {settings.bounces:>7}  {bias:<8} {seconds:<8} {reason}"

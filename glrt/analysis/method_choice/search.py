@@ -1,4 +1,4 @@
-"""The cheapest method, and the fewest bounces, that show a scene to a given error."""
+"""The fastest method, and the number of bounces, that render a scene to a given error."""
 
 import math
 import time
@@ -13,28 +13,28 @@ from glrt.methods.table import CLASSIC
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
-MOST_PIXELS = 16000  # along an edge of the frame that a crop is measured in
-HEIGHT = 48  # pixels of the frame that is measured
+MOST_PIXELS = 16000  # of an edge of the frame in which a crop is measured
+HEIGHT = 48  # of the measured frame, in pixels
 REFERENCE_SECONDS = 10.0
-REFERENCE_SHARE = 0.25  # of the seconds that are allowed, at most
-_TIE = 1.25  # ratio of times
+REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds that are allowed
+_TIE = 1.25  # LEADER is chosen if it takes at most this many times as long as the fastest
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Everything that was tried for an error."""
+    """The measured candidates for an error."""
 
     error: float
     reference: Reference
     candidates: tuple[Candidate, ...]  # every method, the classic models first
-    beyond: dict[int, Bias]  # by limit of bounces: the light of paths that are longer
-    untried: tuple[str, ...] = ()  # methods for which no time was left
+    beyond: dict[int, Bias]  # by limit of bounces: the bias from leaving out longer paths
+    untried: tuple[str, ...] = ()  # methods that were not measured, for lack of time
 
     @property
     def best(self) -> Candidate | None:
-        """The first to reach the error; None if nothing is known to reach it.
+        """The candidate that reaches the error first; None if none is known to reach it.
 
-        LEADER wins where the measurement cannot tell them apart: what it misses is the least.
+        LEADER is preferred if it is hardly slower, since it leaves out the least light.
         """
         nearest = self.nearest
         samples = nearest.samples_to(self.error)
@@ -42,7 +42,7 @@ class Verdict:
 
     @property
     def nearest(self) -> Candidate:
-        """What would be first, were there no limit of samples."""
+        """The candidate that would reach the error first without a limit of samples."""
         nearest = min(self.candidates, key=lambda candidate: candidate.seconds_to(self.error))
         leader = next(c for c in self.candidates if LEADER in c.name.split(" = "))
         tied = leader.seconds_to(self.error) <= _TIE * nearest.seconds_to(self.error)
@@ -50,7 +50,7 @@ class Verdict:
 
     @property
     def least_bounces(self) -> int | None:
-        """The lowest limit that keeps what is cut off below the error."""
+        """The lowest limit of bounces with a bias known to be below the error, if there is one."""
         return next((b for b, bias in self.beyond.items() if bias.most < self.error), None)
 
 
@@ -62,10 +62,10 @@ def what_suffices(
     bounces: int | None = None,
     seconds: float = math.inf,
 ) -> Verdict:
-    """Try every method on a small frame; `bounces` fixes their limit, else it is chosen.
+    """Measure every method on a small frame; `bounces` is their limit, or None to choose it, too.
 
-    What is not done within `seconds` is left out. Raises OutOfTimeError where that leaves no number
-    of bounces known to suffice.
+    Methods that are not measured within `seconds` are left out. Raises OutOfTimeError if no number
+    of bounces is known to suffice by then.
     """
     check = until(time.perf_counter() + seconds)
     small = _small_frame(scene, settings)
@@ -87,7 +87,7 @@ def what_suffices(
 
 
 def _small_frame(scene: Scene, settings: Settings) -> Settings:
-    """A frame of HEIGHT rows; of a crop, one in which it has about HEIGHT^2 pixels."""
+    """Settings for a frame of HEIGHT rows, or one in which the crop has about HEIGHT^2 pixels."""
     if settings.crop is None:
         small = frame_of(scene, HEIGHT)
         return settings_for(settings, width=small.width, height=small.height)
@@ -102,13 +102,13 @@ def _small_frame(scene: Scene, settings: Settings) -> Settings:
 
 
 def _scaled(start: int, length: int, scale: float) -> tuple[int, int]:
-    """Start and length of a stretch, of one pixel at least."""
+    """Start and length of a scaled range of pixels, at least one pixel long."""
     first = math.floor(scale * start)
     return first, max(1, round(scale * (start + length)) - first)
 
 
 def _reference_seconds(allowed: float) -> float:
-    """A power of two below the share, so that the next time finds its reference in the cache."""
+    """Seconds for the reference: a power of two, so that similar times share a cached reference."""
     if REFERENCE_SHARE * allowed >= REFERENCE_SECONDS:
         return REFERENCE_SECONDS
     return float(2.0 ** math.floor(math.log2(max(REFERENCE_SHARE * allowed, 2.0**-10))))

@@ -1,9 +1,9 @@
-"""One scene tried by many methods on a small frame, for as long as the time allows.
+"""Bias, variance and time of the methods for one scene, measured on a small frame.
 
-With two seeds, each for its own half of the reference, the mean of
-(x1 - r1) (x2 - r2) is the squared bias of a method, without the noise of either. What a limit of
-bounces cuts off is seen in the difference of two pictures that follow the same paths to their
-limits: most of their noise is the same too.
+With pictures x1, x2 of two seeds and the independent halves r1, r2 of the reference, the mean of
+(x1 - r1) (x2 - r2) is an unbiased estimator of the squared bias of a method. The bias from a limit
+of bounces is estimated from the difference of two pictures of the same seed, which follow the same
+paths up to their limits, so that most of their noise cancels.
 """
 
 import math
@@ -23,26 +23,26 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 
-SAMPLES = 128  # of each picture
-MOST_TRIED = 16 * SAMPLES  # of each picture, where few paths carry the noise
-TURNS = 5  # in which the methods are timed: whatever else the machine does meets all
+SAMPLES = 128  # per pixel of each picture
+MOST_TRIED = 16 * SAMPLES  # the same, where the variance is not yet known precisely enough
+TURNS = 5  # rounds in which the methods are timed, interleaved so that other load affects all
 SEEDS = (0x53554646, 0x53554647)
 LIMITS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256)
 LEADER = "mis"  # the method whose bounces are measured
-_SPARE = 4  # limits of bounces tried beyond the first that suffices: fewer samples may pay
-_SURE = 2.0  # standard errors
-_KNOWN = 0.1  # relative standard error of a variance that is known
+_EXTRA_LIMITS = 4  # tried beyond the first that suffices: more bounces may need fewer samples
+_SIGMAS = 2.0  # half width of intervals, in standard errors
+_PRECISE = 0.1  # relative standard error below which a variance is taken as known
 
 
 class OutOfTimeError(Exception):
-    """The seconds that were allowed have passed."""
+    """The measurement has used up its time."""
 
 
-Check = Callable[[Renderer | None], bool]  # after each dispatch: True, or OutOfTimeError
+Check = Callable[[Renderer | None], bool]  # called after each dispatch: True, or OutOfTimeError
 
 
 def until(deadline: float) -> Check:
-    """True before a time by time.perf_counter; OutOfTimeError from then on."""
+    """A Check that raises OutOfTimeError from `deadline` on, a time of time.perf_counter."""
 
     def check(_renderer: Renderer | None) -> bool:
         if time.perf_counter() >= deadline:
@@ -60,48 +60,48 @@ class Bias(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The bias, 0 where chance makes its square negative."""
+        """The bias; 0 if the estimate of its square is negative."""
         return math.sqrt(max(self.squared, 0.0))
 
     @property
     def least(self) -> float:
-        """What it is not below, in 97.5 of 100 cases."""
-        return math.sqrt(max(self.squared - _SURE * self.stderr, 0.0))
+        """Lower bound of the bias at a confidence of 97.5 %."""
+        return math.sqrt(max(self.squared - _SIGMAS * self.stderr, 0.0))
 
     @property
     def most(self) -> float:
-        """What it is not above, in 97.5 of 100 cases."""
-        return math.sqrt(max(self.squared + _SURE * self.stderr, 0.0))
+        """Upper bound of the bias at a confidence of 97.5 %."""
+        return math.sqrt(max(self.squared + _SIGMAS * self.stderr, 0.0))
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """A way to render the scene, and what it would take."""
+    """A method with a limit of bounces, and its measured bias, variance and time."""
 
     name: str
-    settings: Settings  # in the frame that was asked for
+    settings: Settings  # for the requested frame
     bias: Bias
-    variance: float  # relative, of one sample: not above this, in 97.5 of 100 cases
-    seconds_per_sample: float  # of the whole frame
+    variance: float  # relative, of one sample: upper bound at a confidence of 97.5 %
+    seconds_per_sample: float  # for one sample of every pixel of the requested frame
 
     def samples_to(self, error: float) -> int | None:
-        """Samples until bias and noise together are below an error; None if the bias is not.
+        """Samples per pixel to reach an error; None if the bias is not known to be below it.
 
-        In whole observations: the samples of a part of one are noisier than their share of it.
+        A multiple of the block of the sampler: the samples of an incomplete block are noisier.
         """
         room = error**2 - self.bias.most**2
         block = self.settings.block
         return block * max(1, math.ceil(self.variance / room / block)) if room > 0 else None
 
     def seconds_to(self, error: float) -> float:
-        """Seconds for those samples; infinite if there are none."""
+        """Seconds to reach an error; infinite if `samples_to` is None."""
         samples = self.samples_to(error)
         return math.inf if samples is None else samples * self.seconds_per_sample
 
 
 @dataclass(frozen=True)
 class Trial:
-    """Measures candidates on a small frame, for a frame of `pixels` times as many pixels."""
+    """Measures candidates on a small frame; the frame of `wanted` has `pixels` times its pixels."""
 
     scene: Scene
     wanted: Settings
@@ -113,7 +113,10 @@ class Trial:
     def limits(
         self, small: Settings, error: float, fixed: int | None, most: int
     ) -> dict[int, Candidate]:
-        """LEADER under limits of bounces; OutOfTimeError if time ends before one suffices."""
+        """LEADER by limit of bounces: `fixed`, or up to `most`.
+
+        Raises OutOfTimeError if the time runs out before one suffices.
+        """
         found: dict[int, Candidate] = {}
         try:
             found.update(self._limits(small, error, fixed, most))
@@ -125,7 +128,7 @@ class Trial:
     def _limits(
         self, small: Settings, error: float, fixed: int | None, most: int
     ) -> Iterator[tuple[int, Candidate]]:
-        """From few to more than enough."""
+        """Limits and candidates in ascending order, to some beyond the first that suffices."""
         with self._opened(small, method=LEADER) as renderer:
             whole = [self._picture(renderer, seed, most) for seed in SEEDS]
             enough = 0
@@ -135,11 +138,11 @@ class Trial:
                 bias = self._bias(*cut)
                 yield limit, self._candidate(LEADER, renderer.settings, pictures, bias)
                 enough += bias.most < error
-                if enough > _SPARE or bias.most < error / 8:
+                if enough > _EXTRA_LIMITS or bias.most < error / 8:
                     break
 
     def methods(self, variants: Sequence[Variant], leader: Candidate) -> list[Candidate]:
-        """LEADER first, whose bounces are known, and the others while time is left."""
+        """A candidate for each variant while time is left, LEADER first, with its bounces."""
         first = [v for v in variants if LEADER in v.name.split(" = ")]
         found: list[Candidate] = []
         with suppress(OutOfTimeError):
@@ -153,21 +156,21 @@ class Trial:
         return self.tracer(variant, leader.settings.bounces, leader.bias)
 
     def model(self, variant: Variant) -> Candidate:
-        """A classic model: its bias is measured."""
+        """The candidate of a classic model, with its bias measured against the reference."""
         pictures = self._pictures(variant.settings)
         halves = (self.reference.first, self.reference.second)
         errors = [p.radiance - r for p, r in zip(pictures, halves, strict=True)]
         return self._candidate(variant.name, variant.settings, pictures, self._bias(*errors))
 
     def tracer(self, variant: Variant, limit: int, bias: Bias) -> Candidate:
-        """A method that traces paths: what it leaves out is what the limit cuts off."""
+        """The candidate of a path tracing method: its bias is that of the limit of bounces."""
         settings = settings_for(variant.settings, bounces=limit)
         return self._candidate(variant.name, settings, self._pictures(settings), bias)
 
     def in_turns(self, candidates: Sequence[Candidate], small: Settings) -> list[Candidate]:
-        """The candidates with times that were measured side by side: the least of TURNS each.
+        """The candidates with interleaved timings: the shortest of TURNS for each.
 
-        With their own, where the time ends before the first turn does.
+        Their earlier times are kept if the time runs out in the first turn.
         """
         frame = {name: getattr(small, name) for name in ("width", "height", "crop")}
         turns: list[list[float]] = []
@@ -185,7 +188,7 @@ class Trial:
         return [replace(candidate, seconds_per_sample=seconds) for candidate, seconds in pairs]
 
     def _pictures(self, settings: Settings) -> list["_Picture"]:
-        """Of so many samples that the noise is known, where time and MOST_TRIED allow them."""
+        """A picture for each of SEEDS, with more samples until the variance is known precisely."""
         with self._opened(settings) as renderer:
             found = [self._picture(renderer, seed) for seed in SEEDS]
             samples = SAMPLES
@@ -215,10 +218,11 @@ class Trial:
         return self._relative(np.mean([picture.squared_stderr for picture in pictures], axis=0))
 
     def _bias(self, first: Floats, second: Floats) -> Bias:
-        """From two errors with independent noise."""
+        """The squared bias from two errors with independent noise, (H, W, 3) each."""
         return self._relative(first * second)
 
     def _relative(self, squares: Floats) -> Bias:
+        """Mean of `squares`, (H, W, 3), relative to the reference, with its standard error."""
         scale = np.where(self.reference.scale > 0, self.reference.scale, 1.0)
         pixels = (squares / scale).mean(axis=2)  # channels share their noise
         return Bias(float(pixels.mean()), float(pixels.std() / math.sqrt(pixels.size)))
@@ -227,7 +231,7 @@ class Trial:
         self, name: str, settings: Settings, pictures: Sequence["_Picture"], bias: Bias
     ) -> Candidate:
         samples = pictures[0].samples
-        seconds = min(picture.seconds for picture in pictures)  # the other one may have waited
+        seconds = min(picture.seconds for picture in pictures)  # less disturbed by other load
         full = {name: getattr(self.wanted, name) for name in ("width", "height", "crop", "seed")}
         return Candidate(
             name,
@@ -240,7 +244,7 @@ class Trial:
 
 @dataclass(frozen=True, eq=False)
 class _Picture:
-    """A picture, and the seconds of its rendering."""
+    """A picture with the seconds of its rendering; arrays are (H, W, 3)."""
 
     samples: int
     radiance: Floats
@@ -249,7 +253,7 @@ class _Picture:
 
     @classmethod
     def of(cls, renderer: Renderer, samples: int, check: Check) -> "_Picture":
-        warm = samples // 4  # the first dispatches are small
+        warm = samples // 4  # not timed: the first dispatches are small
         renderer.render(warm, check)
         start = time.perf_counter()
         renderer.render(samples, check)
@@ -260,4 +264,4 @@ class _Picture:
 
 
 def _is_known(noise: Bias) -> bool:
-    return noise.stderr <= _KNOWN * noise.squared
+    return noise.stderr <= _PRECISE * noise.squared

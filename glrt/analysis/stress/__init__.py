@@ -1,15 +1,15 @@
-"""Sweeps into the places where methods fail.
+"""Sweeps of one parameter each, up to where common methods of path tracing fail.
 
 Modules, each importing only what stands above it:
 
-- noisy_scenes: little noise, rare and large hits
-- scenes: scenes in a few words
-- sweep: a parameter, what was measured, and what is guaranteed
-- rays: rays from afar, at every scale
-- lamps: small, many and hidden lamps
-- glass: glass and caustics
-- sums: long sums
-- views: cameras and pixels
+- noisy_scenes: scenes with little noise, with rare bright samples, with hardly any hits
+- scenes: builders of small scenes
+- sweep: the result of a sweep and its guarantee, and what cases run with
+- rays: intersections from far away, at every scale, at grazing angles
+- lamps: small lamps, many lamps, a lamp below a ceiling
+- glass: refraction and caustics
+- sums: accumulation, random numbers, long paths
+- views: positions and fields of view of the camera
 - cases: all cases by name
-- report: table, figures and overview
+- report: table, figures and charts
 """

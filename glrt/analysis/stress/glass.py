@@ -1,4 +1,4 @@
-"""Glass: hardly refracting, around a lamp, over a small lamp's light."""
+"""Glass: an index near 1, a lamp inside glass, the caustic of a small lamp."""
 
 import math
 from dataclasses import replace
@@ -27,7 +27,7 @@ float textbook(float cos_i, float eta) {
 
 
 def ior(lab: Lab) -> Sweep:
-    """Reflectance of glass that is hardly there, at angles down to 0.006 degrees."""
+    """Error of the reflectance of glass with an index near 1, at angles down to 0.006 degrees."""
     x = np.logspace(-6, 0, 25)
     rows = lab.count(1 << 14)
     random = np.random.default_rng(8)
@@ -41,7 +41,7 @@ def ior(lab: Lab) -> Sweep:
     ]
     ours, naive = (np.abs(f - truth).reshape(len(x), -1).max(axis=1).tolist() for f in found)
     return Sweep(
-        parameter="index of refraction, less 1",
+        parameter="index of refraction - 1",
         measure="error of the reflectance (largest)",
         x=x.tolist(),
         chosen=("glrt: (1 - η)(1 + η) + η² cos²", ours),
@@ -52,7 +52,7 @@ def ior(lab: Lab) -> Sweep:
 
 
 def fresnel(cos_i: Array, eta: Array) -> Array:
-    """Unpolarised reflectance in float64; `eta` is the index here over that there."""
+    """Unpolarised Fresnel reflectance; `eta` is the index of the incident side over the other."""
     cos2 = (1 - eta) * (1 + eta) + eta * eta * cos_i * cos_i
     cos_t = np.sqrt(np.maximum(cos2, 0))
     rs = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
@@ -61,13 +61,13 @@ def fresnel(cos_i: Array, eta: Array) -> Array:
     return reflectance
 
 
-INDEX, BALL = 1.5, 0.5  # of the glass around the lamp: index, and radius in that of the room
+INDEX, BALL = 1.5, 0.5  # index and radius of the glass; lengths are in radii of the room
 WALL = 0.5  # albedo of the room
-SIDE = 32  # pixels of a picture
+SIDE = 32  # of a picture, in pixels
 
 
 def bulb(lab: Lab) -> Sweep:
-    """A lamp in a ball of glass in the middle of a room: no method can aim through the glass."""
+    """Noise of a lamp inside a glass sphere, which light sampling cannot aim through."""
     x = [0.01, 0.02, 0.04, 0.08, 0.16, 0.32]
     samples = lab.count(1024, 128)
     kinds = [("mis", True), ("naive", True), ("mis", False)]
@@ -85,18 +85,18 @@ def bulb(lab: Lab) -> Sweep:
         found.append(stderr * math.sqrt(paths) / truth)
     first, *others = noise.items()
     return Sweep(
-        parameter="radius of the lamp, in that of the room",
+        parameter="radius of the lamp, in radii of the room",
         measure="relative noise of one sample",
         x=x,
         chosen=first,
         others=dict(others),
-        promise="the mean within 5.3 standard errors of its closed form; no bound for the noise",
+        promise="the mean within 5.3 standard errors of the closed form; no bound for the noise",
         wrong=sorted(set(wrong)),
     )
 
 
 def _bulb(radius: float, in_glass: bool) -> Scene:
-    """The camera looks at the wall, away from the lamp."""
+    """A spherical room with the lamp at its centre; the camera looks at the wall."""
     shapes = [sphere([0, 0, 0], 1, "wall"), sphere([0, 0, 0], radius, "lamp")]
     if in_glass:
         shapes.append(sphere([0, 0, 0], BALL, "glass"))
@@ -107,11 +107,11 @@ def _bulb(radius: float, in_glass: bool) -> Scene:
 
 
 def bulb_light(radius: float, in_glass: bool) -> float:
-    """Radiance of the wall after one scattering there.
+    """Radiance of the wall with 2 bounces in closed form; with glass, one of them is a refraction.
 
-    In glass, the ray that would pass the centre at b meets the lamp if b < n radius, and sees it
-    1 / n^2 as bright, less what the glass reflects: 2 a / n^2 times the integral of b T(b).
-    Without glass, and with a second bounce: a r^2 (1 + a (1 - r^2)).
+    With albedo a, lamp radius r, index n and transmittance T: a ray with impact parameter b hits
+    the lamp in glass if b < n r, and its radiance is T(b) / n^2. Integrated over directions that is
+    2 a / n^2 times the integral of b T(b) from 0 to n r. Without glass: a r^2 (1 + a (1 - r^2)).
     """
     if not in_glass:
         return WALL * radius**2 * (1 + WALL * (1 - radius**2))
@@ -124,7 +124,7 @@ def bulb_light(radius: float, in_glass: bool) -> float:
 
 
 def caustic(lab: Lab) -> Sweep:
-    """A glass ball and a small lamp over a floor: error against a long render, by samples."""
+    """Error of a caustic against a render of many samples, by number of samples."""
     x = [4**power for power in range(1, 7) if 4**power <= lab.count(4096, 256)]
     scene = CASES["caustic"].scene
     size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": CASES["caustic"].bounces}
@@ -142,28 +142,29 @@ def caustic(lab: Lab) -> Sweep:
         if not _agree(image, reference):
             wrong.append(x[-1])
     return Sweep(
-        parameter="samples a pixel",
-        measure="relative rms error",
+        parameter="samples per pixel",
+        measure="relative RMS error",
         x=x,
         chosen=("mis", errors.pop("mis")),
-        others={**errors, "mis, by its own estimate": estimates},
+        others={**errors, "mis, estimated error": estimates},
         promise="the means agree within 5.3 standard errors; no bound for the noise",
         wrong=wrong,
     )
 
 
 def _agree(a: Image, b: Image) -> bool:
+    """Whether the means of two pictures differ by at most SIGMAS standard errors."""
     (mean_a, error_a), (mean_b, error_b) = mean_of(a), mean_of(b)
     return abs(mean_a - mean_b) <= SIGMAS * math.hypot(error_a, error_b)
 
 
 def fireflies(lab: Lab) -> Sweep:
-    """How much of the light of a caustic its brightest samples carry."""
+    """Share of the light of a caustic in its brightest samples, by their number."""
     x = np.logspace(-5, 0, 16)
     kinds = {
-        "mis, glass ball": CASES["caustic"],
-        "naive, glass ball": replace(CASES["caustic"], method="naive"),
-        "mis, matte ball": replace(CASES["caustic"], scene=_without_glass()),
+        "mis, glass sphere": CASES["caustic"],
+        "naive, glass sphere": replace(CASES["caustic"], method="naive"),
+        "mis, matte sphere": replace(CASES["caustic"], scene=_without_glass()),
     }
     shares: dict[str, list[float]] = {}
     means = []
@@ -177,20 +178,20 @@ def fireflies(lab: Lab) -> Sweep:
     is_wrong = not abs(mis - naive) <= SIGMAS * math.hypot(mis_error, naive_error)  # NaN is
     first, *others = shares.items()
     return Sweep(
-        parameter="brightest samples, as a share of all",
-        measure="share of the light that they carry",
+        parameter="brightest samples, as a share of all samples",
+        measure="share of the light in them",
         x=x.tolist(),
         chosen=first,
         others=dict(others),
-        promise="none is clamped: mis and naive agree within 5.3 standard errors",
+        promise="no clamping: mis and naive agree within 5.3 standard errors",
         wrong=[1.0] if is_wrong else [],
     )
 
 
 def _samples(lab: Lab, case: NoisyCase) -> Array:
-    """The mean radiance of each of many samples of the picture, one a pixel and seed.
+    """The radiance of single samples, averaged over channels: one per pixel and seed.
 
-    NaN where one was dropped.
+    All of a frame are NaN if one of them was not finite.
     """
     frames = []
     size: dict[str, Any] = {
@@ -208,5 +209,5 @@ def _samples(lab: Lab, case: NoisyCase) -> Array:
 
 
 def _without_glass() -> Scene:
-    """The scene of the caustic with a matte ball in place of that of glass."""
+    """The scene of the caustic with a matte sphere instead of the glass sphere."""
     return room("red", {"center": [0.9, 2.4, 0.6], "radius": 0.1}, 130.0)

@@ -1,4 +1,4 @@
-"""Lamps: small ones, many of them, one that hangs close below a ceiling."""
+"""Lamps: small ones, many of them, one just below a ceiling."""
 
 import math
 from itertools import pairwise, product
@@ -14,12 +14,12 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import Quad
 from glrt.settings import Method
 
-# Points on quads even in area, where `nee` else takes them even in solid angle.
+# Points on quads uniform in area; `nee` otherwise samples quads by solid angle.
 BY_AREA = Variant({"QUADS_BY_AREA": True})
 
 
 def lamp(lab: Lab) -> Sweep:
-    """The cone that a lamp fills, 1 - cos of its half angle: the density of sampling it."""
+    """Error of 1 - cos of the half angle of the cone in which a spherical lamp is sampled."""
     x = np.logspace(-6, 0, 25)
     rows = lab.count(1 << 10)
     random = np.random.default_rng(2)
@@ -64,7 +64,7 @@ RECEIVED = "light.pdf > 0.0 ? light.radiance.x * light.ray.direction.y / light.p
 
 
 def lamps(lab: Lab) -> Sweep:
-    """One lamp that matters, among more and more that hardly do: the noise of one sample."""
+    """Noise of one sample with one bright lamp among a growing number of dim ones."""
     x = [1 << power for power in range(11)]
     rows = np.arange(lab.count(1 << 15))
     noise: list[list[float]] = [[], []]
@@ -74,27 +74,27 @@ def lamps(lab: Lab) -> Sweep:
         for found, setup in zip(noise, (CHOSEN, EVENLY), strict=True):
             light = lab.path(RECEIVED, {"x": rows}, scene=scene, setup=setup).astype(np.float64)
             found.append(float(light.std() / light.mean()))
-            if setup == CHOSEN and abs(light.mean() / _flux(scene) - 1) > _chance(light):
+            if setup == CHOSEN and abs(light.mean() / _flux(scene) - 1) > _tolerance(light):
                 wrong.append(count)
     return Sweep(
         parameter="lamps, one of them bright",
         measure="relative noise of one sample",
         x=x,
-        chosen=("glrt: half by power, half evenly", noise[0]),
-        others={"evenly": noise[1]},
+        chosen=("glrt: half by power, half uniform", noise[0]),
+        others={"uniform": noise[1]},
         promise="at most 1.5; the mean within 5.3 standard errors",
         bound=[1.5] * len(x),
         wrong=wrong,
     )
 
 
-def _chance(light: Array) -> float:
-    """The relative error of a mean that chance may give."""
+def _tolerance(light: Array) -> float:
+    """SIGMAS relative standard errors of the mean of `light`."""
     return float(SIGMAS * light.std() / light.mean() / math.sqrt(len(light)))
 
 
 def _many_lamps(count: int) -> Scene:
-    """A bright square straight above the origin and dim ones around it, all of one size."""
+    """A bright square lamp directly above the origin, and count - 1 dim ones around it."""
     ring = np.random.default_rng(7).uniform(-1, 1, (count - 1, 2))
     corners = [(-0.05, -0.05), *ring.tolist()]
     squares = [
@@ -105,7 +105,7 @@ def _many_lamps(count: int) -> Scene:
 
 
 def _flux(scene: Scene) -> float:
-    """Irradiance over pi at the origin, facing up, times pi: the sum over the squares above."""
+    """Irradiance at the origin, facing up: the sum of pi times form factor times radiance."""
     total = 0.0
     for square in scene.objects:
         assert isinstance(square, Quad)
@@ -118,27 +118,27 @@ def _flux(scene: Scene) -> float:
 
 
 def _corner(a: Array, b: Array) -> Array:
-    """Form factor of a rectangle a x b at height 1, from below one of its corners."""
+    """Form factor of a parallel rectangle a x b at distance 1, one corner of which is above."""
     p, q = np.sqrt(1 + a * a), np.sqrt(1 + b * b)
     factor: Array = (a / p * np.arctan(b / p) + b / q * np.arctan(a / q)) / (2 * np.pi)
     return factor
 
 
-RIM = 0.1  # side of the square of ceiling seen beside the lamp
+RIM = 0.1  # edge of the square of ceiling in view, beside the lamp
 
 
 def ceiling(lab: Lab) -> Sweep:
-    """A lamp a little below a ceiling: what it sends up leaves through the gap along its rim."""
+    """Error of the light that a lamp just below a ceiling sends through the gap at its edge."""
     x = [0.0003, 0.001, 0.003, 0.01, 0.03, 0.1]
     samples = lab.count(1024, 64)
     kinds: dict[str, tuple[Method, Variant]] = {
-        "nee, points by angle": ("nee", PLAIN),
-        "nee, points by area": ("nee", BY_AREA),
+        "nee, by solid angle": ("nee", PLAIN),
+        "nee, by area": ("nee", BY_AREA),
         "mis": ("mis", PLAIN),
         "naive": ("naive", PLAIN),
     }
     errors: dict[str, list[float]] = {name: [] for name in kinds}
-    chances: list[float] = []
+    tolerances: list[float] = []
     wrong = []
     for gap, (name, (method, variant)) in product(x, kinds.items()):
         truth = _rim_light(gap)
@@ -147,8 +147,8 @@ def ceiling(lab: Lab) -> Sweep:
         errors[name].append(abs(mean / truth - 1))
         if variant is PLAIN and not abs(mean - truth) <= SIGMAS * stderr:
             wrong.append(gap)
-        if name == "nee, points by angle":
-            chances.append(SIGMAS * stderr / truth)
+        if name == "nee, by solid angle":
+            tolerances.append(SIGMAS * stderr / truth)
     first, *others = errors.items()
     return Sweep(
         parameter="gap to the ceiling, in widths of the lamp",
@@ -157,13 +157,13 @@ def ceiling(lab: Lab) -> Sweep:
         chosen=first,
         others=dict(others),
         promise="every method within 5.3 standard errors of the closed form",
-        bound=chances,
+        bound=tolerances,
         wrong=sorted(set(wrong)),
     )
 
 
 def _gap_scene(gap: float) -> Scene:
-    """Ceiling at y = 0, lamp below it at x from -1 to 0; the camera sees the rim from below."""
+    """Ceiling at y = 0, lamp below it at x from -1 to 0; the camera looks up at x from 0 to RIM."""
     eye = {"position": [RIM / 2, -1, 0], "look_at": [RIM / 2, 0, 0], "up": [0, 0, 1]}
     fov = 2 * math.degrees(math.atan(RIM / 2))
     shapes = [
@@ -175,9 +175,10 @@ def _gap_scene(gap: float) -> Scene:
 
 
 def _rim_light(gap: float) -> float:
-    """Mean radiance of the square of ceiling: 0.8 times the form factor of the lamp's upper face.
+    """Mean radiance of the square of ceiling: 0.8 times the mean form factor of the lamp.
 
-    Gauss-Legendre over z, and over x in panels that grow by a factor of two from the rim.
+    Gauss-Legendre quadrature over z, and over x in panels whose ends double with the distance from
+    the lamp.
     """
     nodes, weights = np.polynomial.legendre.leggauss(16)
     z, z_weight = RIM / 2 * nodes, weights / 2
@@ -191,7 +192,7 @@ def _rim_light(gap: float) -> float:
 
 
 def _facing_lamp(x: Array, z: Array, size: float) -> Array:
-    """Form factor of a square lamp that begins `x` beside the point; lengths in gaps."""
+    """Form factor of a square lamp whose edge is `x` beside the point; lengths in gaps."""
     low, high = size / 2 - z, size / 2 + z
     far = _corner(x + size, low) + _corner(x + size, high)
     near: Array = far - _corner(x, low) - _corner(x, high)

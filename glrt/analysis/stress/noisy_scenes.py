@@ -1,4 +1,4 @@
-"""Scenes for experiments on noise: little of it, rare and large hits, hardly any hits."""
+"""Scenes for experiments on noise: little noise, rare bright samples, hardly any hits."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -9,7 +9,7 @@ from glrt.scene.toml import parse_scene
 
 @dataclass(frozen=True)
 class Case:
-    """A scene and how it is rendered."""
+    """A scene with the settings of its renders."""
 
     scene: Scene
     method: str
@@ -18,7 +18,10 @@ class Case:
 
 
 def room(ball: str, lamp: dict[str, Any], emission: float) -> Scene:
-    """A floor, a wall, a matte ball, another of material `ball`, and a spherical lamp."""
+    """A floor, a wall, a matte sphere, a sphere of the material `ball`, and a spherical lamp.
+
+    `lamp` holds its centre and radius; `emission` is that of its red channel.
+    """
     return parse_scene(
         {
             "camera": {"position": [0.0, 1.2, 4.0], "look_at": [0.0, 0.6, 0.0], "fov": 40.0},
@@ -41,20 +44,20 @@ def room(ball: str, lamp: dict[str, Any], emission: float) -> Scene:
 
 
 def diffuse(shift: float = 0.0) -> Scene:
-    """Nothing but matte surfaces, and the lamp partly in view.
+    """Only matte surfaces, with the lamp partly in view.
 
-    Here and below, `shift` moves the lamp to the right.
+    Here and below, `shift` moves the lamp to the right, in scene units.
     """
     return room("red", {"center": [0.5 + shift, 2.2, 1.0], "radius": 0.4}, 8.0)
 
 
 def caustic(shift: float = 0.0) -> Scene:
-    """A glass ball under a small lamp: few paths carry its light to the floor."""
+    """A glass sphere under a small lamp: few paths carry the light that it focuses on the floor."""
     return room("glass", {"center": [0.9 + shift, 2.4, 0.6], "radius": 0.1}, 130.0)
 
 
 def small_lamp(shift: float = 0.0) -> Scene:
-    """About one path in 2,500 finds the lamp by scattering alone."""
+    """A lamp so small that about one path in 2,500 hits it by scattering alone."""
     return room("red", {"center": [0.5 + shift, 2.0, 0.6], "radius": 0.05}, 500.0)
 
 
@@ -76,5 +79,5 @@ PLANTED = {
         name: replace(case, scene=_MOVED[name.removesuffix(", mis")](0.05))
         for name, case in FOUND.items()
     },
-    "5 bounces for 6": {name: replace(case, bounces=5) for name, case in FOUND.items()},
+    "5 bounces instead of 6": {name: replace(case, bounces=5) for name, case in FOUND.items()},
 }

@@ -1,4 +1,4 @@
-"""Where rays meet shapes: from afar, at every scale, along a floor."""
+"""Intersections of rays: with distant shapes, at every scale, at grazing angles."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ float textbook(vec3 origin, vec3 direction, vec3 center, float radius) {
 
 
 def distance(lab: Lab) -> Sweep:
-    """Rays that pass a sphere within 0.9 of its radius; a miss counts as an error of 1."""
+    """Error of the distance to a sphere, passed at up to 0.9 of its radius; a miss counts as 1."""
     x = np.logspace(0.25, 6, 24)
     rays = aimed(np.repeat(x, lab.count(1 << 14)))
     truth = nearest_root(rays)
@@ -27,11 +27,11 @@ def distance(lab: Lab) -> Sweep:
     errors = [quantile(np.abs(t / truth - 1), len(x)) for t in (ours, naive)]
     return Sweep(
         parameter="distance of the sphere, in radii",
-        measure="relative error of the distance hit\n(of 99 in 100 rays)",
+        measure="relative error of the distance hit\n(99 % quantile)",
         x=x.tolist(),
         chosen=("glrt: keeps r² (Haines et al. 2019)", errors[0]),
         others={"textbook: b² - c": errors[1]},
-        promise="at most 2e-6 from up to 1e5 radii away",
+        promise="at most 2e-6 up to a distance of 1e5 radii",
         bound=[2e-6] * len(x),
         guaranteed=(x <= 1e5).tolist(),
     )
@@ -58,7 +58,10 @@ float beyond(vec3 origin, vec3 direction, vec3 center, float radius, float least
 
 
 def scale(lab: Lab) -> Sweep:
-    """Rays that leave a sphere: outward they must not meet it again, inward its far side."""
+    """Share of wrong answers for rays that leave a sphere.
+
+    Outwards they must not hit it again; inwards they must hit its far side.
+    """
     x = np.logspace(-6, 6, 25)
     rows = lab.count(1 << 14)
     rays = _leaving(np.repeat(x, rows))
@@ -80,17 +83,17 @@ def scale(lab: Lab) -> Sweep:
     ours, fixed = (share.reshape(len(x), -1).mean(axis=1).tolist() for share in wrong)
     return Sweep(
         parameter="radius of the sphere, in scene units",
-        measure="share of rays answered wrongly",
+        measure="share of rays with a wrong answer",
         x=x.tolist(),
-        chosen=("glrt: a ray knows the shape it leaves", ours),
-        others={"textbook: t above 1e-4": fixed},
+        chosen=("glrt: the ray stores the shape it leaves", ours),
+        others={"textbook: t > 1e-4": fixed},
         promise=f"none of {rows} rays at any scale",
         bound=[0.5 / rows] * len(x),
     )
 
 
 def _leaving(radii: Array) -> dict[str, Array]:
-    """Points on spheres and directions from there, at least 3 degrees above the surface."""
+    """Points on spheres with directions at least 3 degrees above the surface, float32."""
     random = np.random.default_rng(3)
     rows = len(radii)
     given = {
@@ -105,7 +108,7 @@ def _leaving(radii: Array) -> dict[str, Array]:
 
 
 def grazing(lab: Lab) -> Sweep:
-    """A floor seen at a flat angle from a height of 1; a miss counts as an error of 1."""
+    """Error of the distance to a floor, seen from a height of 1; a miss counts as 1."""
     x = np.logspace(-5, 0, 21)
     rows = lab.count(1 << 12)
     sines = np.repeat(x, rows)
@@ -123,17 +126,17 @@ def grazing(lab: Lab) -> Sweep:
     ours, axis, ground = (quantile(error, len(x)) for error in errors)
     return Sweep(
         parameter="sine of the angle to the floor",
-        measure="relative error of the distance hit\n(of 99 in 100 rays)",
+        measure="relative error of the distance hit\n(99 % quantile)",
         x=x.tolist(),
-        chosen=("glrt: a tilted plane", ours),
-        others={"a ball of radius 100,000 as floor": ground, "glrt: a level plane": axis},
-        promise="at most 5e-7 over the sine",
+        chosen=("glrt: tilted plane", ours),
+        others={"sphere of radius 100,000 as floor": ground, "glrt: level plane": axis},
+        promise="at most 5e-7 / sine",
         bound=(5e-7 / x).tolist(),
     )
 
 
 def _floor_rays(sines: Array, tilted: bool) -> dict[str, Array]:
-    """Rays from the origin to a floor at distance 1, at these sines to it."""
+    """Rays from the origin to a floor at distance 1, by the sines of the angles to it, float32."""
     random = np.random.default_rng(5)
     normal = (
         random.normal(size=(len(sines), 3)) if tilted else np.tile([0.0, 1, 0], (len(sines), 1))
@@ -147,7 +150,10 @@ def _floor_rays(sines: Array, tilted: bool) -> dict[str, Array]:
 
 
 def aimed(distances: Array, most_beside: float = 0.9) -> dict[str, Array]:
-    """Rays at spheres so many radii away, float32; radii from 1e-3 to 1e3."""
+    """Rays that hit spheres at `distances`, in radii; radii from 1e-3 to 1e3, float32.
+
+    They pass the centre at up to `most_beside` radii.
+    """
     random = np.random.default_rng(1)
     rows = len(distances)
     axis, other = random.normal(size=(2, rows, 3))
@@ -163,7 +169,7 @@ def aimed(distances: Array, most_beside: float = 0.9) -> dict[str, Array]:
 
 
 def nearest_root(rays: dict[str, Array]) -> Array:
-    """The distance at which each ray enters its sphere, of the float32 inputs in float64."""
+    """The distance at which each ray enters its sphere, computed in float64."""
     center, radius, origin, direction = (
         rays[name].astype(np.float64) for name in ("center", "radius", "origin", "direction")
     )
@@ -178,6 +184,6 @@ def nearest_root(rays: dict[str, Array]) -> Array:
 
 
 def quantile(errors: Array, rows: int, share: float = 0.99) -> list[float]:
-    """Of each of `rows` equal portions, what so large a share of its errors does not exceed."""
+    """The quantile `share` of the errors in each of `rows` equal parts."""
     found: list[float] = np.quantile(errors.reshape(rows, -1), share, axis=1).tolist()
     return found

@@ -1,4 +1,4 @@
-"""Findings as a table, as figures, as charts."""
+"""Findings as a Markdown table, as CSV and as charts."""
 
 import csv
 import io
@@ -15,9 +15,9 @@ TABLE, FIGURES, OVERVIEW = "stress.md", "stress.csv", "overview.png"
 
 
 def table(findings: Sequence[Finding], renderer: str) -> str:
-    """Markdown: a row for each case."""
+    """A row for each case, as Markdown. `renderer` is the name of the OpenGL driver."""
     rows = [
-        ["case", "what", "guarantee", "verdict", "worst of glrt", "worst of the naive", "seconds"],
+        ["case", "title", "guarantee", "verdict", "worst, glrt", "worst, naive", "seconds"],
         ["---"] * 7,
         *(_row(finding) for finding in findings),
     ]
@@ -26,6 +26,7 @@ def table(findings: Sequence[Finding], renderer: str) -> str:
 
 
 def _row(finding: Finding) -> list[str]:
+    """The cells of a row; the worst value of glrt is the largest under the guarantee."""
     sweep, case = finding.sweep, finding.case
     name, values = next(iter(sweep.others.items()))
     naive = f"{max(values):.2g} ({name})"
@@ -36,7 +37,7 @@ def _row(finding: Finding) -> list[str]:
 
 
 def figures(findings: Sequence[Finding]) -> str:
-    """CSV: a row for each value of each curve."""
+    """A row for each value of each curve, as CSV."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["case", "parameter", "x", "curve", "y", "bound", "guaranteed"])
@@ -51,7 +52,7 @@ def figures(findings: Sequence[Finding]) -> str:
 
 
 def save(findings: Sequence[Finding], folder: Path, renderer: str) -> None:
-    """Write table, figures, a chart of each case and the overview into a folder."""
+    """Write the table, the CSV file, a chart of each case and the overview into a folder."""
     files.write_text(folder / TABLE, table(findings, renderer))
     files.write_text(folder / FIGURES, figures(findings))
     for finding in findings:
@@ -66,7 +67,7 @@ def _title(findings: Sequence[Finding]) -> str:
 
 
 def summary(findings: Sequence[Finding]) -> dict[str, Any]:
-    """For scripts: the verdict of each case and what it rests on."""
+    """The verdict of each case with the figures behind it, for JSON."""
     return {
         finding.case.name: {
             "holds": finding.holds,

@@ -1,4 +1,4 @@
-"""Scenes in a few words, for sweeps."""
+"""Builders of small scenes for sweeps, from the tables of scene files."""
 
 from typing import Any
 
@@ -9,12 +9,12 @@ Table = dict[str, Any]
 
 
 def matte(albedo: float) -> Table:
-    """A grey that scatters evenly."""
+    """A grey Lambertian material."""
     return {"type": "lambertian", "color": [albedo] * 3}
 
 
 def lamp(radiance: float, albedo: float = 0.0) -> Table:
-    """A grey lamp."""
+    """A light of this radiance in all channels, which also scatters with this albedo."""
     return {"type": "light", "emission": [radiance] * 3, "color": [albedo] * 3}
 
 
@@ -42,7 +42,7 @@ def quad(corner: Any, edge_u: Any, edge_v: Any, material: str) -> Table:
 def scene_of(
     objects: list[Table], materials: dict[str, Table], camera: Table | None = None, **more: Any
 ) -> Scene:
-    """A scene; the camera stands in the origin and looks along -z."""
+    """A scene; unless `camera` says otherwise, the camera is at the origin and looks along -z."""
     eye = {"position": [0, 0, 0], "look_at": [0, 0, -1], **(camera or {})}
     return parse_scene(
         {"camera": eye, "materials": materials, "objects": objects, **more}, "stress"

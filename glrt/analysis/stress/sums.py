@@ -1,4 +1,4 @@
-"""Sums: what a running mean loses, what pixels share, what a limit of bounces leaves out."""
+"""Sums: rounding of running means, correlation of pixels, truncation by a limit of bounces."""
 
 import math
 from collections.abc import Sequence
@@ -10,8 +10,8 @@ import numpy as np
 from glrt.analysis.stress.scenes import lamp, plane, scene_of
 from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep
 
-PORTION = 1 << 15  # samples a dispatch, below the loop limit of software drivers
-DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and how many are bright
+PORTION = 1 << 15  # samples per dispatch, below the loop limit of software drivers
+DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and the share of bright ones
 SAMPLE = "pcg_hash(seed ^ uint(k) * 0x9E3779B9u) < bright"
 GATHER = f"""
     precise float ours = state.x, plain = state.y, sum = state.z, coarse = state.w;
@@ -36,9 +36,9 @@ MIX = f"""
 
 
 def frames(lab: Lab) -> Sweep:
-    """The mean of an edge pixel's samples, over as many frames as a film may take.
+    """Error of the running mean of a pixel on an edge, over up to 2^20 frames.
 
-    They have two values, so their sum is known.
+    Its samples have two values, so the true mean follows from their counts.
     """
     seeds = np.arange(lab.count(64), dtype=np.uint32) * np.uint32(0x85EBCA6B)
     marks = [1 << power for power in range(6, 21, 2)]
@@ -54,7 +54,7 @@ def frames(lab: Lab) -> Sweep:
     noise = [sd / math.sqrt(count) for count in marks]
     return Sweep(
         parameter="frames accumulated, one sample each",
-        measure="relative rms error of the mean",
+        measure="relative RMS error of the mean",
         x=marks,
         chosen=("glrt: m + (x - m) / n, dithered", ours),
         others={
@@ -70,7 +70,7 @@ def frames(lab: Lab) -> Sweep:
 
 
 def _gather(lab: Lab, portion: dict[str, Any], means: Array, mixed: Array) -> tuple[Array, Array]:
-    """Means with a portion of samples more; `mixed`: the bits of a float, and how many hit."""
+    """Add a portion of samples to the means; `mixed`: bits of a float, and count of bright ones."""
     given = {**portion, "bright": np.array([SHARE * 2**32], np.uint32)}
     result = "vec4(ours, plain, sum, coarse)"
     means = lab.path(result, {**given, "state": means}, "vec4", setup=GATHER)
@@ -79,7 +79,7 @@ def _gather(lab: Lab, portion: dict[str, Any], means: Array, mixed: Array) -> tu
 
 
 def _errors(means: Array, mixed: Array, count: int) -> Array:
-    """Relative rms errors of the means in GATHER and MIX; those of the exact number of hits."""
+    """Relative RMS errors of the means in GATHER and MIX, by the exact number of bright samples."""
     bright, dark = np.float64(np.float32(BRIGHT)), np.float64(np.float32(DARK))
     truth = dark + mixed[:, 1] / count * (bright - dark)
     mix = mixed[:, 0].copy().view(np.float32)
@@ -88,7 +88,7 @@ def _errors(means: Array, mixed: Array, count: int) -> Array:
     return rms
 
 
-SIDE, BLOCK = 128, 8  # pixels of the frame in `seeds`, and of the blocks that it is judged by
+SIDE, BLOCK = 128, 8  # edges of the frame in `seeds` and of the blocks it is judged by, in pixels
 SUM = """
     ivec2 pixel = ivec2(i %% SIDE, i / SIDE);
     float sum = 0.0;
@@ -101,7 +101,10 @@ OURS = "pcg_hash(pixel_seed(pixel, int(index), 7u) ^ STEP)"
 
 
 def seeds(lab: Lab) -> Sweep:
-    """Means of blocks of pixels scatter as chance wants if pixels share no random numbers."""
+    """Variance of block means: as expected if pixels share no random numbers.
+
+    The parameter is the number of the first frame.
+    """
     x = [1 << power for power in (0, 8, 16, 20, 24, 28, 31)]
     frames = lab.count(256)
     ours: list[float] = []
@@ -118,46 +121,46 @@ def seeds(lab: Lab) -> Sweep:
     blocks = (SIDE // BLOCK) ** 2
     return Sweep(
         parameter="number of the first frame",
-        measure=f"excess of the noise of {BLOCK} x {BLOCK} pixel means,\nof what chance gives",
+        measure=f"relative excess of the noise\nof {BLOCK} x {BLOCK} pixel means",
         x=x,
-        chosen=("glrt: place, frame and seed hashed together", ours),
-        others={"hash of place + frame": shifted},
-        promise="within 5.3 standard deviations of chance",
+        chosen=("glrt: pixel, frame and seed hashed together", ours),
+        others={"hash of pixel + frame": shifted},
+        promise="within 5.3 standard deviations of the expected noise",
         bound=[SIGMAS / math.sqrt(2 * blocks)] * len(x),
     )
 
 
 def _excess(scores: Array) -> float:
-    """How far from 1 the standard deviation of the blocks of independent scores is."""
+    """|s - 1|; s, the standard deviation of scaled block means, is 1 for independent scores."""
     side = SIDE // BLOCK
     blocks = scores.reshape(side, BLOCK, side, BLOCK).sum(axis=(1, 3)) / BLOCK
     return float(abs(blocks.std() - 1))
 
 
 def albedo(lab: Lab) -> Sweep:
-    """A closed room whose walls shine and reflect: every bounce adds its power of the albedo."""
+    """Error of a closed room whose walls emit and reflect: bounce k adds albedo^k."""
     absorbed = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001]
     limits = (1000, 10, 100)
     light = {limit: [_room_light(lab, 1 - x, limit) for x in absorbed] for limit in limits}
     whole = [1 / float(np.float32(x)) for x in absorbed]
     sums = [_series(1 - x, 1000) for x in absorbed]
     lost = {
-        f"light lost by {limit} bounces": _relative(light[limit], whole)
+        f"light lost with {limit} bounces": _relative(light[limit], whole)
         for limit in (10, 100, 1000)
     }
     return Sweep(
         parameter="share of light that a wall absorbs, 1 - albedo",
         measure="relative error of the radiance",
         x=absorbed,
-        chosen=("glrt, 1000 bounces, against the sum of 1000", _relative(light[1000], sums)),
+        chosen=("glrt, 1000 bounces, against their sum", _relative(light[1000], sums)),
         others=lost,
-        promise="at most 2e-5 from the sum up to the limit",
+        promise="at most 2e-5 from the sum of all bounces",
         bound=[2e-5] * len(absorbed),
     )
 
 
 def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
-    """Radiance in a room of planes that emit 1, without roulette: every path says the same."""
+    """Radiance in a closed room of planes that emit 1; without roulette all paths agree."""
     normals = [
         [side if k == axis else 0 for k in range(3)] for axis in range(3) for side in (1, -1)
     ]
@@ -174,7 +177,7 @@ def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
 
 
 def _series(albedo: float, bounces: int) -> float:
-    """1 + a + a^2 + ... of the albedo that the kernel is given."""
+    """1 + a + ... + a^bounces, with the albedo a rounded to float32 as in the kernel."""
     a = float(np.float32(albedo))
     return (1 - a ** (bounces + 1)) / (1 - a)
 

@@ -1,4 +1,4 @@
-"""What a case of `glrt stress` is, what it finds, and whether a guarantee is broken."""
+"""Cases of `glrt stress`, their results, and whether a guarantee is broken."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -17,29 +17,29 @@ from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]
 
-SIGMAS = 5.33  # standard errors that a mean may be off: chance goes beyond once in 10 million
+SIGMAS = 5.33  # tolerance of means, in standard errors: exceeded by chance once in 10 million
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """Errors over one stress parameter: `chosen` is what glrt does, the others stand beside it.
+    """A measure such as an error over one parameter: by glrt's method, and by others to compare.
 
-    The guarantee: `chosen` is at most `bound` wherever `guaranteed` says so. Where there is no
-    bound to give, `wrong` alone says what failed.
+    The guarantee is that `chosen` is at most `bound` where `guaranteed` is true. Without a bound,
+    it is broken at the values in `wrong` alone.
     """
 
     parameter: str  # with its unit
     measure: str  # what the curves show, with its unit
-    x: Sequence[float]
-    chosen: tuple[str, Sequence[float]]
-    others: Mapping[str, Sequence[float]]
+    x: Sequence[float]  # values of the parameter
+    chosen: tuple[str, Sequence[float]]  # glrt's method: its name, and the measure for each x
+    others: Mapping[str, Sequence[float]]  # the same for other methods
     promise: str  # the guarantee in words
-    bound: Sequence[float] | None = None
-    guaranteed: Sequence[bool] | None = None  # everywhere, if None
-    wrong: Sequence[float] = ()  # values of the parameter at which something else failed
+    bound: Sequence[float] | None = None  # for each x
+    guaranteed: Sequence[bool] | None = None  # for each x; None: everywhere
+    wrong: Sequence[float] = ()  # values of the parameter at which another check failed
 
     def broken(self) -> list[float]:
-        """The values of the parameter at which the guarantee is broken; NaN breaks it too."""
+        """The values of the parameter at which the guarantee is broken; NaN breaks it, too."""
         if self.bound is None:
             return list(self.wrong)
         rows = zip(self.x, self.chosen[1], self.bound, self.covered(), strict=True)
@@ -47,13 +47,13 @@ class Sweep:
         return sorted(above | set(self.wrong))
 
     def covered(self) -> Sequence[bool]:
-        """Where the guarantee holds."""
+        """For each x, whether it is under the guarantee of `bound`."""
         if self.bound is None:
             return [False] * len(self.x)
         return [True] * len(self.x) if self.guaranteed is None else self.guaranteed
 
     def limit(self) -> float | None:
-        """The last value of the parameter under the guarantee, if there are some beyond."""
+        """The last value of the parameter under the guarantee; None if it covers all or none."""
         covered = self.covered()
         edges = [i for i in range(1, len(self.x)) if covered[i] != covered[i - 1]]
         return None if not edges else self.x[edges[0] - (not covered[edges[0]])]
@@ -61,13 +61,13 @@ class Sweep:
 
 @dataclass(frozen=True)
 class Lab:
-    """Where cases run: an open context, and how much work they may do."""
+    """What cases run with: an open context, and the amount of work."""
 
     context: Context
-    scale: float = 1.0  # of samples and rows; 1 is the full size
+    scale: float = 1.0  # factor on the numbers of samples and rows
 
     def count(self, full: int, least: int = 16) -> int:
-        """So many rows or samples of `full` as the size of this run grants."""
+        """The number of rows or samples in a run of this scale, where a full run has `full`."""
         return max(least, int(full * self.scale))
 
     def path(
@@ -79,9 +79,10 @@ class Lab:
         setup: str = "",
         functions: str = "",
     ) -> Array:
-        """An expression over arrays, of the functions that trace paths (`Probe` says more).
+        """Evaluate a GLSL expression of the path tracing functions over arrays (see `evaluate`).
 
-        They see `scene`, or nothing. Every feature is compiled in, and lamps are chosen as there.
+        The functions see `scene`, or an empty one. Every feature is compiled in; lamps are chosen
+        as in a render of the scene.
         """
         with self.context.gl as gl:
             return evaluate(gl, expression, inputs, returns, setup, functions, scene)
@@ -89,7 +90,7 @@ class Lab:
     def render(
         self, scene: Scene, samples: int, variant: Variant = PLAIN, **settings: Any
     ) -> Image:
-        """A picture, by the tier that `glrt render` uses."""
+        """Render a picture, with the tier of `glrt render`."""
         with self.rendering(scene, variant, **settings) as renderer:
             return renderer.render(samples).image()
 
@@ -97,7 +98,7 @@ class Lab:
     def rendering(
         self, scene: Scene, variant: Variant = PLAIN, **settings: Any
     ) -> Iterator[Renderer]:
-        """A renderer, by the tier that `glrt render` uses, whose samples each tell of the noise."""
+        """Open a renderer with the tier of `glrt render`; its default is independent samples."""
         wanted = {"sampler": "independent", **settings}
         renderer = Renderer(scene, context=self.context, tier="baked", variant=variant, **wanted)
         try:
@@ -107,7 +108,7 @@ class Lab:
 
 
 def mean_of(image: Image) -> tuple[float, float]:
-    """Mean over the picture, and its standard error."""
+    """Mean over pixels and channels of a picture, and its standard error."""
     spread = np.square(image.stderr, dtype=np.float64).sum()
     mean = float(image.radiance.mean(dtype=np.float64))
     return mean, float(np.sqrt(spread) / image.radiance.size)
@@ -115,7 +116,7 @@ def mean_of(image: Image) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Case:
-    """One thing that goes wrong in path tracers."""
+    """One way in which path tracers fail, as a sweep that can be run."""
 
     name: str
     title: str
@@ -124,7 +125,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Finding:
-    """A case and what it found."""
+    """A case with its result."""
 
     case: Case
     sweep: Sweep
@@ -137,7 +138,7 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """In a few words."""
+        """'holds', or where the guarantee is broken."""
         broken = self.sweep.broken()
         if not broken:
             return "holds"
@@ -145,14 +146,14 @@ class Finding:
         return f"BROKEN at {', '.join(f'{x:.3g}' for x in broken[:3])}{more}"
 
     def chart(self) -> Chart:
-        """The curves, the bound where it is guaranteed, and the limit of that."""
+        """The curves, the bound where it is guaranteed, and the limit of the guarantee."""
         s = self.sweep
         named = [s.chosen, *s.others.items()]
         curves = [Curve(name, s.x, y) for name, y in named]
         covered = [i for i, inside in enumerate(s.covered()) if inside]
         if s.bound is not None:
             bound = [s.bound[i] for i in covered]
-            line = Curve("guaranteed: not above", [s.x[i] for i in covered], bound, is_bound=True)
+            line = Curve("guaranteed upper bound", [s.x[i] for i in covered], bound, is_bound=True)
             curves.append(line)
         return Chart(
             title=self.case.title,
@@ -165,5 +166,5 @@ class Finding:
         )
 
     def small_chart(self) -> Chart:
-        """The chart for the overview: named as on the command line, without its promise."""
+        """The chart for the overview: its title is the name of the case, its note the verdict."""
         return replace(self.chart(), title=self.case.name, note=self.verdict)

@@ -1,4 +1,4 @@
-"""Where the camera stands: far from everything, with narrow and wide fields of view."""
+"""The camera: far from the origin, and with narrow and wide fields of view."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from glrt.scene.scene import Scene
 
 
 def offset(lab: Lab) -> Sweep:
-    """A ball of radius 1, five units before the camera; both far from the origin."""
+    """Error of points hit on a sphere of radius 1, five units from a camera far from the origin."""
     x = np.logspace(0, 9, 19)
     rows = lab.count(1 << 12)
     random = np.random.default_rng(4)
@@ -36,8 +36,8 @@ def offset(lab: Lab) -> Sweep:
         point = lab.path("origin + t * direction", given, "vec3", setup=setup, functions=TEXTBOOK)
         world.append(_distances(point - eye - truth))
     return Sweep(
-        parameter="distance from the origin, in radii of the ball",
-        measure="error of the point hit, in radii\n(of 99 in 100 rays)",
+        parameter="distance from the origin, in radii of the sphere",
+        measure="error of the point hit, in radii\n(99 % quantile)",
         x=x.tolist(),
         chosen=("glrt: relative to the camera, in float64", ours),
         others={"world coordinates in float32": world},
@@ -47,7 +47,7 @@ def offset(lab: Lab) -> Sweep:
 
 
 def _hit_points(center: Array, direction: Array) -> Array:
-    """Where rays from the origin enter a sphere of radius 1, in float64."""
+    """The points at which rays from the origin enter a sphere of radius 1, (n, 3), in float64."""
     d = direction.astype(np.float64)
     d /= np.linalg.norm(d, axis=1, keepdims=True)
     along = d @ center
@@ -57,6 +57,7 @@ def _hit_points(center: Array, direction: Array) -> Array:
 
 
 def _distances(errors: Array) -> float:
+    """The 99 % quantile of the lengths of error vectors, (n, 3)."""
     return float(np.quantile(np.linalg.norm(errors, axis=1), 0.99))
 
 
@@ -65,9 +66,9 @@ BOOK = "first + (pixel.x + jitter.x) * step_x + (pixel.y + jitter.y) * step_y - 
 
 
 def fov(lab: Lab) -> Sweep:
-    """Directions of camera rays, from a thousandth of a degree to all but a half space.
+    """Error of the directions of camera rays, for fields of view from 0.001 to 179.9 degrees.
 
-    The camera stands 700 units from the origin.
+    The camera is 700 units from the origin.
     """
     x = np.array([1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 90, 150, 179, 179.9])
     random = np.random.default_rng(6)
@@ -88,18 +89,18 @@ def fov(lab: Lab) -> Sweep:
         book.append(_pixels_off(lab.path(BOOK, given, "vec3"), truth, angle))
     return Sweep(
         parameter="vertical field of view, in degrees",
-        measure=f"error of the direction, in pixels of {SIDE}\n(of 99 in 100 rays)",
+        measure=f"error of the direction, in pixels of {SIDE}\n(99 % quantile)",
         x=x.tolist(),
         chosen=("glrt: from the axes of the camera", ours),
-        others={"textbook: pixels as points of the world": book},
-        promise="at most a tenth of a pixel from 0.03 degrees on",
+        others={"textbook: pixels as points in world space": book},
+        promise="at most a tenth of a pixel, from 0.03 degrees on",
         bound=[0.1] * len(x),
         guaranteed=(x >= 0.03).tolist(),
     )
 
 
 def _camera_rays(scene: Scene, place: Array) -> tuple[Array, dict[str, Array]]:
-    """Unit directions through places in the frame, in float64; and the textbook's camera."""
+    """Unit directions through points of the frame, (n, 3), and the camera of the textbook."""
     camera = pack_camera(scene.camera, 1.0)
     right, up, forward = (np.asarray(camera[name]) for name in ("right", "up", "forward"))
     tan = float(np.tan(np.radians(scene.camera.fov) / 2))
@@ -117,7 +118,7 @@ def _camera_rays(scene: Scene, place: Array) -> tuple[Array, dict[str, Array]]:
 
 
 def _pixels_off(found: Array, truth: Array, angle: float) -> float:
-    """The angle between directions over that of the middle pixel."""
+    """The 99 % quantile of the angles between directions, in angles of the middle pixel."""
     unit = found / np.linalg.norm(found.astype(np.float64), axis=1, keepdims=True)
     off = np.linalg.norm(np.cross(unit, truth), axis=1)
     return float(np.quantile(off, 0.99) / (2 * np.tan(np.radians(angle) / 2) / SIDE))
