@@ -16,6 +16,7 @@ from glrt.image.partition import Partition, one_part
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting, recipe_to_resume
 from glrt.image.sources import load_recipe, recipe_of
+from glrt.methods.combinations import Way, check, ways_of
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
@@ -46,6 +47,8 @@ def order(arguments: argparse.Namespace) -> Order:
     if arguments.scene is None:
         raise UsageError("SCENE is missing. See `glrt render --help`.")
     scene, settings = scene_and_settings(arguments)
+    ways = ways_wanted(arguments, settings, recipe_of(arguments.scene))
+    check(ways - {Way.CLASSIC} if Way.AUTO in ways else ways)
     return _in_parts(arguments, _limited(arguments, Order(scene, settings, Limits(0))))
 
 
@@ -57,24 +60,39 @@ def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
 
 
 def _in_parts(arguments: argparse.Namespace, order: Order) -> Order:
-    """The order with the part that is wanted, or the parts of the picture that SCENE is.
-
-    By its own limits, --time and --error, a picture is rendered in one piece.
-    """
+    """The order with the part that is wanted, or the parts of the picture that SCENE is."""
     recipe, settings = recipe_of(arguments.scene), order.settings
     if arguments.part:
         number, count = arguments.part
         length = one_part(number, count, settings).samples(settings)
         return replace(order, part=arguments.part, limits=Limits(length))
     partition = recipe.partition if recipe else None
-    if not recipe or not partition or order.limits.deadline or order.limits.error:
+    if not recipe or not partition:
         return order
     first = (partition.numbers[0], partition.count)
-    length = one_part(*first, settings).samples(settings)
     if len(partition.numbers) > 1:
         return replace(order, part=first, merged=partition)
+    length = one_part(*first, settings).samples(settings)
     is_same = settings.samples == recipe.settings.samples
     return replace(order, part=first, limits=Limits(recipe.samples if is_same else length))
+
+
+def ways_wanted(
+    arguments: argparse.Namespace, settings: Settings, recipe: Recipe | None
+) -> set[Way]:
+    """The ways to render that a command line asks for; the recipe is of the picture it names."""
+    partition = recipe.partition if recipe and not arguments.part else None
+    found = {
+        Way.RESUME: arguments.resume is not None,
+        Way.PART: arguments.part is not None or bool(partition and len(partition.numbers) == 1),
+        Way.MERGED: bool(partition and len(partition.numbers) > 1),
+        Way.LAYERS: bool(recipe and recipe.traced),
+        Way.FRAGMENT: arguments.pipeline == "fragment",
+        Way.AUTO: is_automatic(arguments),
+        Way.TIME: arguments.time is not None,
+        Way.ERROR: arguments.error is not None,
+    }
+    return {way for way, is_asked in found.items() if is_asked} | ways_of(settings)
 
 
 def check_limit(name: str, value: float | None) -> None:
@@ -143,10 +161,10 @@ def _limited(arguments: argparse.Namespace, order: Order) -> Order:
 def _order_to_go_on(arguments: argparse.Namespace) -> Order:
     """By the settings of the picture. What would give other samples is refused."""
     image = Image.load(arguments.resume)
+    found = image.recipe
+    check(ways_wanted(arguments, found.settings if found else Settings(), found))
     with _going_on(arguments.resume):
         recipe = recipe_to_resume(image)
-        if is_automatic(arguments):
-            raise UsageError(f"its method is {recipe.settings.method}; leave out --method auto")
         source = arguments.scene
         scene, wished = load_recipe(source) if source is not None else (recipe.scene, None)
         scene = with_lights(scene, dict(arguments.lights))

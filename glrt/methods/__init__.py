@@ -5,5 +5,6 @@ Modules, each importing only what stands above it:
 - table: the methods, a row each
 - features: the features compiled into a kernel, and why
 - light_layers: light as a weighted sum of layers
+- combinations: what goes with what
 - omissions: what a method leaves out of a scene
 """

@@ -17,6 +17,7 @@ from glrt.image.image import Image
 from glrt.image.partition import Partition, one_part, sample_range
 from glrt.image.recipe import Recipe, traced
 from glrt.image.resume import fitting
+from glrt.methods.combinations import Way, check, ways_of
 from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_for
 from glrt.rendering.display import displayed
 from glrt.rendering.film import Film
@@ -64,12 +65,15 @@ class Renderer:
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
         self._part: Partition | None = one_part(*part, self.settings) if part else None
+        ways = ways_of(self.settings, layering) | ({Way.PART} if part else set())
+        check(ways | ({Way.FRAGMENT} if pipeline == "fragment" else set()))
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
         with ExitStack() as refused:
             if self._owns_context:
                 refused.callback(self.context.gl.release)
-            self.pipeline = resolve("compute" if layering != "none" else pipeline, self.context)
+            self.pipeline = resolve(pipeline, self.context)
+            check(ways | ({Way.FRAGMENT} if self.pipeline == "fragment" else set()))
             self.plan = plan_for(scene, self.settings, layering, self._samples.start)
             with self.context.gl:
                 options = KernelOptions(self.pipeline, tier, variant)

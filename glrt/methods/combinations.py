@@ -1,0 +1,129 @@
+"""What goes with what: one table of the ways to render that can be asked for together.
+
+Each pair of rows works or is refused, by its reason, before anything compiles. A pair that the
+table does not name is refused: whoever adds a row tries each pair first.
+docs/reference/combinations.md is written from here, and a test tries every cell.
+"""
+
+from collections.abc import Collection, Iterator
+from enum import StrEnum
+from itertools import combinations
+
+from glrt.errors import UsageError
+from glrt.methods.light_layers import Layering
+from glrt.methods.table import METHODS
+from glrt.settings import Settings
+
+
+class Way(StrEnum):
+    """A way to render that is not the plain one; its value is what messages call it."""
+
+    CROP = "a crop"
+    RESUME = "--resume"
+    PART = "a part of a render"
+    MERGED = "a merged picture"
+    AOV = "AOVs"
+    LAYERS = "light by layers"
+    FRAGMENT = "the fragment pipeline"
+    INDEPENDENT = "the independent sampler"
+    CLASSIC = "a classic lighting model"
+    AUTO = "--method auto"
+    TIME = "--time"
+    ERROR = "--error"
+
+
+MEANINGS: dict[Way, str] = {
+    Way.CROP: "`--crop`: a part of the frame",
+    Way.RESUME: "`--resume`: go on from a picture",
+    Way.PART: "`--part`: a range of the samples",
+    Way.MERGED: "a picture of `glrt merge`, rendered again",
+    Way.AOV: "`--aov`: albedo, normal, depth, position, object",
+    Way.LAYERS: "a picture relit in the window, and the window's film",
+    Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
+    Way.INDEPENDENT: "`--sampler independent`",
+    Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
+    Way.AUTO: "`--method auto`: the cheapest that reaches `--error`",
+    Way.TIME: "`--time`: end after some seconds",
+    Way.ERROR: "`--error`: end at an error",
+}
+
+# Each row with those above it that it works with.
+_WORKS: dict[Way, tuple[Way, ...]] = {
+    Way.CROP: (),
+    Way.RESUME: (Way.CROP,),
+    Way.PART: (Way.CROP, Way.RESUME),
+    Way.MERGED: (Way.CROP, Way.PART),
+    Way.AOV: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED),
+    Way.LAYERS: (Way.CROP, Way.AOV),
+    Way.FRAGMENT: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
+    Way.INDEPENDENT: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+    ),
+    Way.CLASSIC: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        Way.INDEPENDENT,
+    ),
+    Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT),
+    Way.TIME: (
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
+        *(Way.CLASSIC, Way.AUTO),
+    ),
+    Way.ERROR: (
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
+        *(Way.CLASSIC, Way.AUTO, Way.TIME),
+    ),
+}
+
+_LENGTH = "which samples a part has follows from their number in all: give --samples"
+_REFUSED: dict[frozenset[Way], str] = {
+    frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
+    frozenset({Way.LAYERS, Way.RESUME}): "the picture lacks the layers that it was summed from",
+    frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
+    frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
+    frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
+    frozenset({Way.AUTO, Way.RESUME}): "the picture has its method: leave out --method auto",
+    frozenset({Way.AUTO, Way.PART}): "each part might choose another method: name one",
+    frozenset({Way.AUTO, Way.MERGED}): "its parts have their method: leave out --method auto",
+    frozenset({Way.AUTO, Way.LAYERS}): "its layers were traced by one method: leave it out",
+    frozenset({Way.AUTO, Way.CLASSIC}): "it chooses among methods that leave no light out",
+    frozenset({Way.TIME, Way.PART}): _LENGTH,
+    frozenset({Way.TIME, Way.MERGED}): _LENGTH,
+    frozenset({Way.ERROR, Way.PART}): _LENGTH,
+    frozenset({Way.ERROR, Way.MERGED}): _LENGTH,
+}
+_UNTRIED = "nobody has tried the two together"
+
+
+def works(one: Way, other: Way) -> bool:
+    """Whether two ways can be asked for together."""
+    return other in _WORKS.get(one, ()) or one in _WORKS.get(other, ())
+
+
+def reason(one: Way, other: Way) -> str:
+    """Why two ways are refused together."""
+    return _REFUSED.get(frozenset({one, other}), _UNTRIED)
+
+
+def pairs() -> Iterator[tuple[Way, Way]]:
+    """Every cell of the table."""
+    return combinations(Way, 2)
+
+
+def check(ways: Collection[Way]) -> None:
+    """UsageError for the first two that do not go together."""
+    for one, other in combinations([way for way in Way if way in ways], 2):
+        if not works(one, other):
+            first = one[:1].upper() + one[1:]
+            raise UsageError(f"{first} and {other} do not go together: {reason(one, other)}.")
+
+
+def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
+    """The ways that settings and layers of light ask for."""
+    found = {
+        Way.CROP: settings.crop is not None,
+        Way.AOV: bool(settings.aov),
+        Way.LAYERS: layering != "none",
+        Way.INDEPENDENT: settings.sampler == "independent",
+        Way.CLASSIC: METHODS[settings.method].model != 0,
+    }
+    return {way for way, is_asked in found.items() if is_asked}
