@@ -37,33 +37,58 @@ if TYPE_CHECKING:
     from glrt.comparison.result import Comparison
     from glrt.comparison.verdict import compare
     from glrt.image.image import Image
+    from glrt.image.merge import merge
     from glrt.image.sources import load
     from glrt.rendering.renderer import Renderer
+    from glrt.scene.background import Background
+    from glrt.scene.camera import Camera
+    from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
     from glrt.scene.scene import Scene
+    from glrt.scene.shapes import Plane, Quad, Sphere
     from glrt.settings import Settings
 
 __all__ = [
+    "Background",
+    "Camera",
     "Comparison",
+    "Dielectric",
     "Image",
+    "Lambertian",
+    "Light",
+    "Metal",
+    "Plane",
+    "Quad",
     "Renderer",
     "Scene",
     "Settings",
+    "Sphere",
     "__version__",
     "compare",
     "load",
+    "merge",
     "render",
 ]
 
 __version__ = VERSION
 
 _HOMES = {
+    "Background": "scene.background",
+    "Camera": "scene.camera",
     "Comparison": "comparison.result",
+    "Dielectric": "scene.materials",
     "Image": "image.image",
+    "Lambertian": "scene.materials",
+    "Light": "scene.materials",
+    "Metal": "scene.materials",
+    "Plane": "scene.shapes",
+    "Quad": "scene.shapes",
     "Renderer": "rendering.renderer",
     "Scene": "scene.scene",
     "Settings": "settings",
+    "Sphere": "scene.shapes",
     "compare": "comparison.verdict",
     "load": "image.sources",
+    "merge": "image.merge",
     "render": "api",
 }
 

@@ -3,12 +3,17 @@
 Modules, each importing only what stands above it:
 
 - values: numbers, vectors and colours with their ranges
+- assets: files that a scene names, held to its folder and hashed
+- float_images: Radiance .hdr and OpenEXR files as arrays
+- image_files: images in files, of any format, as arrays of linear values
 - camera: where a scene is seen from
 - background: light from infinity
 - materials: what surfaces are made of
 - shapes: what there is to see
+- contents: the fields of a scene
+- tables: the parts of a scene as plain tables, and tables as TOML
+- validation: what is wrong with a scene, in words
 - scene: all of it together, and whether the parts fit
-- validation: what is wrong with a scene file, in words
 - toml: scene files read
 - toml_writer: scene files written, with their comments kept
 - catalog: the scenes that come with glrt, by name

@@ -1,14 +1,14 @@
 """Light from infinitely far away."""
 
-from typing import Annotated, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, model_validator
 
-from glrt.scene.values import BLACK, Radiance
-from glrt.settings import Cost, Editable, Frozen
+from glrt.scene.values import BLACK, Radiance, Triple, Value
+from glrt.settings import Cost, Editable
 
 
-class Background(Frozen):
+class Background(Value):
     """Light from infinitely far away: one colour, or a vertical gradient."""
 
     color: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
@@ -23,6 +23,16 @@ class Background(Frozen):
         None,
         description="radiance from straight above; needs bottom",
     )
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            color: Triple | None = None,
+            bottom: Triple | None = None,
+            top: Triple | None = None,
+        ) -> None: ...
 
     @property
     def gradient(self) -> tuple[Radiance, Radiance]:

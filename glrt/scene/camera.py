@@ -1,14 +1,24 @@
 """The camera of a scene."""
 
-from typing import Annotated, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, model_validator
 
-from glrt.scene.values import SMALLEST, Direction, Length, Vector, are_parallel, length_of
-from glrt.settings import Cost, Editable, Frozen
+from glrt.scene.values import (
+    SMALLEST,
+    Direction,
+    Length,
+    Number,
+    Triple,
+    Value,
+    Vector,
+    are_parallel,
+    length_of,
+)
+from glrt.settings import Cost, Editable
 
 
-class Camera(Frozen):
+class Camera(Value):
     """A pinhole camera or a thin lens."""
 
     position: Vector = Field(description="position of the camera, x y z in scene units")
@@ -34,6 +44,19 @@ class Camera(Frozen):
         lt=180,
         description="full angle under which the point in focus sees the lens; 0: a pinhole",
     )
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            position: Triple,
+            look_at: Triple,
+            up: Triple = (0.0, 1.0, 0.0),
+            fov: Number = 45.0,
+            focus_distance: Number | None = None,
+            defocus_angle: Number = 0.0,
+        ) -> None: ...
 
     @property
     def view(self) -> Vector:

@@ -4,11 +4,21 @@ What the kernel knows of a type stands in shaders_glsl/bsdfs/ and glrt/rendering
 docs/extending.md says how a type is added.
 """
 
-from typing import Annotated, Any, ClassVar, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
 from pydantic import Field
 
-from glrt.scene.values import BLACK, Color, Fraction, Length, Name, Radiance, Tagged
+from glrt.scene.values import (
+    BLACK,
+    Color,
+    Fraction,
+    Length,
+    Name,
+    Number,
+    Radiance,
+    Tagged,
+    Triple,
+)
 from glrt.settings import Cost, Editable
 
 # Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
@@ -28,6 +38,10 @@ class Lambertian(Surface):
     is_transparent = False
     color: Color = Field(description="albedo, 0 to 1 each")
 
+    if TYPE_CHECKING:
+
+        def __init__(self, *, color: Triple) -> None: ...
+
 
 class Metal(Surface):
     """Metal, smooth or rough (GGX)."""
@@ -39,6 +53,10 @@ class Metal(Surface):
         0.0,
         description="0: a mirror; the alpha of GGX is its square",
     )
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *, color: Triple, roughness: Number = 0.0) -> None: ...
 
     @property
     def alpha(self) -> float:
@@ -57,6 +75,10 @@ class Dielectric(Surface):
         description="index of refraction, inside over outside",
     )
 
+    if TYPE_CHECKING:
+
+        def __init__(self, *, ior: Number = 1.5) -> None: ...
+
 
 class Light(Surface):
     """An area light: it emits evenly in all directions, from both sides of its surface."""
@@ -68,6 +90,12 @@ class Light(Surface):
     group: Name | None = Field(
         None, description="light group whose intensity it follows; default: the material's name"
     )
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, *, emission: Triple, color: Triple = BLACK, group: str | None = None
+        ) -> None: ...
 
 
 Material = Annotated[Lambertian | Metal | Dielectric | Light, Field(discriminator="type")]

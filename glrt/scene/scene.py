@@ -4,56 +4,70 @@ The models of this package state every default, range and meaning once; `glrt.sc
 files.
 """
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Self
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, Self
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import model_validator
 
-from glrt.errors import SceneError
+from glrt.errors import SceneError, UsageError
+from glrt.files import write_text
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
+from glrt.scene.contents import Contents
 from glrt.scene.materials import Dielectric, Light, Material
 from glrt.scene.shapes import Shape
-from glrt.scene.values import BLACK, LARGEST, Intensity, Name, Radiance
-from glrt.settings import Cost, Editable, Frozen, RenderSettings
+from glrt.scene.tables import to_tables, toml_text
+from glrt.scene.validation import MisfitError, Place, validated
+from glrt.scene.values import BLACK, LARGEST, Number, Radiance
+from glrt.settings import RenderSettings
 from glrt.text import number, quoted, unknown
 
-MAX_OBJECTS = 65_536
 SKY_GROUP = "background"
 
-Place = tuple[int | str, ...]
 
-
-class MisfitError(ValueError):
-    """Valid parts of a scene that do not fit together: pairs of place and advice."""
-
-    def __init__(self, problems: list[tuple[Place, str]]) -> None:
-        self.problems = problems
-        super().__init__(" ".join(f"{'.'.join(map(str, at))}: {text}" for at, text in problems))
-
-
-class Scene(Frozen):
+class Scene(Contents):
     """The contents of a scene file."""
 
-    title: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]*$")] | None = Field(
-        None, description="one sentence on one line, shown in the gallery"
-    )
-    format: int = Field(
-        1, description="version of the scene format: 1", json_schema_extra={"const": 1}
-    )
-    camera: Camera = Field(description="the camera")
-    render: RenderSettings = Field(RenderSettings(), description="default settings of the scene")
-    background: Background = Field(
-        Background(), description="light from infinitely far away; its light group is `background`"
-    )
-    materials: dict[Name, Material] = Field({}, description="materials by name")
-    lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(
-        {},
-        description="intensity of each light group, a factor from 0 to 1e15; default: 1",
-    )
-    objects: tuple[Shape, ...] = Field(
-        (), max_length=MAX_OBJECTS, description="the shapes, at most 65,536"
-    )
+    @classmethod
+    def build(
+        cls,
+        camera: Camera | Mapping[str, Any],
+        objects: Iterable[Shape | Mapping[str, Any]] = (),
+        *,
+        materials: Mapping[str, Material | Mapping[str, Any]] | None = None,
+        background: Background | Mapping[str, Any] | None = None,
+        lights: Mapping[str, Number] | None = None,
+        render: RenderSettings | Mapping[str, Any] | None = None,
+        title: str | None = None,
+    ) -> Self:
+        """A scene from values: models such as `glrt.Sphere`, or dicts with the keys of scene files.
+
+        Objects name their material by a key of `materials`. A vector or a colour is a list, a tuple
+        or an array of shape (3,), a number also one of numpy's. What is left out has the default of
+        scene files. Raises `SceneError`, one paragraph that names each mistake as in a file.
+        """
+        tables = to_tables(
+            title=title,
+            camera=camera,
+            render=render,
+            background=background,
+            materials=materials,
+            lights=lights,
+            objects=objects,
+        )
+        return validated(cls, tables, "Scene.build")
+
+    def save(self, path: str | Path) -> None:
+        """Write a scene file, with a name in .toml, that `load` reads back as an equal scene.
+
+        Raises `UsageError` for another suffix, `RenderError` if the file cannot be written; an
+        existing file is then unchanged.
+        """
+        file = Path(path)
+        if file.suffix.lower() != ".toml":
+            raise UsageError(f"Cannot write {path}: the name of a scene file must end in .toml.")
+        write_text(file, toml_text(self))
 
     @property
     def light_groups(self) -> dict[str, float]:
@@ -81,13 +95,6 @@ class Scene(Frozen):
         for name, material in self.materials.items():
             if isinstance(material, Light):
                 yield material.group or name
-
-    @field_validator("format")
-    @classmethod
-    def _is_known_format(cls, value: int) -> int:
-        if value != 1:
-            raise ValueError("must be 1, the only format that this version of glrt reads")
-        return value
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:

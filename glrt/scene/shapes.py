@@ -6,13 +6,22 @@ docs/extending.md says how a kind is added.
 
 import math
 from abc import abstractmethod
-from typing import Annotated, Any, ClassVar, Literal, Self, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from glrt.scene.values import Direction, Length, Name, Tagged, Vector, are_parallel
+from glrt.scene.values import (
+    Direction,
+    Length,
+    Name,
+    Number,
+    Tagged,
+    Triple,
+    Vector,
+    are_parallel,
+)
 
 Array = NDArray[np.float64]
 
@@ -59,6 +68,12 @@ class Sphere(Object):
     anchor = "center"
     extents = ("radius",)
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, *, center: Triple, radius: Number, material: str, name: str | None = None
+        ) -> None: ...
+
     @property
     def middle(self) -> Vector:
         """Its centre."""
@@ -96,6 +111,12 @@ class Plane(Object):
     anchor = "point"
     extents = ()
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, *, point: Triple, normal: Triple, material: str, name: str | None = None
+        ) -> None: ...
+
     @property
     def middle(self) -> Vector:
         """The point that it is given by."""
@@ -130,6 +151,18 @@ class Quad(Object):
     has_inside = False
     anchor = "corner"
     extents = ("edge_u", "edge_v")
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            corner: Triple,
+            edge_u: Triple,
+            edge_v: Triple,
+            material: str,
+            name: str | None = None,
+        ) -> None: ...
 
     @model_validator(mode="after")
     def _has_an_area(self) -> Self:

@@ -7,24 +7,19 @@ from errno import EFBIG, EINVAL
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
-from glrt.errors import SceneError
 from glrt.files import read_at_most
 from glrt.scene.scene import Scene
-from glrt.scene.validation import advice, sentence
+from glrt.scene.tables import scene_to_dict as scene_to_dict
+from glrt.scene.validation import scene_error, validated
 from glrt.text import nearest, quoted
 
 # A scene of 65,536 quads with every number at full length takes 18 MB.
 LARGEST = 32 << 20  # bytes of a scene
-MOST_MISTAKES = 1 << 17  # that are worth being told apart: each takes a kilobyte
 
 # tomllib takes a minute and 6 GB for a key of 40,000 parts. Those of a scene have four at most.
 _MOST_PARTS = 64
 _PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
 _LONG_KEY = re.compile(rf"(?:{_PART}\.[ \t]*+){{{_MOST_PARTS}}}")
-
-_HUGE = 10**400  # beyond every range; Python refuses to print much longer integers
 
 
 def read_scene(path: Path) -> Scene:
@@ -38,35 +33,22 @@ def parse_scene(data: Mapping[str, Any], source: str) -> Scene:
 
     Raises `SceneError` with one paragraph that begins with `source`.
     """
-    try:
-        return Scene.model_validate(_strict(data), strict=True)
-    except ValidationError as error:
-        if (count := error.error_count()) > MOST_MISTAKES:
-            raise _scene_error(source, f"not a scene: it has {count:,} mistakes") from None
-        raise _scene_error(source, " ".join(advice(error, data))) from None
-
-
-def scene_to_dict(scene: Scene) -> dict[str, Any]:
-    """The scene as plain tables, lists, numbers and strings that `parse_scene` reads back.
-
-    Defaults are written out, so that a recipe keeps its meaning; what was left open is absent.
-    """
-    return scene.model_dump(mode="json", exclude_none=True)
+    return validated(Scene, data, source)
 
 
 def _text(path: Path, source: str) -> str:
     try:
         return read_at_most(path, LARGEST).decode("utf-8-sig")
     except FileNotFoundError:
-        raise _scene_error(source, f"no such file{_neighbour(path)}") from None
+        raise scene_error(source, f"no such file{_neighbour(path)}") from None
     except UnicodeDecodeError:
-        raise _scene_error(
+        raise scene_error(
             source, "not a text file in UTF-8; a scene is a TOML file, see the folder scenes"
         ) from None
     except OSError as error:
         if path.is_dir():
-            raise _scene_error(source, "is a folder; name a scene file in it") from None
-        raise _scene_error(source, _obstacle(error)) from None
+            raise scene_error(source, "is a folder; name a scene file in it") from None
+        raise scene_error(source, _obstacle(error)) from None
 
 
 def _obstacle(error: OSError) -> str:
@@ -85,33 +67,13 @@ def _neighbour(path: Path) -> str:
 def _toml(text: str, source: str) -> dict[str, Any]:
     if found := _LONG_KEY.search(text):
         line = text.count("\n", 0, found.start()) + 1
-        raise _scene_error(source, f"not a scene: a key of {_MOST_PARTS} parts in line {line}")
+        raise scene_error(source, f"not a scene: a key of {_MOST_PARTS} parts in line {line}")
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise _scene_error(source, "not a scene: its lists are nested too deeply") from None
+        raise scene_error(source, "not a scene: its lists are nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
         where = str(error).replace("end of document", f"line {text.count(chr(10)) + 1}, the end")
-        raise _scene_error(source, f"not valid TOML: {where}; correct that line") from None
+        raise scene_error(source, f"not valid TOML: {where}; correct that line") from None
     except ValueError:  # of int(), which stops at 4300 digits
-        raise _scene_error(source, "not a scene: a number has thousands of digits") from None
-
-
-def _scene_error(source: str, text: str) -> SceneError:
-    return SceneError(sentence(f"{source}: {text}"))
-
-
-def _strict(value: Any, depth: int = 8) -> Any:
-    """The data as strict validation wants it: lists as tuples, nothing too big to be printed.
-
-    A scene is 5 levels deep, down to the numbers of an object; what is far below is wrong anyway.
-    """
-    if isinstance(value, float | str):
-        return value
-    if isinstance(value, int):
-        return max(-_HUGE, min(value, _HUGE))
-    if isinstance(value, Mapping):
-        return {key: _strict(item, depth - 1) for key, item in value.items()} if depth else None
-    if isinstance(value, list | tuple):
-        return tuple([_strict(item, depth - 1) for item in value]) if depth else None
-    return value
+        raise scene_error(source, "not a scene: a number has thousands of digits") from None

@@ -1,15 +1,16 @@
 """A scene as a TOML file, on request with the comments, order and formatting of another one."""
 
-import json
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from glrt.errors import SceneError, UsageError
 from glrt.files import write_whole
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.scene.tables import scene_to_dict, toml_text
+from glrt.scene.tables import toml_lines as toml_lines
+from glrt.scene.toml import parse_scene
 from glrt.settings import RenderSettings, Settings
 
 MOST_LETTERS = 500_000  # of a file, which takes seconds: beyond, its comments go
@@ -30,41 +31,9 @@ def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
     could be. It appears whole or not at all: raises `RenderError` if it cannot be written.
     """
     text = _with_comments(_text(model), scene) if model else None
-    plain = "\n".join(toml_lines(scene_to_dict(scene))).strip() + "\n"
-    content = (plain if text is None else text).encode("utf-8")
+    content = (toml_text(scene) if text is None else text).encode("utf-8")
     write_whole(path, lambda file: _write(file, content))
     return text is not None
-
-
-def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:
-    """The lines of a table: its values, then its tables, then its lists of tables."""
-    for key, value in table.items():
-        if not isinstance(value, Mapping) and not _is_list_of_tables(value):
-            yield f"{_key(key)} = {_value(value)}"
-    for key, value in table.items():
-        name = ".".join(map(_key, (*path, key)))
-        if isinstance(value, Mapping):
-            lines = list(toml_lines(value, (*path, key)))
-            yield from (["", f"[{name}]", *lines] if lines and lines[0] else lines)
-        elif _is_list_of_tables(value):
-            for item in value:
-                yield from ("", f"[[{name}]]", *toml_lines(item, (*path, key)))
-
-
-def _is_list_of_tables(value: Any) -> bool:
-    return isinstance(value, list) and any(isinstance(item, Mapping) for item in value)
-
-
-def _key(key: str) -> str:
-    bare = key.isascii() and key.replace("_", "a").replace("-", "a").isalnum()
-    return key if bare else _value(key)
-
-
-def _value(value: Any) -> str:
-    """A number, a truth, a text or a list of them; JSON's texts are TOML's."""
-    if isinstance(value, list):
-        return f"[{', '.join(map(_value, value))}]"
-    return json.dumps(value, ensure_ascii=False)
 
 
 def _text(path: Path) -> str:

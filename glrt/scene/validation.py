@@ -1,25 +1,30 @@
-"""Messages about mistakes in a scene, in the terms of a scene file.
+"""Plain tables into models, and mistakes in them told in the terms of a scene file.
 
 pydantic says what does not validate, in its own terms; here its reports become sentences.
 """
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeGuard
+from typing import Any, TypeGuard, TypeVar
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from glrt.errors import SceneError
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
+from glrt.scene.contents import Contents
 from glrt.scene.materials import TYPES
-from glrt.scene.scene import MisfitError, Place, Scene
 from glrt.scene.shapes import KINDS
-from glrt.scene.values import SMALLEST
+from glrt.scene.values import SMALLEST, plain
 from glrt.settings import RenderSettings
 from glrt.text import nearest, number, shortened, unknown
 
 MOST_PROBLEMS_NAMED = 3
+MOST_MISTAKES = 1 << 17  # that are worth being told apart: each takes a kilobyte
+
+Model = TypeVar("Model", bound=Contents)
+Place = tuple[int | str, ...]
 
 _TABLES: dict[str, type[BaseModel]] = {
     "camera": Camera,
@@ -27,6 +32,33 @@ _TABLES: dict[str, type[BaseModel]] = {
     "background": Background,
 }
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
+
+
+class MisfitError(ValueError):
+    """Valid parts of a scene that do not fit together: pairs of place and advice."""
+
+    def __init__(self, problems: list[tuple[Place, str]]) -> None:
+        self.problems = problems
+        super().__init__(" ".join(f"{'.'.join(map(str, at))}: {text}" for at, text in problems))
+
+
+def validated(model: type[Model], data: Mapping[str, Any], source: str) -> Model:
+    """The model of a scene in plain tables; `source` is what messages call it.
+
+    Raises `SceneError` with one paragraph that begins with `source`.
+    """
+    tables = plain(data)
+    try:
+        return model.model_validate(tables, strict=True)
+    except ValidationError as error:
+        if (count := error.error_count()) > MOST_MISTAKES:
+            raise scene_error(source, f"not a scene: it has {count:,} mistakes") from None
+        raise scene_error(source, " ".join(advice(error, tables))) from None
+
+
+def scene_error(source: str, text: str) -> SceneError:
+    """An error about a scene that messages call `source`."""
+    return SceneError(sentence(f"{source}: {text}"))
 
 
 def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
@@ -74,7 +106,7 @@ def _without_consequences(
 def _place(detail: ErrorDetails) -> Place:
     """Keys and indices from the top of the file, without the tags that pydantic mixes in."""
     place: Place = detail["loc"]
-    if place[-1:] == ("[key]",) or _is_short_vector(detail):
+    if place[-1:] == ("[key]",) or detail["type"] == "invalid_key" or _is_short_vector(detail):
         place = place[:-1]
     if place[:1] in (("objects",), ("materials",)):
         place = place[:2] + place[3:]
@@ -95,7 +127,7 @@ def _model(location: Place) -> type[BaseModel]:
     """The model that a key belongs to, by the location that pydantic gives it."""
     table = str(location[0])
     if len(location) == 1:
-        return Scene
+        return Contents
     if table not in _KINDS:
         return _TABLES[table]
     model: type[BaseModel] = _KINDS[table][str(location[2])]
@@ -110,10 +142,11 @@ def _path(place: Place, data: Mapping[str, Any]) -> str:
     """A place as users write it: objects[2] ("left ball").radius."""
     path = ""
     for depth, step in enumerate(place):
-        if isinstance(step, int):
+        if isinstance(step, int) and (depth > 1 or place[0] == "objects"):
             path += f"[{step}]" + (_object_name(data["objects"][step]) if depth == 1 else "")
         else:
-            key = step if re.fullmatch(r"[\w-]{1,60}", step) else f'"{shortened(step)}"'
+            name = str(step)  # Python code may have numbers as names
+            key = name if re.fullmatch(r"[\w-]{1,60}", name) else f'"{shortened(name)}"'
             path += f".{key}" if path else key
     return path
 
@@ -137,6 +170,8 @@ _PLAIN = {
     "float_type": "must be a number",
     "finite_number": "must be a finite number",
     "string_type": "must be text in quotes",
+    "string_unicode": "must be text that UTF-8 can hold",
+    "invalid_key": "must have keys that are text",
     "string_too_short": "must not be empty",
     "string_pattern_mismatch": "must be one line, without control characters",
     "greater_than": "must be greater than {gt}",
@@ -185,9 +220,10 @@ def _too_small(place: Place, detail: ErrorDetails) -> str:
 
 def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
     model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
-    owner = f"[{table}]" if table in _TABLES else f"a {model.__name__.lower()}"
+    kind = "scene" if model is Contents else model.__name__.lower()
+    owner = f"[{table}]" if table in _TABLES else f"a {kind}"
     text = unknown("key", key, model.model_fields, f"Keys of {owner}")
-    if model is not Scene and key in Scene.model_fields:
+    if model is not Contents and key in Contents.model_fields:
         text += f" The {key} of the scene itself must stand above the first [table]."
     return text
 

@@ -4,9 +4,12 @@ Lengths in scene units, angles in degrees, colours in linear sRGB, right-handed,
 """
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, ConfigDict, Field
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from glrt.settings import Frozen
 
@@ -54,8 +57,57 @@ Radiance = tuple[Intensity, Intensity, Intensity]
 
 BLACK = (0.0, 0.0, 0.0)
 
+# What Python code may give where a scene has a number, and where it has a vector or a colour.
+Number = float | np.floating[Any] | np.integer[Any]
+Triple = Sequence[Number] | NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
 
-class Tagged(Frozen):
+_HUGE = 10**400  # beyond every range; Python refuses to print much longer integers
+_PLAIN = {float, str}  # types that stay: a scene is full of them
+_LISTS = (list, tuple)
+_TABLES = (dict, Mapping)  # the second alone takes several times as long to ask for
+
+
+def plain(value: Any, depth: int = 8) -> Any:
+    """The value as strict validation wants it: in Python's own numbers, lists as tuples.
+
+    numpy's arrays count as lists, its numbers as numbers. No integer is too big to be printed. A
+    scene is 5 levels deep, down to the numbers of an object; what is far below is wrong anyway.
+    """
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, _LISTS):
+        items = value if depth else ()
+        return tuple([x if type(x) in _PLAIN else plain(x, depth - 1) for x in items])
+    if isinstance(value, _TABLES):
+        pairs = value.items() if depth else ()
+        return {key: x if type(x) in _PLAIN else plain(x, depth - 1) for key, x in pairs}
+    return _number(value)
+
+
+def _number(value: Any) -> Any:
+    if isinstance(value, float | np.floating):
+        return float(value)
+    if isinstance(value, int | np.integer) and not isinstance(value, bool):
+        return max(-_HUGE, min(int(value), _HUGE))
+    return bool(value) if isinstance(value, np.bool_) else value
+
+
+class Value(Frozen):
+    """A value of a scene: it takes what scene files take, and numpy's arrays and numbers.
+
+    Its fields have the types that it holds; an `__init__` for type checkers alone says what it
+    takes.
+    """
+
+    model_config = ConfigDict(strict=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_plain(cls, data: Any) -> Any:
+        return plain(data)
+
+
+class Tagged(Value):
     """A value whose kind a scene file names."""
 
     model_config = ConfigDict(json_schema_extra=_require_tag)
