@@ -17,4 +17,5 @@
 #include "shapes/find_hit.glsl"
 #include "integrators/camera.glsl"
 #include "film/pixel.glsl"
+#include "integrators/aov_numbers.glsl"
 #include "integrators/first_hit.glsl"

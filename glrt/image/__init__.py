@@ -9,6 +9,7 @@ Modules, each importing only what stands above it:
 - recipe: what made a picture, as JSON
 - image: a picture and its files: EXR, PNG, NPY
 - differences: what differs between two recipes, in words
+- moments: means and variances of disjoint samples, put together
 - merge: parts put together
 - resume: whether a picture can be rendered on
 - sources: what SCENE means: a file, a name, a picture

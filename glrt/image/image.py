@@ -2,7 +2,7 @@
 
 import io
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import IO, Any
 
@@ -17,7 +17,7 @@ from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
-from glrt.settings import Settings, ToneMap
+from glrt.settings import Aov, Settings, ToneMap
 
 Pixels = NDArray[np.float32]
 
@@ -57,6 +57,14 @@ class Image:
     def error(self) -> float | None:
         """Estimated relative RMS error, of the noise alone; None if it is unknown."""
         return relative_error(self.radiance, self.stderr)
+
+    def with_aovs(self, names: tuple[Aov, ...]) -> "Image":
+        """The picture with these of its AOVs alone."""
+        if not self.recipe or self.recipe.settings.aov == names:
+            return self
+        settings = self.recipe.settings.model_copy(update={"aov": names})
+        recipe = self.recipe.model_copy(update={"settings": settings})
+        return replace(self, recipe=recipe, aovs={name: self.aovs[name] for name in names})
 
     def save(
         self,

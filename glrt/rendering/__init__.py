@@ -20,6 +20,7 @@ Modules, each importing only what stands above it:
 - weighting: a film's layers under weights
 - display: the display pass
 - false_colors: numbers of pixels as colours
+- aov_view: AOVs as colours
 - renderer: scene and settings to samples, step by step
 - stopping: render to a limit of samples, time or error
 - parts: a merged picture rendered again

@@ -7,6 +7,7 @@ import time
 from contextlib import ExitStack
 from typing import Any
 
+import moderngl
 import numpy as np
 
 from glrt.errors import SceneError
@@ -29,12 +30,17 @@ class _Stage:
     """A pass for one or two AOVs: its kernel, its film, and what its dispatches took."""
 
     def __init__(
-        self, context: Context, plan: Plan, scene: DeviceScene, aovs: tuple[Aov, ...], most: int
+        self,
+        context: Context,
+        plan: Plan,
+        scene: DeviceScene,
+        aovs: tuple[Aov, ...],
+        kernel: AnyKernel | None,
     ) -> None:
-        self.aovs, self._most = aovs, most
+        self.aovs = aovs
         render_pass, size = aov_pass(aovs), plan.settings.size
         self._tiles = tile_count(*size)
-        self.schedule = Schedule(self._tiles, most)
+        self.schedule = Schedule(self._tiles, _most_observations(context, plan))
         what = f"{' and '.join(aovs)} of {size[0]} x {size[1]} pixels"
         with ExitStack() as refused:
             self.film = PassFilm(context.gl, what, dict.fromkeys(render_pass.outputs, size))
@@ -43,7 +49,7 @@ class _Stage:
             def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
                 scene.dispatch(kernel, self.film, plan, part, self._tiles)
 
-            self._kernel = ready(context, scene.shaders_of(render_pass), dispatch)
+            self.kernel = kernel or ready(context, scene.shaders_of(render_pass), dispatch)
             refused.pop_all()
 
     def work_on(
@@ -54,38 +60,45 @@ class _Stage:
         planned = self.schedule.next_dispatch(missing, seconds, self.film.samples // block)
         part = planned._replace(samples=block * planned.samples)
         start = time.perf_counter()
-        scene.dispatch(self._kernel, self.film, plan, part, self._tiles)
+        scene.dispatch(self.kernel, self.film, plan, part, self._tiles)
         context.finish()
         if scene.lost_any() and planned.samples > 1:
             self.schedule.limit(planned.samples // 2)
         elif self.schedule.record(planned, time.perf_counter() - start):
             self.film.advance(part.samples)
 
-    def release(self) -> None:
-        """Free what the driver holds."""
-        self.film.release()
-        self._kernel.release()
-
 
 class AovTracer:
     """Gathers the AOVs that settings ask for."""
 
-    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
-        """Compile the kernels of the plan's AOVs.
+    def __init__(
+        self,
+        context: Context,
+        plan: Plan,
+        scene: DeviceScene,
+        before: "AovTracer | None" = None,
+    ) -> None:
+        """Allocate films, and compile the kernels that `before` lacks, of the same scene kernel.
 
-        Raises SceneError if an observation is beyond the driver's loop limit, and RenderError.
+        Raises SceneError if an observation is beyond the driver's loop limit, and RenderError; then
+        `before` is as it was.
         """
         self.aovs = aovs = plan.settings.aov
         self._context, self._size, self._block = context, plan.settings.size, plan.settings.block
         self._stages: list[_Stage] = []
-        most = _most_observations(context, plan) if aovs else 0
+        known = before.kernels if before and before._block == self._block else {}
         start = time.perf_counter()
         with ExitStack() as refused:
-            refused.callback(self.release)
+            refused.callback(lambda: self.release(before))
             for pair in (aovs[first : first + 2] for first in range(0, len(aovs), 2)):
-                self._stages.append(_Stage(context, plan, scene, pair, most))
+                self._stages.append(_Stage(context, plan, scene, pair, known.get(pair)))
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start if aovs else 0.0
+
+    @property
+    def kernels(self) -> dict[tuple[Aov, ...], AnyKernel]:
+        """The kernels, by the AOVs that they fill."""
+        return {stage.aovs: stage.kernel for stage in self._stages}
 
     def serve(self, settings: Settings) -> bool:
         """Whether films and kernels do for other settings, if the kernel of the scene does."""
@@ -118,6 +131,14 @@ class AovTracer:
                 return stage.work_on(self._context, plan, scene, missing, planned)
         return None
 
+    def mean(self, aov: Aov) -> moderngl.Texture | None:
+        """The texture that holds an AOV so far, in the kernel's terms; None if it is empty."""
+        for stage in self._stages:
+            for name, prefix in zip(stage.aovs, SLOTS, strict=False):
+                if name == aov and stage.film.samples:
+                    return stage.film.sources[f"{prefix}mean"]
+        return None
+
     def read(self, scene: Scene) -> AovImages:
         """The AOVs so far; the scene is that of the plan."""
         found = {
@@ -127,10 +148,13 @@ class AovTracer:
         }
         return {aov: found[aov] for aov in self.aovs}
 
-    def release(self) -> None:
-        """Free what the driver holds."""
+    def release(self, heir: "AovTracer | None" = None) -> None:
+        """Free what the driver holds, but for the kernels of an heir."""
+        kept = [*heir.kernels.values()] if heir else []
         for stage in self._stages:
-            stage.release()
+            stage.film.release()
+            if stage.kernel not in kept:
+                stage.kernel.release()
 
 
 def _most_observations(context: Context, plan: Plan) -> int:

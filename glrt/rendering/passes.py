@@ -17,7 +17,7 @@ Resolved = Literal["compute", "fragment"]
 Constants = Mapping[str, bool | int]
 NO_CONSTANTS: Constants = {}
 
-_NUMBERS = read_constants(read("integrators/first_hit.glsl"))  # of AOVs
+AOV_NUMBERS = read_constants(read("integrators/aov_numbers.glsl"))
 
 
 class RenderPass(NamedTuple):
@@ -35,9 +35,14 @@ RADIANCE = RenderPass(
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 
+def aov_number(aov: Aov) -> int:
+    """The number of an AOV in the shaders."""
+    return AOV_NUMBERS[aov.upper()]
+
+
 def aov_pass(aovs: Sequence[Aov]) -> RenderPass:
     """The pass that fills one or two AOVs, which share their camera rays."""
-    numbers = [_NUMBERS[aov.upper()] for aov in aovs] + [_NUMBERS["NO_AOV"]]
+    numbers = [*map(aov_number, aovs), AOV_NUMBERS["NO_AOV"]]
     return RenderPass(
         {"compute": ("aov.comp",), "fragment": ("trace.vert", "aov.frag")},
         tuple(f"{slot}{name}" for slot in SLOTS[: len(aovs)] for name in ("mean", "variance")),

@@ -26,7 +26,7 @@ from glrt.rendering.schedule import HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
 from glrt.rendering.weighting import Mixer, mixed
 from glrt.scene.scene import Scene
-from glrt.settings import Cost, SettingOptions, Settings, settings_for
+from glrt.settings import Aov, Cost, SettingOptions, Settings, settings_for
 from glrt.version import VERSION
 
 ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
@@ -104,10 +104,9 @@ class Renderer:
             return range(self.settings.samples)
         return sample_range(self._part, self._part.numbers[0], self.settings)
 
-    @property
-    def is_behind(self) -> bool:
-        """Whether AOVs have fewer samples than the picture."""
-        return self._tracer.is_behind
+    def lacks(self, samples: int) -> bool:
+        """Whether the picture has fewer samples, or an AOV fewer than the picture."""
+        return self.samples < samples or self._tracer.is_behind
 
     @property
     def shown(self) -> tuple[int, int]:
@@ -148,6 +147,10 @@ class Renderer:
     def compile_seconds(self) -> float:
         """What that kernel, and those of the AOVs, took to compile."""
         return self._tracer.switch.compile_seconds + self._tracer.aovs.compile_seconds
+
+    def aov_mean(self, aov: Aov) -> moderngl.Texture | None:
+        """An AOV so far, for the window; None if it is not gathered or empty."""
+        return self._tracer.aovs.mean(aov)
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
@@ -214,7 +217,7 @@ class Renderer:
         """
         target = self.wanted_samples if samples is None else samples
         before, start, spent = self.shown, time.perf_counter(), 0.0
-        while (self.samples < target or self.is_behind) and spent <= ENOUGH * seconds:
+        while self.lacks(target) and spent <= ENOUGH * seconds:
             self._work(target - self.samples, INTERACTIVE, seconds - spent)
             spent = time.perf_counter() - start
         return self.shown != before

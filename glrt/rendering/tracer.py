@@ -78,7 +78,7 @@ class Tracer:
         if after.film is not self.film:
             self.film.release()
         if after.aovs is not self.aovs:
-            self.aovs.release()
+            self.aovs.release(after.aovs)
         after.film.restart(plan.first_sample)
         after.aovs.restart(plan.first_sample)
         if after.switch is not self.switch:
@@ -119,8 +119,8 @@ class Tracer:
     def use_aovs(self, settings: Settings) -> None:
         """Gather other AOVs; on an error, which is as the constructor raises it, the same."""
         if settings.aov != self.aovs.aovs:
-            after = self._aovs_for(settings)
-            self.aovs.release()
+            after = self._aovs_for(settings, self)
+            self.aovs.release(after)
             self.aovs = after
 
     @property
@@ -181,11 +181,13 @@ class Tracer:
 
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
         """What gathers the AOVs of settings: that of `before` where it does."""
-        has_kernel = before and self.device_scene.has_kernel_of(before.device_scene)
-        if before and has_kernel and before.aovs.serve(settings):
+        if before and not self.device_scene.has_kernel_of(before.device_scene):
+            before = None
+        if before and before.aovs.serve(settings):
             return before.aovs
         plan = replace(self._plan, settings=settings)
-        return AovTracer(self._context, plan, self.device_scene)
+        known = before.aovs if before else None
+        return AovTracer(self._context, plan, self.device_scene, known)
 
     def _work_on_aovs(self, policy: DispatchPolicy, seconds: float) -> None:
         self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)

@@ -7,6 +7,7 @@ from imgui_bundle import hello_imgui, imgui, immapp
 
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
+from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors
 from glrt.rendering.stopping import Interruption
 from glrt.scene.scene import Scene
@@ -104,7 +105,7 @@ class Window:
         self._rate = RATES[context.is_software]
         self.app = App(
             session=Session(scene, settings, context, pipeline=self._pipeline, rest=IdleKernel()),
-            show=PictureView(Picture(context.gl), FalseColors(context.gl)),
+            show=PictureView(Picture(context.gl), FalseColors(context.gl), AovView(context.gl)),
             preferences=preferences,
             preferences_file=preferences_file(),
             source=source,

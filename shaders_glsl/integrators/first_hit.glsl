@@ -1,13 +1,6 @@
 // Outputs of the first surface that a camera ray meets. A pass gathers one or two of them, FIRST_AOV
 // and SECOND_AOV; whole observations alone, so that none is carried from dispatch to dispatch.
 
-const int NO_AOV = 0;
-const int ALBEDO = 1;
-const int NORMAL = 2;
-const int DEPTH = 3;
-const int POSITION = 4;
-const int OBJECT = 5;
-
 // Of a sample that meets nothing: add_sample leaves it out, for it is not finite.
 vec3 nothing_met() {
     return vec3(uintBitsToFloat(0x7F800000u));
@@ -35,7 +28,7 @@ Pixel object_of(ivec2 place) {
     precise vec3 direction = frame.camera.forward + (2.0 * at.x - 1.0) * frame.camera.tan_x * frame.camera.right
                            + (1.0 - 2.0 * at.y) * frame.camera.tan_y * frame.camera.up;
     precise vec3 unit_direction = normalized(direction);
-    Hit hit = closest_hit(Ray(vec3(0.0), unit_direction, NO_SHAPE, false));
+    precise Hit hit = closest_hit(Ray(vec3(0.0), unit_direction, NO_SHAPE, false));
     precise Pixel pixel = empty_pixel();
     pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + hit.shape));
     pixel.count = 1.0;
@@ -56,7 +49,7 @@ void add_aovs(precise inout Pixel first, precise inout Pixel second, ivec2 place
     for (int index = frame.first_sample; index < end; index += 1) {
         precise Sampler rng = sampler_at(place, index, frame.seed);
         precise Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
-        Hit hit = closest_hit(ray);
+        precise Hit hit = closest_hit(ray);
         add_aov(first, FIRST_AOV, ray, hit, index);
         add_aov(second, SECOND_AOV, ray, hit, index);
     }

@@ -13,9 +13,11 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, files_anew, read, shader_files
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
+from glrt.rendering.passes import aov_pass
 from glrt.rendering.pipelines import sources
 from glrt.resources import folder
-from tests.gpu.test_precise import imprecise
+from glrt.settings import Aov
+from tests.gpu.test_precise import computed_returns, imprecise
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
 from tests.support.kernel_text import written_for
@@ -29,6 +31,7 @@ layout(std430) buffer Data { vec4 data; };
 void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
+DISPLAYS = ("display.frag", "weighting.frag", "false_colors.frag", "aov_view.frag")
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
 
@@ -168,7 +171,9 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     files = {str(path.relative_to(root)) for path in shader_files()}
     by_structs = re.findall(r'#include "([^"]+)"', read("structs/scene.glsl"))
     assert files == {*FILES, *by_structs} | {
-        "trace.glsl",
+        *("trace.glsl", "aov.glsl", "integrators/first_hit.glsl"),
+        "integrators/aov_numbers.glsl",
+        *("aov.comp", "aov.frag", "aov_view.frag"),
         "trace.comp",
         "passes/tiles.glsl",
         "passes/tonemap.glsl",
@@ -194,7 +199,7 @@ def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
 
 
-@pytest.mark.parametrize("name", ["display.frag", "weighting.frag", "false_colors.frag"])
+@pytest.mark.parametrize("name", DISPLAYS)
 def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
     assert ctx.version_code >= 430
     stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(name).text)]
@@ -207,6 +212,21 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         text = Source("trace.comp", {**EVERYTHING, **layers}, texts=WRITTEN).text
         assert imprecise(text) == []
         assert warnings((COMPUTE, text)) == []
+
+
+@pytest.mark.parametrize("aovs", [("albedo", "normal"), ("depth", "position"), ("object",)])
+@pytest.mark.parametrize("features", ["everything", "nothing"])
+def test_aovs_compile_without_a_warning(
+    ctx: moderngl.Context, features: str, aovs: tuple[Aov, ...]
+) -> None:
+    assert ctx.version_code >= 430
+    constants = FEATURE_SETS[features]
+    (compute,) = sources("compute", constants, WRITTEN, aov_pass(aovs))
+    assert imprecise(compute.text) == []
+    assert computed_returns(compute.text) == []
+    assert warnings((COMPUTE, compute.text)) == []
+    vertex, fragment = sources("fragment", constants, WRITTEN, aov_pass(aovs))
+    assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 
 def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:

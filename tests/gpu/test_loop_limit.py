@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from glrt.cli.main import main
+from glrt.cli.render import Done
 from glrt.gpu.context import Context
 from glrt.methods import features
 from glrt.rendering import schedule
@@ -61,7 +62,7 @@ def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context)
 def test_dropped_samples_are_told(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Renderer, "nonfinite", lambda _: 1234)
+    monkeypatch.setattr(Done, "dropped", 1234)
     small = ["--width", "8", "--height", "8", "--samples", "1"]
     assert main(["render", "sky", "-o", str(tmp_path / "a.npy"), *small]) == 0
     assert "1,234 samples were dropped" in capsys.readouterr().err

@@ -166,7 +166,7 @@ def test_what_changes_samples_is_refused_by_its_name(begun: Image, name: str, va
 
 def test_every_setting_is_free_or_refused(begun: Image) -> None:
     """A new setting must come into one of the two lists above."""
-    free = {"samples", "exposure", "tonemap"}
+    free = {"samples", "exposure", "tonemap", "aov"}
     known = {"width", "height", "bounces", "method", "seed", "crop", "sampler", "roulette"}
     assert set(Settings.model_fields) == free | known
 

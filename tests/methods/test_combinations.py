@@ -9,13 +9,10 @@ import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from glrt import Renderer, load, merge
 from glrt.cli.commands import run
 from glrt.errors import UsageError
-from glrt.image.image import Image
 from glrt.methods.combinations import (
     _REFUSED,
     _UNTRIED,
@@ -27,25 +24,7 @@ from glrt.methods.combinations import (
     reason,
     works,
 )
-from glrt.scene.scene import with_lights
-from tests.support.renders import assert_agree, same
-
-Options = list[str]
-Render = Callable[[Options], Image]
-
-X, Y, WIDTH, HEIGHT = CROP = (3, 2, 9, 7)
-SIZE = ["--width", "16", "--height", "12", "--bounces", "4"]
-ASKED = 20.0  # an error that 64 samples reach
-OPTIONS: dict[Way, Options] = {
-    Way.CROP: ["--crop", *map(str, CROP)],
-    Way.AOV: ["--aov", "albedo,depth,object"],
-    Way.FRAGMENT: ["--pipeline", "fragment"],
-    Way.INDEPENDENT: ["--sampler", "independent"],
-    Way.CLASSIC: ["--method", "phong"],
-    Way.AUTO: ["--method", "auto", "--error", str(ASKED)],
-    Way.TIME: ["--time", "0.1"],
-    Way.ERROR: ["--error", str(ASKED)],
-}
+from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit, try_together
 
 
 @pytest.fixture
@@ -57,192 +36,6 @@ def folder(tmp_path: Path) -> Iterator[Path]:
     os.chdir(before)
 
 
-def rendered(*words: str) -> Image:
-    """The picture that `glrt render` makes."""
-    assert run(["render", *words, "--quiet", "-o", "out.exr"]) == 0
-    return Image.load("out.exr")
-
-
-def plain(options: Options) -> Image:
-    return rendered("cornell", *SIZE, *(["--samples", "64"] if is_open(options) else []), *options)
-
-
-def is_open(options: Options) -> bool:
-    """Whether nothing else limits the samples."""
-    return not {"--time", "--error", "--samples"} & set(options)
-
-
-# --- pictures that take several commands -----------------------------------------------------
-
-
-def resumed(options: Options) -> Image:
-    """From half of the samples to all; limits are given at the end."""
-    given = [] if not is_open(options) else options
-    first = rendered("cornell", *SIZE, "--samples", "24", *given)
-    first.save("half.exr")
-    limits = options if not is_open(options) else ["--samples", "64"]
-    return rendered("--resume", "half.exr", *limits)
-
-
-def parts(options: Options) -> list[Image]:
-    words = ["cornell", *SIZE, "--samples", "60", *options]
-    images = [rendered(*words, "--part", f"{k}/3") for k in (1, 2, 3)]
-    for number, image in enumerate(images, 1):
-        image.save(f"part{number}.exr")
-    return images
-
-
-def merged(options: Options) -> Image:
-    """A merged picture, rendered again."""
-    merge(parts([])).save("merged.exr")
-    return rendered("merged.exr", *options)
-
-
-def relit(options: Options) -> Image:
-    """A picture whose lamp was dimmed in the window, rendered again."""
-    scene = load("lamps")
-    size = {"width": 16, "height": 12, "bounces": 4, "samples": 64}
-    renderer = Renderer(scene, layering="groups", **size)  # type: ignore[arg-type]
-    renderer.render()
-    group = next(iter(scene.light_groups))
-    renderer.update(with_lights(scene, {group: 0.3}))
-    renderer.image().save("relit.exr")
-    renderer.release()
-    return rendered("relit.exr", *options)
-
-
-BASES: dict[Way, Render] = {Way.MERGED: merged, Way.LAYERS: relit}
-
-
-# --- laws ----------------------------------------------------------------------------------
-
-
-def resume_law(options: Options) -> None:
-    found = resumed(options)
-    limits = options if is_open(options) else ["--samples", str(found.samples)]
-    assert same(found, plain(limits))
-
-
-def part_law(options: Options) -> None:
-    """Merged, the parts are the picture, up to the rounding of float32."""
-    whole = rendered("cornell", *SIZE, "--samples", "60", *options)
-    found = merge(parts(options))
-    np.testing.assert_allclose(found.radiance, whole.radiance, rtol=1e-5, atol=1e-6)
-    np.testing.assert_allclose(found.stderr, whole.stderr, rtol=1e-3, atol=1e-6)
-    for name, aov in whole.aovs.items():
-        np.testing.assert_allclose(found.aovs[name].value, aov.value, rtol=1e-5, atol=1e-6)
-
-
-def crop_law(render: Render) -> None:
-    full, part = render([]), render(OPTIONS[Way.CROP])
-    place = slice(Y, Y + HEIGHT), slice(X, X + WIDTH)
-    assert np.array_equal(part.radiance, full.radiance[place])
-    assert np.array_equal(part.stderr, full.stderr[place], equal_nan=True)
-
-
-def aov_law(render: Render) -> None:
-    """They change no bit of the picture, and are those of the plain render."""
-    without, image = render([]), render(OPTIONS[Way.AOV])
-    assert same(image, without)
-    assert [*image.aovs] == ["albedo", "depth", "object"]
-    assert image.aovs["albedo"].value.shape == image.radiance.shape
-    assert image.aovs["object"].value.max() > 0
-
-
-def fragment_law(render: Render) -> None:
-    image = render(OPTIONS[Way.FRAGMENT])
-    assert image.recipe
-    assert image.recipe.pipeline == "fragment"
-    assert same(image, render([]))
-
-
-def independent_law(render: Render) -> None:
-    """Another sampler, another noise, the same light."""
-    many = ["--samples", "512"]
-    one, other = render(many), render([*many, *OPTIONS[Way.INDEPENDENT]])
-    assert not same(one, other)
-    assert_agree(one, other, within=0.4)
-
-
-def classic_law(render: Render) -> None:
-    """It is the model's picture: without noise from light that it does not follow."""
-    image = render(OPTIONS[Way.CLASSIC])
-    assert image.recipe
-    assert image.recipe.settings.method == "phong"
-    assert not same(image, render([]))
-    assert np.isfinite(image.radiance).all()
-
-
-def auto_law(render: Render) -> None:
-    image = render(OPTIONS[Way.AUTO])
-    assert image.recipe
-    method = image.recipe.settings.method
-    bounces, samples = str(image.recipe.settings.bounces), str(image.samples)
-    again = ["--method", method, "--bounces", bounces, "--samples", samples]
-    assert same(image, render(again))
-
-
-def limit_law(way: Way) -> Callable[[Render], None]:
-    def law(render: Render) -> None:
-        """What it ends with is the picture of so many samples."""
-        image = render(OPTIONS[way])
-        assert image.samples >= 1
-        assert same(image, render(["--samples", str(image.samples)]))
-
-    return law
-
-
-ALONE: dict[Way, Callable[[Options], None]] = {Way.RESUME: resume_law, Way.PART: part_law}
-LAWS: dict[Way, Callable[[Render], None]] = {
-    Way.CROP: crop_law,
-    Way.AOV: aov_law,
-    Way.FRAGMENT: fragment_law,
-    Way.INDEPENDENT: independent_law,
-    Way.CLASSIC: classic_law,
-    Way.AUTO: auto_law,
-    Way.TIME: limit_law(Way.TIME),
-    Way.ERROR: limit_law(Way.ERROR),
-}
-
-
-def try_together(one: Way, other: Way) -> None:
-    """The law of one under the other."""
-    if special := SPECIAL.get(frozenset({one, other})):
-        return special()
-    for way, more in ((one, other), (other, one)):
-        if way in BASES:
-            return LAWS[more](BASES[way])
-        if way in ALONE:
-            return ALONE[way](OPTIONS[more])
-    if {one, other} == {Way.TIME, Way.ERROR}:
-        return LAWS[Way.ERROR](lambda options: plain([*timed(options), *options]))
-    return LAWS[other](lambda options: plain([*OPTIONS[one], *options]))
-
-
-def timed(options: Options) -> Options:
-    """A limit of time that is not reached, unless the samples are given."""
-    return [] if "--samples" in options else ["--time", "1e6"]
-
-
-def part_of_a_merged_picture() -> None:
-    whole = parts([])
-    merge(whole).save("merged.exr")
-    assert same(rendered("merged.exr", "--part", "2/3"), whole[1])
-
-
-def resume_a_part() -> None:
-    whole = parts([])[1]
-    size = {"width": 16, "height": 12, "bounces": 4, "samples": 60}
-    renderer = Renderer(load("cornell"), part=(2, 3), tier="baked", **size)  # type: ignore[arg-type]
-    renderer.render(5).image().save("begun.exr")
-    renderer.release()
-    assert same(rendered("--resume", "begun.exr"), whole)
-
-
-SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
-    frozenset({Way.RESUME, Way.PART}): resume_a_part,
-    frozenset({Way.MERGED, Way.PART}): part_of_a_merged_picture,
-}
 WORKING = [pair for pair in pairs() if works(*pair)]
 REFUSED = [pair for pair in pairs() if not works(*pair)]
 

@@ -24,8 +24,10 @@ ENTRIES = {
     "trace.frag",
     "display.frag",
     "display.vert",
-} | {"weighting.frag", "false_colors.frag"}
-NOT_OF_A_PATH = {*ENTRIES, "passes/tonemap.glsl", "trace.glsl", "structs/scene.glsl"}
+    "aov.comp",
+    "aov.frag",
+} | {"weighting.frag", "false_colors.frag", "aov_view.frag"}
+NOT_OF_A_PATH = {*ENTRIES, "passes/tonemap.glsl", "trace.glsl", "aov.glsl", "structs/scene.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are

@@ -10,8 +10,9 @@ import pytest
 
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.struct_arrays import MOST_UNIFORM_BYTES
-from glrt.rendering.passes import Resolved
+from glrt.rendering.passes import Resolved, aov_pass
 from glrt.rendering.pipelines import Tier, sources
+from glrt.settings import Aov
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.kernel_text import written_for
 from tests.support.system_packages import needs_package
@@ -27,7 +28,7 @@ ES = "320 es"  # knows no implicit conversion
 PRECISIONS = " ".join(
     f"precision highp {kind};" for kind in ("float", "int", "image2D", "sampler2D", "usampler2D")
 )
-DRAWN = ("display.frag", "weighting.frag", "false_colors.frag")
+DRAWN = ("display.frag", "weighting.frag", "false_colors.frag", "aov_view.frag")
 # The driver compiles all of them in tests/shaders; here, those with the most and the least text.
 SETS = [
     name if name in ("everything", "nothing") else pytest.param(name, marks=pytest.mark.slow)
@@ -64,6 +65,16 @@ def in_es(constants: dict[str, bool | int], texts: dict[str, str] | None = None)
 def test_every_kernel_is_within_the_standard(features: str) -> None:
     shaders = sources("compute", FEATURE_SETS[features], written_for())
     shaders += sources("fragment", FEATURE_SETS[features], written_for())
+    assert [line for shader in shaders for line in objections(shader)] == []
+
+
+@pytest.mark.parametrize("aovs", [("albedo", "normal"), ("depth", "position"), ("object",)])
+def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
+    shaders = [
+        shader
+        for pipeline in PIPELINES
+        for shader in sources(pipeline, EVERYTHING, written_for(), aov_pass(aovs))
+    ]
     assert [line for shader in shaders for line in objections(shader)] == []
 
 

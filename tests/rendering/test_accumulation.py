@@ -36,7 +36,11 @@ def gathered(call_glsl: CallGlsl, seeds: Array, count: int = SAMPLES, **more: An
     given = {"count": count, "bad": -1, "skip": 0, **more}
     args: dict[str, Any] = {name: np.array([value]) for name, value in given.items()}
     args |= {"poison": np.array([more.get("poison", 0)], np.uint32), "seed": seeds}
-    figures = (("pixel.mean", "vec3"), ("pixel.variance", "vec3"), ("float(index) - pixel.count", "float"))
+    figures = (
+        ("pixel.mean", "vec3"),
+        ("pixel.variance", "vec3"),
+        ("float(index) - pixel.count", "float"),
+    )
     return [
         call_glsl(what, returns, setup=GATHER, constants=constants, **args)
         for what, returns in figures

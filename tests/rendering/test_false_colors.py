@@ -114,11 +114,11 @@ def test_without_two_observations_the_error_is_grey(context: Context) -> None:
 
 
 def test_dropped_samples_are_marked_where_they_fell(context: Context) -> None:
-    with traced(context, room(), 1) as renderer:
+    with traced(context, room(), 64) as renderer:
         with context.gl:
             mean = np.frombuffer(renderer.film.mean.read(), np.float32).copy()
             pixels = mean.reshape(SIZE["height"], SIZE["width"], 4)
-            pixels[5, 7, 3], pixels[15, 20, 3] = 1, 40
+            pixels[5, 7, 3], pixels[15, 20, 3] = 63, 24  # finite ones, of 64
             renderer.film.mean.write(mean.tobytes())
         codes = drawn(renderer, lambda colors, light: colors.draw_dropped(renderer.film, light))
     marked = codes[..., 0] != codes[..., 2]

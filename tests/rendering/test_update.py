@@ -65,6 +65,7 @@ CHANGES: dict[str, Any] = {
     "seed": 5,
     "exposure": 1.5,
     "tonemap": "agx",
+    "aov": ("normal",),
 }
 
 

@@ -30,10 +30,10 @@ def test_a_control_repeats_what_the_model_says() -> None:
     assert (method.choices, method.cost) == (get_args(Method), Cost.RECOMPILE)
 
 
-def test_every_setting_has_a_control_but_the_crop() -> None:
+def test_every_setting_has_a_control_but_the_crop_and_aovs_which_are_views() -> None:
     single = {n for n, f in Settings.model_fields.items() if len(get_args(f.annotation)) == 1}
     names = {control.name for control in controls_of(Settings)}
-    assert names == set(Settings.model_fields) - {"crop"} - single
+    assert names == set(Settings.model_fields) - {"crop", "aov"} - single
 
 
 def test_optional_and_annotated_types_are_seen_through() -> None:

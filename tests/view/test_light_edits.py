@@ -1,5 +1,6 @@
 """Light is weighed without a restart: what it costs, and where layers have no room."""
 
+import math
 from typing import Any
 
 import moderngl
@@ -106,10 +107,10 @@ def test_layers_that_the_driver_has_no_memory_for_are_not_kept(
 ) -> None:
     texture = Film._texture
 
-    def poor(film: Film, across: int, down: int) -> moderngl.Texture:
-        if across * down > 1000:
+    def poor(film: Film, size: tuple[int, int]) -> moderngl.Texture:
+        if math.prod(size) > 1000:
             raise RenderError("no room on the driver")
-        return texture(film, across, down)
+        return texture(film, size)
 
     if is_open:
         session.edit(width=8, height=8)

@@ -1,16 +1,14 @@
 """The parts of the panel that choose a view, and keep a picture to compare with."""
 
-from typing import get_args
-
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.panels.widgets import button, edited
 from glrt.view.state.controls import Control
-from glrt.view.viewport.views import HELP, View
+from glrt.view.viewport.views import HELP, VIEWS
 
-VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, get_args(View))
+VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, VIEWS)
 _MOST = "the difference, relative to the kept picture, that is shown in the strongest colour"
 MOST = Control("strongest", "number", _MOST, Cost.FREE, "1", 0.001, 10.0, (0.01, 2.0))
 

@@ -3,21 +3,35 @@
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.rendering.false_colors import Color, Scale
+from glrt.scene.camera import Camera
 from glrt.view.state.error_history import Look
 from glrt.view.viewport.picture_view import PictureView
-from glrt.view.viewport.views import TITLES, ticks_of
+from glrt.view.viewport.views import aov_of, ticks_of, title_of
 
 _BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
 _TEXT = (1.0, 1.0, 1.0, 1.0)
 _TALLEST = 1.0  # of the bar, in heights of the text
 
 
-def draw_legend(show: PictureView, last: Look | None, corner: ImVec2, width: float) -> None:
+def draw_legend(
+    show: PictureView, camera: Camera, last: Look | None, corner: ImVec2, width: float
+) -> None:
     """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
-    title = TITLES[show.drawn]
+    title = title_of(show.drawn, camera)
+    if aov_of(show.drawn):
+        return _draw_title(title, corner)
     if show.drawn == "dropped" and last and not last.nonfinite:
         title = "no sample was dropped"
-    _draw(title, show.scale, ticks_of(show.drawn, show.scale), corner, width)
+    return _draw(title, show.scale, ticks_of(show.drawn, show.scale), corner, width)
+
+
+def _draw_title(title: str, corner: ImVec2) -> None:
+    painter, em = imgui.get_window_draw_list(), hello_imgui.em_size(1)
+    line = imgui.get_text_line_height()
+    size = imgui.calc_text_size(title) + ImVec2(3 * em, 0.8 * line)
+    low = corner + ImVec2(0, -size.y)
+    painter.add_rect_filled(low, low + size, _code(_BACK))
+    painter.add_text(low + ImVec2(1.5 * em, 0.4 * line), _code(_TEXT), title)
 
 
 def _draw(title: str, scale: Scale, ticks: dict[float, str], corner: ImVec2, width: float) -> None:

@@ -60,7 +60,7 @@ def draw_viewport(app: App) -> None:
         _mouse(app)
         _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
     if app.show.drawn != "picture":
-        draw_legend(app.show, app.progress.last, corner + ImVec2(0, height), width)
+        draw_legend(app.show, app.camera, app.progress.last, corner + ImVec2(0, height), width)
     notices = app.show.notice(app.session), app.recent_message(time.perf_counter())
     for line, notice in enumerate(filter(None, notices)):
         _notice(notice, corner + ImVec2(0, 2.4 * line * imgui.get_font_size()))

@@ -17,7 +17,7 @@ from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.values import Radiance
-from glrt.settings import Cost, Settings, settings_for
+from glrt.settings import Aov, Cost, Settings, settings_for
 from glrt.view.memo import kept_for_the_same
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
@@ -59,6 +59,7 @@ class Session:
         self.waits = False  # for another picture, which is to get as many samples
         self.by_length = False  # layers by the length of paths, so that bounces are weighed
         self.alone: int | None = None  # the one length that is shown
+        self.aov: Aov | None = None  # that is shown
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
         self.restarts = 0
@@ -133,7 +134,8 @@ class Session:
     def is_done(self) -> bool:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
-        return not self._is_behind and (waits or self.samples >= self.settings.samples)
+        is_short = self.renderer is None or self.renderer.lacks(self.settings.samples)
+        return not self._is_behind and (waits or not is_short)
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
@@ -167,7 +169,7 @@ class Session:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
-            is_short = self.samples < target
+            is_short = self.renderer.lacks(target)
             if is_short and not (self.rest and self.rest.follow(self.renderer, self.restarts)):
                 self._render(self.renderer, target, seconds)
 
@@ -185,9 +187,9 @@ class Session:
         return Renderer(state.scene, state.settings, self._context, **ways)
 
     def image(self) -> Image:
-        """The picture as it is shown, with its error and its recipe."""
+        """The picture with its error and its recipe, without the AOV of the view."""
         assert self.renderer
-        return self.renderer.image(self.weights)
+        return self.renderer.image(self.weights).with_aovs(self.settings.aov)
 
     def release(self) -> None:
         """Free what the driver holds."""
@@ -268,7 +270,7 @@ class Session:
     def settings_of(self, renderer: Renderer) -> Settings:
         """The renderer's settings at full size."""
         size = {"width": self.settings.width, "height": self.settings.height}
-        return settings_for(renderer.settings, **size)
+        return settings_for(renderer.settings, aov=self.settings.aov, **size)
 
     def _compiles(self) -> bool:
         if not self.renderer:
@@ -282,7 +284,8 @@ class Session:
 
     def _wanted(self) -> State:
         """What the renderer is to have: while the camera moves, a size that keeps up."""
-        settings = self.settings
+        shown = (self.aov,) if self.aov else ()
+        settings = settings_for(self.settings, aov=(*self.settings.aov, *shown))
         factor = self._preview.factor
         if factor > 1:
             size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}

@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import moderngl
 
+from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors, Scale
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.picture import Picture
-from glrt.view.viewport.views import View, scale_of
+from glrt.view.viewport.views import View, aov_of, scale_of
 
 
 @dataclass
@@ -18,6 +19,7 @@ class PictureView:
 
     picture: Picture
     colors: FalseColors
+    aovs: AovView
     view: View = "picture"  # as wanted; see `drawn`
     most: float = 0.5  # relative difference that has the strongest colour
     wipe: float = 0.5  # share of the picture's width that shows the kept one
@@ -36,6 +38,7 @@ class PictureView:
 
         RenderError if the driver has no room for that.
         """
+        session.aov = aov_of(self.view)
         renderer = session.renderer
         kept = self._compared(session)
         session.waits = bool(kept and renderer and kept.samples(renderer) < session.samples)
@@ -60,7 +63,7 @@ class PictureView:
         if kept and other is None:
             return  # until it has as many samples
         settings, view = session.settings, self._possible(session)
-        progress = session.samples, session.restarts, session.weights
+        progress = renderer.shown, session.restarts, session.weights
         content = (
             *progress,
             settings.exposure,
@@ -116,6 +119,7 @@ class PictureView:
         self.forget()
         self.picture.release()
         self.colors.release()
+        self.aovs.release()
 
     def _compared(self, session: Session) -> ReferenceImage | None:
         """The kept picture if its difference is to be shown, and can be."""
@@ -126,6 +130,9 @@ class PictureView:
 
     def _possible(self, session: Session) -> View:
         """The view as wanted, or the picture where that cannot be told."""
+        if aov := aov_of(self.view):
+            is_there = session.renderer and session.renderer.aov_mean(aov)
+            return self.view if is_there else "picture"
         if session.is_preview or (self.view == "error" and not self._knows_error(session)):
             return "picture"
         return "picture" if self.view == "difference" and not self._compared(session) else self.view
@@ -143,8 +150,13 @@ class PictureView:
         if view == "picture":
             return self.picture.draw(light, session.settings, session.is_preview)
 
+        aov = aov_of(view)
+        mean = renderer.aov_mean(aov) if aov else None
+
         def paint() -> None:
-            if view == "error":
+            if aov and mean:
+                self.aovs.draw(aov, mean, renderer.scene.camera)
+            elif view == "error":
                 self.colors.draw_error(film, light, weights, self.mean or 0.0)
             elif view == "dropped":
                 self.colors.draw_dropped(film, light)

@@ -1,23 +1,46 @@
 """The views of a render: the picture, or its errors and differences in false colours."""
 
-from typing import Literal
+from typing import Literal, get_args
 
+from glrt.rendering.aov_view import cell_of
 from glrt.rendering.false_colors import DIFFERENCE, DROPPED, ERROR, Scale, symmetric
+from glrt.scene.camera import Camera
+from glrt.settings import Aov
 
-View = Literal["picture", "error", "dropped", "difference"]
+FilmView = Literal["picture", "error", "dropped", "difference"]
+View = FilmView | Aov
+VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 
 HELP = (
     "picture: as it will be saved\n"
     "error: the estimated relative error of each pixel\n"
     "dropped: where samples were not finite and were left out\n"
     "difference: from the kept picture, at equal seeds and samples; what did not change shows no "
-    "noise"
+    "noise\n"
+    "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
+    "gathered while they are shown"
 )
 TITLES: dict[View, str] = {
     "error": "estimated relative error of a pixel",
     "dropped": "samples dropped, not finite",
     "difference": "luminance against the kept picture",
+    "albedo": "albedo of the first surface",
+    "normal": "normal, x y z as red green blue around grey",
+    "depth": "depth, grey at {focus:.3g}, where the camera focuses",
+    "position": "position, x y z as red green blue, again every {cell:g}",
+    "object": "a colour for each object",
 }
+
+
+def title_of(view: View, camera: Camera) -> str:
+    """What a view shows; lengths are in scene units."""
+    focus, cell = camera.resolved_focus_distance, cell_of(camera)
+    return TITLES[view].format(focus=focus, cell=cell)
+
+
+def aov_of(view: View) -> Aov | None:
+    """The AOV that a view shows, if it shows one."""
+    return next((aov for aov in get_args(Aov) if aov == view), None)
 
 
 def scale_of(view: View, most: float) -> Scale:

@@ -1,0 +1,37 @@
+// An AOV as colours. Film row 0 is on top.
+
+#include "passes/tonemap.glsl"
+#include "sampling/hash.glsl"
+#include "integrators/aov_numbers.glsl"
+
+uniform sampler2D mean;   // of the AOV, as in aov.comp
+uniform int aov;
+uniform vec3 eye;         // position of the camera, less whole cells
+uniform float distance;   // along the view axis, that is shown as middle grey
+uniform float cell;       // after which colours of the position repeat
+
+in vec2 place;
+out vec4 color;
+
+// Neighbouring numbers get unlike colours; none is dark.
+vec3 color_of_object(uint number) {
+    uint bits = pcg_hash(number);
+    precise vec3 share = vec3(uvec3(bits, bits >> 8, bits >> 16) & 255u) / 255.0;
+    return 0.25 + 0.75 * share;
+}
+
+vec3 color_of(vec4 value) {
+    if (aov == ALBEDO) return encode_srgb(clamp(value.rgb, 0.0, 1.0));
+    if (aov == NORMAL) return 0.5 + 0.5 * value.rgb;
+    if (value.a == 0.0) return vec3(0.0);  // nothing is met
+    if (aov == DEPTH) return vec3(distance / (distance + max(value.r, 0.0)));
+    if (aov == POSITION) return fract((value.rgb + eye) / cell);
+    uint number = uint(value.r);
+    return number == 0u ? vec3(0.0) : color_of_object(number);
+}
+
+void main() {
+    ivec2 size = textureSize(mean, 0);
+    ivec2 texel = min(ivec2(place * vec2(size)), size - 1);
+    color = vec4(color_of(texelFetch(mean, texel, 0)), 1.0);
+}

@@ -1,0 +1,8 @@
+// The numbers of AOVs.
+
+const int NO_AOV = 0;
+const int ALBEDO = 1;
+const int NORMAL = 2;
+const int DEPTH = 3;
+const int POSITION = 4;
+const int OBJECT = 5;
