@@ -18,8 +18,9 @@ def render(
 ) -> Image:
     """Render a scene; `settings` are fields of Settings, the rest comes from the scene.
 
-    A `part` (k, n) is the k-th of n parts of the samples, k from 1, for
-    `glrt.merge`.
+    A `part` (k, n) renders the k-th of n parts of the samples, k from 1; `glrt.merge` puts parts
+    together.
+
     Raises UsageError for a setting out of range, ContextError without OpenGL, RenderError, and
     SceneError for a scene beyond the driver.
     """

@@ -1,4 +1,4 @@
-"""Write docs/reference/ from the program: scene files, commands and Python.
+"""Write docs/reference/ from the program: scene files, commands, Python, what goes with what.
 
 `make reference` runs it; a test compares the files with what it would write.
 """
@@ -10,6 +10,7 @@ from pathlib import Path
 # The checkout, whatever version of glrt is installed.
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from reference_combinations import combinations_page
 from reference_commands import commands
 from reference_python import python_api
 from reference_scene import scene_file
@@ -20,6 +21,7 @@ MAKERS: dict[str, Callable[[], Iterator[str]]] = {
     "scene-file.md": scene_file,
     "commands.md": commands,
     "python-api.md": python_api,
+    "combinations.md": combinations_page,
 }
 
 

@@ -11,7 +11,7 @@ from glrt.image.merge import merged_image
 from glrt.image.recipe import Recipe
 from glrt.text import counted
 
-DESCRIPTION = "Put the parts of a render together, which `glrt render --part K/N` made."
+DESCRIPTION = "Put parts of a render together, each made with --part K/N."
 EPILOG = (
     "The picture does not depend on the order of the parts. Rendered again from its recipe it has "
     "the same bits; a render in one piece adds its samples in another order, so its last bits "

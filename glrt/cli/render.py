@@ -15,7 +15,7 @@ from glrt.cli.options import AUTO, SCENE, add_context, add_pipeline, add_setting
 from glrt.cli.process import fail, peak_bytes, since_start
 from glrt.cli.request import Order, opened, order
 from glrt.error.reliability import doubt
-from glrt.errors import RenderError
+from glrt.errors import RenderError, UsageError
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.methods.omissions import left_out, omissions
@@ -100,6 +100,9 @@ def _run(arguments: argparse.Namespace) -> int:
     wanted = order(arguments)
     for output in arguments.outputs:
         check_writable(output)
+    is_kept = any(name.lower().endswith(".exr") for name in arguments.outputs)
+    if getattr(arguments, "aov", ()) and not is_kept:
+        raise UsageError("--aov needs an .exr output: other files hold the picture alone.")
     for text in [] if arguments.quiet else cautions(wanted.scene, wanted.settings):
         print(f"glrt: caution: {text}", file=sys.stderr)
     if is_automatic(arguments):
