@@ -15,6 +15,7 @@ from importlib.metadata import version
 from typing import Any, NamedTuple
 
 from glrt.doctor.install_hints import remedies
+from glrt.doctor.lacks import lacking
 from glrt.gpu.context import MOST_DEVICES, ROUTES
 from glrt.gpu.driver_checks import MOST_ROUNDS
 from glrt.version import VERSION
@@ -82,10 +83,12 @@ def report(as_json: bool = False) -> tuple[str, bool]:
     used = _used(examine("auto"))
     works = any(examination.works for examination in examinations)
     if as_json:
-        return json.dumps(_table(examinations, used)), works
+        lacks = lacking(_has_compute(used, examinations))
+        return json.dumps({**_table(examinations, used), "lacks": lacks}), works
     lines = [_versions(), ""]
     for examination in examinations:
         lines += [*_lines(examination, used), ""]
+    lines += [f"Not available here: {text}." for text in lacking(_has_compute(used, examinations))]
     return "\n".join([*lines, _verdict(used, examinations)]), works
 
 
@@ -93,6 +96,12 @@ def _used(auto: Examination) -> Used | None:
     """What `auto` chose, if anything."""
     opening = auto.found.get("open", {})
     return Used(opening["route"], opening["device"]) if "route" in opening else None
+
+
+def _has_compute(used: Used | None, examinations: list[Examination]) -> bool:
+    """Whether compute shaders work on the route that a render would take."""
+    chosen = [examination for examination in examinations if _is_of(examination, used)]
+    return any(e.found.get("compute", {}).get("furnace", 1.0) < EXACT for e in chosen)
 
 
 def _table(examinations: list[Examination], used: Used | None) -> Finding:

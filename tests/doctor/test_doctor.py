@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from glrt.doctor import install_hints, route_process
+from glrt.doctor import install_hints, lacks, route_process
 from glrt.doctor import report as doctor
 from glrt.doctor.report import Examination, examine, report
 from glrt.gpu.context import ROUTES, Context
@@ -181,3 +181,17 @@ def test_report_says_what_a_dead_driver_had_shown(monkeypatch: pytest.MonkeyPatc
     assert "compute       no answer" in text
     assert "the driver crashed" in text
     assert "compute shaders fail: use --pipeline fragment" in text
+
+
+def test_what_the_machine_lacks_is_listed(
+    told: Callable[..., str], examined: list[Examination], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert "Not available here" not in told()
+    monkeypatch.setattr(lacks, "find_spec", lambda name: None if name == "glfw" else name)
+    assert "Not available here: the window: pip install 'glrt[view]'." in told().splitlines()
+    for examination in examined:
+        monkeypatch.delitem(examination.found, "compute", raising=False)
+    (first, second) = json.loads(told(as_json=True))["lacks"]
+    assert first.startswith("the window")
+    assert second.startswith("light by layers")
+    assert second.endswith("needs compute shaders, OpenGL 4.3")

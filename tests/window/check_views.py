@@ -1,10 +1,11 @@
 """Other views of the picture, as numbers in colours."""
 
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
 from glrt.rendering.false_colors import ERROR
+from glrt.settings import Aov
 from tests.window.hand import Hand, check
 
 
@@ -40,3 +41,26 @@ def views_cost_no_sample_and_have_a_legend(hand: Hand) -> None:
     (again,) = views(hand, "picture")
     assert again.mean() > dropped.mean()
     assert (hand.session.restarts, hand.session.samples) == (restarts, samples)
+
+
+@check
+def views_of_aovs_cost_no_sample_and_are_not_saved(hand: Hand) -> None:
+    """Each shows its own picture, also of a render that is complete; a scene edit restarts it."""
+    session = hand.session
+    hand.until(lambda: session.samples >= 4)
+    hand.there(lambda: session.edit(samples=session.samples))
+    hand.settle()
+    restarts, samples = session.restarts, session.samples
+    shown = views(hand, *get_args(Aov))
+    for number, picture in enumerate(shown):
+        assert picture.std() > 5, get_args(Aov)[number]
+        assert all((picture != other).mean() > 0.05 for other in shown[:number])
+    assert (session.restarts, session.samples) == (restarts, samples)
+    image = hand.there(session.image)
+    assert not image.aovs
+    assert image.recipe
+    assert image.recipe.settings.aov == ()
+    assert len(np.unique(shown[-1].reshape(-1, 3), axis=0)) < 10, "a colour for each object"
+    views(hand, "picture")
+    assert hand.session.renderer
+    hand.until(lambda: hand.session.renderer.settings.aov == ())  # type: ignore[union-attr]
