@@ -26,8 +26,8 @@ vec3 color_of(vec4 value) {
     if (value.a == 0.0) return vec3(0.0);  // nothing is met
     if (aov == DEPTH) return vec3(distance / (distance + max(value.r, 0.0)));
     if (aov == POSITION) return fract((value.rgb + eye) / cell);
-    uint number = uint(value.r);
-    return number == 0u ? vec3(0.0) : color_of_object(number);
+    if (aov == OBJECT && value.r > 0.0) return color_of_object(uint(value.r));
+    return vec3(0.0);
 }
 
 void main() {

@@ -7,7 +7,7 @@ of its name; its standard error and its counts stand in channels of their own.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ CHANNELS: dict[Aov, str] = {
     "position": "XYZ",
     "object": "I",
 }
+
+if list(CHANNELS) != list(get_args(Aov)):
+    raise TypeError(f"AOVs {get_args(Aov)} have channels {CHANNELS}")
 
 
 @dataclass(frozen=True, eq=False)

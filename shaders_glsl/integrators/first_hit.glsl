@@ -19,7 +19,8 @@ vec3 aov_of(int aov, Ray ray, Hit hit) {
     if (aov == ALBEDO) return albedo_of(material_at(surface.material));
     if (aov == NORMAL) return dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
     if (aov == DEPTH) return vec3(dot(surface.position, frame.camera.forward));
-    return surface.position;
+    if (aov == POSITION) return surface.position;
+    return nothing_met();
 }
 
 // 1 + the number of the shape in the middle of the pixel, through the middle of the lens; 0 for none.
