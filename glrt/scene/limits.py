@@ -59,13 +59,18 @@ def _huge_ball(scene: Scene) -> str:
 
 
 def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
-    """Of each large ball, its radius over the smallest thing that its surface is near to."""
+    """Of large balls, the radius over the smallest thing that the surface is near to.
+
+    Those are left out that are not HUGE beside the smallest ball, nor seen from near.
+    """
     center, radius = _places(scene, balls)
-    for ball in np.argsort(-radius)[:MOST_COMPARED]:
+    heights = np.abs(np.linalg.norm(center, axis=1) - radius)
+    largest = np.argsort(-radius)[:MOST_COMPARED]
+    least = np.minimum(heights, radius.min(initial=math.inf))
+    for ball in largest[radius[largest] > HUGE * least[largest]]:
         gap = np.abs(np.linalg.norm(center - center[ball], axis=1) - radius[ball])
         touching = radius[(gap <= 2 * radius) & (np.arange(len(radius)) != ball)]
-        height = abs(float(np.linalg.norm(center[ball])) - radius[ball])
-        nearest = float(min([height, *touching]))
+        nearest = float(min([heights[ball], *touching]))
         yield float(radius[ball]) / max(nearest, float(radius[ball]) * ROUNDING), int(ball)
 
 
