@@ -13,6 +13,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - node_visits: the number of nodes of the tree that a ray visits
 - roofline: the speed of the kernel relative to the peak of the machine
 - dispatches: the longest dispatch of a render
+- aovs: what AOVs cost
 - memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
 - calibration: the estimated error of pictures against their true error
