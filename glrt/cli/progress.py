@@ -52,28 +52,41 @@ class Forecast:
     def after(self, renderer: Renderer) -> dict[str, Any]:
         """The fields of the bar after a dispatch."""
         start = time.perf_counter()
-        if renderer.samples and start >= self._due:
+        is_first = self._error is None and renderer.samples >= 2 * renderer.settings.block
+        if is_first or (renderer.samples and start >= self._due):
             self._error = renderer.image().error
             spent = time.perf_counter() - start
             self._due = start + spent + max(LOOK, spent / SHARE)
         seconds = start - self._start
         total = self._total_seconds(renderer.work, seconds)
-        left = max(0.0, total - seconds)
         error = f"error {100 * self._error:.2g} %  " if self._error else ""
         most = self._limits.samples  # of which nobody speaks where time or error ends the render
         of_all = f" of {most}" if most < MAX_SAMPLES else ""
         done = f"{renderer.samples}{of_all} samples"
+        if total is None:
+            rest = f"{error}{seconds:.0f} s, how long is not known yet"
+            return {"completed": 0.0, "done": done, "rest": rest}
         share = min(1.0, seconds / total) if total else 1.0
-        rest = f"{error}{seconds:.0f} s, {left:.0f} s to go"
+        rest = f"{error}{seconds:.0f} s, {max(0.0, total - seconds):.0f} s to go"
         return {"completed": share, "done": done, "rest": rest}
 
-    def _total_seconds(self, samples: float, seconds: float) -> float:
-        """Seconds to the first limit: the error falls with the square root of the samples."""
+    def _total_seconds(self, samples: float, seconds: float) -> float | None:
+        """Seconds to the first limit; None where only an error ends it, which is not known yet."""
         rate = max(samples - self._begun, 1e-9) / seconds
-        candidates = [(self._limits.samples - self._begun) / rate]
+        candidates = []
+        if self._limits.samples < MAX_SAMPLES or not self._limits.is_open:
+            candidates.append((self._limits.samples - self._begun) / rate)
         if self._limits.deadline is not None:
             candidates.append(self._limits.deadline - self._start)
         if self._limits.error and self._error:
-            needed = samples * math.pow(self._error / self._limits.error, 2)
-            candidates.append((needed - self._begun) / rate)
-        return min(candidates)
+            candidates.append((self._samples_to_error(samples) - self._begun) / rate)
+        return min(candidates, default=None)
+
+    def _samples_to_error(self, samples: float) -> float:
+        """The look at which the error is reached: it falls with the square root of the samples."""
+        assert self._limits.error
+        assert self._error
+        needed = samples * math.pow(self._error / self._limits.error, 2)
+        first = self._limits.first_look
+        doublings = max(0, math.ceil(math.log2(max(needed, 1.0) / first)))
+        return float(min(first * 2**doublings, self._limits.samples))

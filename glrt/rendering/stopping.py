@@ -28,6 +28,11 @@ class Limits:
     error: float | None = None
     first_look: int = FIRST_LOOK
 
+    @property
+    def is_open(self) -> bool:
+        """Whether time or error may end the render before the samples do."""
+        return self.deadline is not None or self.error is not None
+
 
 class Ending(NamedTuple):
     """The picture at the end of a render, and what else is known of its error."""

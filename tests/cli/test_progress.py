@@ -22,7 +22,9 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
 
 def renderer(samples: int, error: float) -> Any:
     image = SimpleNamespace(error=error)
-    return SimpleNamespace(samples=samples, work=float(samples), image=lambda: image)
+    settings = SimpleNamespace(block=16)
+    work = float(samples)
+    return SimpleNamespace(samples=samples, work=work, settings=settings, image=lambda: image)
 
 
 def told(clock: dict[str, float], limits: Limits, samples: int, begun: int = 0) -> dict[str, Any]:
@@ -38,19 +40,24 @@ def told(clock: dict[str, float], limits: Limits, samples: int, begun: int = 0) 
         (Limits(400), 0, 16),  # at 25 samples a second
         (Limits(1000, deadline=110.0), 0, 10),
         (Limits(1000, deadline=187.0), 0, 40),
-        (Limits(1 << 20, error=0.1), 0, 16),  # four times the samples
+        (Limits(1 << 20, error=0.1), 0, 20.48),  # four times the samples, seen at 512
+        (Limits(450, error=0.1), 0, 18),
+        (Limits(1 << 20, error=0.5), 0, 4),  # reached, and seen at 64
         (Limits(1 << 20, deadline=106.0, error=0.1), 0, 6),
         (Limits(400), 50, 28),  # at 12.5 a second
-        (Limits(1 << 20, error=0.1), 50, 28),
+        (Limits(1 << 20, error=0.1), 50, 36.96),
     ],
-    ids=["samples", "time", "samples before time", "error", "time before error", *"ab"],
+    ids=[
+        *("samples", "time", "samples before time", "error", "samples before error", "reached"),
+        *("time before error", *"ab"),
+    ],
 )
 def test_the_first_limit_tells_how_long_it_takes(
     clock: dict[str, float], limits: Limits, begun: int, total: float
 ) -> None:
     state = told(clock, limits, 100, begun)
-    assert state["completed"] == pytest.approx(4 / total)
-    assert state["rest"].endswith(f"4 s, {total - 4} s to go")
+    assert state["completed"] == pytest.approx(min(4 / total, 1))
+    assert state["rest"].endswith(f"4 s, {total - 4:.0f} s to go")
     most = "" if limits.samples == MAX_SAMPLES else f" of {limits.samples}"
     assert state["done"] == f"100{most} samples", "nobody asked for 2^20"
 
@@ -59,7 +66,19 @@ def test_the_error_is_told_once_it_was_looked_at(clock: dict[str, float]) -> Non
     assert told(clock, Limits(400), 100)["rest"].startswith("error 20 %  4 s")
     forecast = Forecast(Limits(400))
     clock["seconds"] += progress.LOOK / 2
-    assert "error" not in forecast.after(renderer(100, 0.2))["rest"]
+    assert "error" not in forecast.after(renderer(31, 0.2))["rest"], "not before the second block"
+    assert forecast.after(renderer(32, 0.2))["rest"].startswith("error 20 %")
+
+
+def test_before_the_error_is_known_nobody_knows_how_long_it_takes(clock: dict[str, float]) -> None:
+    forecast = Forecast(Limits(MAX_SAMPLES, error=0.03))
+    clock["seconds"] += progress.LOOK / 2
+    state = forecast.after(renderer(20, 0.2))
+    assert state == {
+        "completed": 0.0,
+        "done": "20 samples",
+        "rest": "1 s, how long is not known yet",
+    }
 
 
 def test_looks_at_the_error_take_a_twentieth_of_the_time(clock: dict[str, float]) -> None:
@@ -71,7 +90,9 @@ def test_looks_at_the_error_take_a_twentieth_of_the_time(clock: dict[str, float]
         clock["seconds"] += 3.0
         return SimpleNamespace(error=0.2)
 
-    large: Any = SimpleNamespace(samples=1, work=1.0, image=image)
+    large: Any = SimpleNamespace(
+        samples=1, work=1.0, image=image, settings=SimpleNamespace(block=16)
+    )
     forecast = Forecast(Limits(400))
     for _ in range(1000):
         clock["seconds"] += 0.25
