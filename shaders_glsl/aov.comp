@@ -16,10 +16,6 @@ layout(rgba32f) uniform writeonly image2D target_second_variance;
 
 layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 
-Pixel pixel_of(vec4 mean, vec4 variance) {
-    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
-}
-
 void main() {
     ivec2 picture = imageSize(target_mean);
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));

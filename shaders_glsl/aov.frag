@@ -11,10 +11,6 @@ layout(location = 1) out vec4 target_variance;
 layout(location = 2) out vec4 target_second_mean;
 layout(location = 3) out vec4 target_second_variance;
 
-Pixel pixel_of(vec4 mean, vec4 variance) {
-    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
-}
-
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     precise Pixel first = empty_pixel();

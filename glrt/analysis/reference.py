@@ -23,11 +23,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt import files
 from glrt.error.estimate import DARK
-from glrt.errors import RenderError, SceneError
+from glrt.errors import RenderError
 from glrt.gpu.context import Context
+from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read, shader_files
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import iterations_per_sample
 from glrt.resources import folder
 from glrt.scene.materials import Lambertian, Light, Material, Metal
 from glrt.scene.scene import Scene
@@ -87,25 +89,26 @@ def reference_for(
     seconds: float,
     watch: Callable[[float], None] | None = None,
     check: Callable[[Renderer], bool] | None = None,
+    samples: int = MAX_SAMPLES,
 ) -> Reference:
     """Return the reference of a scene in the frame of `settings`, from the cache if it is there.
 
     The number of samples doubles until the relative RMS error of the reference itself is at most
-    `error`, or until the next doubling would exceed `seconds` or MAX_SAMPLES. `watch` is called
-    with the share of the work that is done; `check` is called after each dispatch and may raise to
-    stop.
+    `error`, or until the next doubling would exceed `seconds` or `samples`. With infinite `seconds`
+    no clock decides. `watch` is called with the share of the work that is done; `check` is called
+    after each dispatch and may raise to stop.
     """
     radiance = closed_form(scene)
     if radiance is not None:
         width, height = settings.size
         whole = np.full((height, width, 3), radiance)
         return Reference(whole, whole, 0, BOUNCES)
-    path = _cache_folder() / f"{_key(scene, settings, error, seconds)}.npz"
+    path = _cache_folder() / f"{_key(scene, settings, context, error, seconds, samples)}.npz"
     found = _loaded(path)
     if found is None:
         halves = _halves(scene, settings, context)
         try:
-            found = _rendered(halves, error, seconds, watch, check)
+            found = _rendered(halves, error, seconds, watch, check, samples)
         finally:
             for half in halves:
                 half.release()
@@ -143,20 +146,24 @@ _OTHER_HASH = read("sampling/other_hash.glsl")
 OTHER_NUMBERS = Variant(texts={"sampling/hash.glsl": _OTHER_HASH})
 
 
-def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:
-    """The renderers of both halves, with BOUNCES or as many as the driver's loop limit allows."""
+def unlimited(scene: Scene, settings: Settings, context: Context) -> Settings:
+    """Settings of a reference: BOUNCES, or as many as the driver's loop limit allows."""
     bounces = max(BOUNCES, settings.bounces)
     while True:
-        try:
-            wanted = settings_for(settings, method="mis", bounces=bounces, sampler=SAMPLER)
-            return [
-                Renderer(scene, wanted, context, "baked", variant=OTHER_NUMBERS, seed=seed)
-                for seed in SEEDS
-            ]
-        except SceneError:
-            if bounces <= settings.bounces:
-                raise
-            bounces = max(bounces // 2, settings.bounces)
+        wanted = settings_for(settings, method="mis", bounces=bounces, sampler=SAMPLER)
+        rounds = usable_rounds(context, iterations_per_sample(scene, wanted))
+        certain = iterations_per_sample(scene, wanted, 0)
+        if rounds is None or certain <= rounds or bounces <= settings.bounces:
+            return wanted
+        bounces = max(bounces // 2, settings.bounces)
+
+
+def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:
+    wanted = unlimited(scene, settings, context)
+    return [
+        Renderer(scene, wanted, context, "baked", variant=OTHER_NUMBERS, seed=seed)
+        for seed in SEEDS
+    ]
 
 
 def _rendered(
@@ -165,6 +172,7 @@ def _rendered(
     seconds: float,
     watch: Callable[[float], None] | None,
     check: Callable[[Renderer], bool] | None,
+    most: int = MAX_SAMPLES,
 ) -> Reference:
     start = time.perf_counter()
     samples = FIRST_LOOK
@@ -175,7 +183,7 @@ def _rendered(
         spent = time.perf_counter() - start
         if watch:
             watch(min(1.0, max(spent / seconds, (error / max(result.error, 1e-9)) ** 2)))
-        if result.error <= error or 2 * spent > seconds or 2 * samples > MAX_SAMPLES:
+        if result.error <= error or 2 * spent > seconds or 2 * samples > most:
             return result
         samples *= 2
 
@@ -186,14 +194,18 @@ def _cache_folder() -> Path:
     return Path(base) / "glrt" / "references"
 
 
-def _key(scene: Scene, settings: Settings, error: float, seconds: float) -> str:
-    """A hash of everything that the halves depend on, shader sources included."""
+def _key(
+    scene: Scene, settings: Settings, context: Context, error: float, seconds: float, samples: int
+) -> str:
+    """A hash of everything that the halves depend on, shader sources and driver included."""
     root = folder("shaders_glsl")
     texts = [(file, file.read_text("utf-8")) for file in shader_files()]
     shaders = {file.relative_to(root).as_posix(): text for file, text in texts}
-    frame = [settings.width, settings.height, settings.crop, settings.bounces, BOUNCES]
-    numbers = [SEEDS, SAMPLER]
-    parts = [scene_to_dict(scene), frame, numbers, error, seconds, VERSION, shaders]
+    frame = [settings.width, settings.height, settings.crop]
+    paths = [settings.bounces, BOUNCES, settings.roulette]
+    ends = [error, seconds, samples]
+    driver = [context.renderer, context.version]
+    parts = [scene_to_dict(scene), frame, paths, SEEDS, SAMPLER, ends, driver, VERSION, shaders]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
 
 

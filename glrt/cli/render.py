@@ -109,7 +109,7 @@ def _run(arguments: argparse.Namespace) -> int:
         from glrt.analysis.method_choice.advice import choose
 
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
-        wanted = replace(wanted, scene=wanted.scene, settings=chosen[0], limits=chosen[1])
+        wanted = replace(wanted, **chosen._asdict())
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption)
 

@@ -2,9 +2,9 @@
 
 import argparse
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import get_args
 
 from glrt.cli.options import is_automatic, settings_given
@@ -36,6 +36,7 @@ class Order:
     begun: Image | None = None  # the picture to go on from
     part: tuple[int, int] | None = None  # number and count of the part that is wanted
     merged: Partition | None = None  # the parts that the picture was merged from
+    decisions: Mapping[str, str] = field(default_factory=dict)  # as in recipes
 
 
 def order(arguments: argparse.Namespace) -> Order:
@@ -47,9 +48,17 @@ def order(arguments: argparse.Namespace) -> Order:
     if arguments.scene is None:
         raise UsageError("SCENE is missing. See `glrt render --help`.")
     scene, settings = scene_and_settings(arguments)
-    ways = ways_wanted(arguments, settings, recipe_of(arguments.scene))
+    recipe = recipe_of(arguments.scene)
+    ways = ways_wanted(arguments, settings, recipe)
     check(ways - {Way.CLASSIC} if Way.AUTO in ways else ways)
-    return _in_parts(arguments, _limited(arguments, Order(scene, settings, Limits(0))))
+    found = Order(scene, settings, Limits(0), decisions=_decisions_kept(arguments, recipe))
+    return _in_parts(arguments, _limited(arguments, found))
+
+
+def _decisions_kept(arguments: argparse.Namespace, recipe: Recipe | None) -> dict[str, str]:
+    """The decisions that a picture tells of, but for settings that are given anew."""
+    told = recipe.decisions if recipe else {}
+    return {name: by for name, by in told.items() if name not in vars(arguments)}
 
 
 def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
@@ -107,14 +116,20 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
     if order.begun is None:
         recipe = recipe_of(arguments.scene)
         return open_renderer(
-            order.scene, order.settings, recipe, route, "baked", pipeline, order.part
+            *(order.scene, order.settings, recipe, route, "baked", pipeline),
+            order.part,
+            order.decisions,
         )
     recipe = recipe_to_resume(order.begun)
     if pipeline == "auto" and recipe.pipeline == "fragment":
         pipeline = "fragment"
     tier: Tier = next((tier for tier in TIERS if tier == recipe.tier), "baked")
     with _going_on(arguments.resume):
-        renderer = Renderer(order.scene, order.settings, route, tier, pipeline, part=order.part)
+        renderer = Renderer(
+            *(order.scene, order.settings, route, tier, pipeline),
+            part=order.part,
+            decisions=order.decisions,
+        )
         return renderer.resume(order.begun)
 
 
@@ -126,6 +141,7 @@ def open_renderer(
     tier: Tier = "generic",
     pipeline: Pipeline = "auto",
     part: tuple[int, int] | None = None,
+    decisions: Mapping[str, str] = {},
 ) -> Renderer:
     """A renderer of a scene, which came from a picture if there is a recipe.
 
@@ -134,7 +150,7 @@ def open_renderer(
     """
     light = recipe.traced if recipe else None
     if not (recipe and light and _is_shown(recipe, scene, settings)):
-        return Renderer(scene, settings, context, tier, pipeline, part=part)
+        return Renderer(scene, settings, context, tier, pipeline, part=part, decisions=decisions)
     before = settings_for(settings, bounces=light.bounces)
     renderer = Renderer(light.scene, before, context, tier, pipeline, light.layering)
     cost = renderer.update(scene, **dict(settings))
@@ -170,7 +186,8 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
         scene = with_lights(scene, dict(arguments.lights))
         base = settings_for(wished or recipe.settings, samples=recipe.settings.samples)
         settings = settings_for(base, **settings_given(arguments))
-        order = _limited(arguments, Order(scene, settings, Limits(0), image))
+        kept = _decisions_kept(arguments, recipe)
+        order = _limited(arguments, Order(scene, settings, Limits(0), image, decisions=kept))
         update = {"scene": scene, "settings": order.settings}
         fitting(image, recipe.model_copy(update=update))
         if recipe.partition:

@@ -1,6 +1,7 @@
 """The recipe of a picture: all that made it, as JSON in the picture's metadata."""
 
 import json
+from collections.abc import Mapping
 from typing import Annotated, Any, Self
 
 from pydantic import Field, ValidationError, model_validator
@@ -47,6 +48,11 @@ def traced(film: Plan, weights: Weights) -> Traced | None:
     )
 
 
+def lasting(decisions: Mapping[str, str], chosen: Settings, now: Settings) -> dict[str, str]:
+    """Those of `decisions` whose settings are now as they were `chosen`."""
+    return {k: v for k, v in decisions.items() if getattr(now, k) == getattr(chosen, k)}
+
+
 class Recipe(Frozen):
     """Rendered again, it gives the same bits on the same driver."""
 
@@ -64,11 +70,20 @@ class Recipe(Frozen):
     partition: Partition | None = Field(
         None, description="the parts that the picture was merged from, or the part that it is"
     )
+    decisions: dict[str, str] = Field(
+        {}, description="by what the program chose a setting in the user's place, by its name"
+    )
 
     @model_validator(mode="after")
     def _has_samples_for_each_part(self) -> Self:
         if self.partition and not self.samples <= self.partition.samples(self.settings):
             raise ValueError(f"{self.samples} samples are not of its parts, {self.partition}")
+        return self
+
+    @model_validator(mode="after")
+    def _decisions_are_about_settings(self) -> Self:
+        if unknown := self.decisions.keys() - Settings.model_fields.keys():
+            raise ValueError(f"decisions about no setting: {', '.join(sorted(unknown))}")
         return self
 
     @property

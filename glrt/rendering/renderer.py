@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from typing import Any, Unpack
@@ -15,7 +15,7 @@ from glrt.gpu.context import Choice, Context, Pipeline, open_context
 from glrt.gpu.glsl import Source
 from glrt.image.image import Image
 from glrt.image.partition import Partition, one_part, sample_range
-from glrt.image.recipe import Recipe, traced
+from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
 from glrt.methods.combinations import Way, check, ways_of
 from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_for
@@ -48,6 +48,7 @@ class Renderer:
         layering: Layering = "none",
         variant: Variant = PLAIN,
         part: tuple[int, int] | None = None,
+        decisions: Mapping[str, str] = {},
         **overrides: Unpack[SettingOptions],
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
@@ -58,12 +59,14 @@ class Renderer:
         A `variant` of the kernel serves experiments.
         `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
         A `part` (k, n) renders the k-th of n parts of the settings' samples, k from 1.
+        `decisions` tell recipes by what some of the settings were chosen in the user's place.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
         self.scene = scene
         self.settings = settings_for(settings or scene.render, **overrides)
+        self._decisions = decisions, self.settings
         self._part: Partition | None = one_part(*part, self.settings) if part else None
         ways = ways_of(self.settings, layering) | ({Way.PART} if part else set())
         check(ways | ({Way.FRAGMENT} if pipeline == "fragment" else set()))
@@ -281,6 +284,7 @@ class Renderer:
             pipeline=self.pipeline,
             traced=traced(self.plan, weights),
             partition=self._part,
+            decisions=lasting(*self._decisions, self.settings),
         )
 
     def _work(self, remaining: int, policy: DispatchPolicy, seconds: float = math.inf) -> None:

@@ -29,9 +29,9 @@ def furnace(albedo: float = 0.5, bounces: int = 10) -> Scene:
     return box.model_copy(update={"render": box.render.model_copy(update={"bounces": bounces})})
 
 
-def of_bias(bias: float, variance: float = 1.0, seconds: float = 1.0) -> Candidate:
+def of_bias(bias: float, variance: float = 1.0, work: float = 1.0) -> Candidate:
     settings = settings_for(furnace().render, sampler="independent")
-    return Candidate("mis", settings, Bias(bias**2, 0.0), variance, seconds)
+    return Candidate("mis", settings, Bias(bias**2, 0.0), variance, work, 1.0)
 
 
 class Clock:

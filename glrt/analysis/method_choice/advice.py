@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 from glrt.analysis.chart.words import number, percent
 from glrt.analysis.method_choice.search import Verdict, what_suffices
@@ -19,6 +20,18 @@ from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
 SHARE = 0.5  # most time of the measurement, relative to what is left of `--time`
+# What decided, as recipes tell it.
+BY_WORK = "auto: counted work"
+BY_WORK_IN_TIME = "auto: counted work, within half of --time"
+FOR_LACK_OF_TIME = "auto: the default, since half of --time was too short"
+
+
+class Choice(NamedTuple):
+    """What was chosen for a render, and what decided, by the names of settings."""
+
+    settings: Settings
+    limits: Limits
+    decisions: dict[str, str]
 
 
 def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> None:
@@ -28,13 +41,14 @@ def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> N
 
 def choose(
     arguments: argparse.Namespace, scene: Scene, settings: Settings, limits: Limits
-) -> tuple[Settings, Limits]:
-    """Return settings with the fastest method that reaches the error, and limits for its render.
+) -> Choice:
+    """Return settings with the cheapest method that reaches the error, and limits for its render.
 
-    The limits reduce the error by the bias of the method, and set the first look at the estimated
-    error to the number of samples that the measurement found necessary: the estimate is too low
-    where few paths carry the light. If a deadline leaves no time to measure, the method is LEADER
-    with the bounces of `settings`. Raises UsageError if `limits` has no error.
+    No clock decides, unless there is a deadline. The limits reduce the error by the bias of the
+    method, and set the first look at the estimated error to the number of samples that the
+    measurement found necessary: the estimate is too low where few paths carry the light. If a
+    deadline leaves no time to measure, the method is LEADER with the bounces of `settings`. Raises
+    UsageError if `limits` has no error.
     """
     if limits.error is None:
         raise UsageError("--method auto chooses the method by the requested error: give --error E.")
@@ -44,12 +58,15 @@ def choose(
     except OutOfTimeError:
         settings = settings_for(settings, method=LEADER)
         _tell(arguments, _undecided(settings))
-        return settings, limits
+        return Choice(settings, limits, {"method": FOR_LACK_OF_TIME})
     _tell(arguments, conclusion(verdict))
     chosen = verdict.best or verdict.candidates[-1]
     noise = math.sqrt(max(limits.error**2 - chosen.bias.most**2, 0.0)) or limits.error
     first_look = max(limits.first_look, chosen.samples_to(limits.error) or 0)
-    return chosen.settings, replace(limits, error=noise, first_look=first_look)
+    limits = replace(limits, error=noise, first_look=first_look)
+    decided = BY_WORK if limits.deadline is None else BY_WORK_IN_TIME
+    names = ["method"] if _bounces_given(arguments) is not None else ["method", "bounces"]
+    return Choice(chosen.settings, limits, dict.fromkeys(names, decided))
 
 
 def _verdict(
@@ -61,11 +78,15 @@ def _verdict(
 ) -> Verdict:
     _tell(arguments, "Measuring which method suffices ...")
     context = open_context(arguments.context)
-    bounces = getattr(arguments, "bounces", None)
     try:
-        return what_suffices(scene, settings, error, context, bounces, seconds)
+        return what_suffices(scene, settings, error, context, _bounces_given(arguments), seconds)
     finally:
         context.gl.release()
+
+
+def _bounces_given(arguments: argparse.Namespace) -> int | None:
+    bounces: int | None = getattr(arguments, "bounces", None)
+    return bounces
 
 
 def _tell(arguments: argparse.Namespace, text: str) -> None:
@@ -96,10 +117,11 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
         yield f"{limit:>7}  {percent(bias.value):<8}{mark}".rstrip()
     yield ""
     width = max(len(candidate.name) for candidate in verdict.candidates)
-    yield f"{'method':<{width}} bounces  bias     seconds"
+    yield f"{'method':<{width}} bounces  bias     work"
     for candidate in verdict.candidates:
         yield _row(scene, verdict, candidate, width)
     yield ""
+    yield "Work is counted, by rays, shapes and lamps: 1 is that of the method which takes least."
     yield conclusion(verdict)
 
 
@@ -137,8 +159,8 @@ def _finding(verdict: Verdict) -> str:
     settings, (width, height) = best.settings, best.settings.size
     return (
         f"Enough: `{settings.method}` with {_count(settings.bounces, 'bounce')} reaches "
-        f"{percent(verdict.error)} with {_count(best.samples_to(verdict.error) or 0, 'sample')}, "
-        f"in about {_seconds(best.seconds_to(verdict.error))} s at {width} x {height}."
+        f"{percent(verdict.error)} with {_count(best.samples_to(verdict.error) or 0, 'sample')}; "
+        f"about {_seconds(best.seconds_to(verdict.error))} s at {width} x {height}, as timed now."
     )
 
 
@@ -154,7 +176,8 @@ def _seconds(value: float) -> str:
 def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> str:
     settings = candidate.settings
     samples = candidate.samples_to(verdict.error)
-    seconds = _seconds(candidate.seconds_to(verdict.error)) if samples else "never"
+    least = min(each.work_to(verdict.error) for each in verdict.candidates)
+    work = number(candidate.work_to(verdict.error) / least) if samples else "never"
     bias = percent(candidate.bias.value)
     if settings.method in CLASSIC:
         missing = omissions(scene, settings)
@@ -162,4 +185,4 @@ def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> st
     else:
         seen = "leaves out light" if candidate.bias.value > 0 else "no light detected"
         reason = f"{seen} beyond {_count(settings.bounces, 'bounce')}"
-    return f"{candidate.name:<{width}} {settings.bounces:>7}  {bias:<8} {seconds:<8} {reason}"
+    return f"{candidate.name:<{width}} {settings.bounces:>7}  {bias:<8} {work:<8} {reason}"

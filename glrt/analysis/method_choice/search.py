@@ -1,23 +1,25 @@
-"""The fastest method, and the number of bounces, that render a scene to a given error."""
+"""The cheapest method, and the number of bounces, that render a scene to a given error."""
 
 import math
 import time
 from dataclasses import dataclass
 
-from glrt.analysis.chart.experiment import frame_of
-from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Trial, until
-from glrt.analysis.reference import Reference, reference_for
+from glrt.analysis.method_choice.trial import LEADER, SEEDS, Bias, Candidate, Check, Trial, until
+from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
+from glrt.analysis.reference import Reference, reference_for, unlimited
 from glrt.analysis.variants import METHODS, variants_of
 from glrt.gpu.context import Context
 from glrt.methods.table import CLASSIC
+from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
 MOST_PIXELS = 16000  # of an edge of the frame in which a crop is measured
 HEIGHT = 48  # of the measured frame, in pixels
-REFERENCE_SECONDS = 10.0
+MOST_WIDE = 4  # times as wide as it is high; of a wider frame, the same number of pixels
+REFERENCE_WORK = 4e9  # most work of the reference: some 6 s on one core of llvmpipe
 REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds that are allowed
-_TIE = 1.25  # LEADER is chosen if it takes at most this many times as long as the fastest
+_TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
 
 
 @dataclass(frozen=True)
@@ -32,9 +34,9 @@ class Verdict:
 
     @property
     def best(self) -> Candidate | None:
-        """The candidate that reaches the error first; None if none is known to reach it.
+        """The candidate that reaches the error with least work; None if none is known to reach it.
 
-        LEADER is preferred if it is hardly slower, since it leaves out the least light.
+        LEADER is preferred if it takes hardly more, since it leaves out the least light.
         """
         nearest = self.nearest
         samples = nearest.samples_to(self.error)
@@ -42,10 +44,10 @@ class Verdict:
 
     @property
     def nearest(self) -> Candidate:
-        """The candidate that would reach the error first without a limit of samples."""
-        nearest = min(self.candidates, key=lambda candidate: candidate.seconds_to(self.error))
+        """The candidate that would reach the error so without a limit of samples."""
+        nearest = min(self.candidates, key=lambda candidate: candidate.work_to(self.error))
         leader = next(c for c in self.candidates if LEADER in c.name.split(" = "))
-        tied = leader.seconds_to(self.error) <= _TIE * nearest.seconds_to(self.error)
+        tied = leader.work_to(self.error) <= _TIE * nearest.work_to(self.error)
         return leader if tied else nearest
 
     @property
@@ -64,33 +66,46 @@ def what_suffices(
 ) -> Verdict:
     """Measure every method on a small frame; `bounces` is their limit, or None to choose it, too.
 
-    Methods that are not measured within `seconds` are left out. Raises OutOfTimeError if no number
-    of bounces is known to suffice by then.
+    What is found is the same on every run of a driver, unless `seconds` end it: then methods that
+    are not measured yet are left out. Raises OutOfTimeError if no number of bounces is known to
+    suffice by then.
     """
-    check = until(time.perf_counter() + seconds)
-    small = _small_frame(scene, settings)
+    check = until(time.perf_counter() + seconds) if seconds < math.inf else _always
+    small = _small_frame(settings)
     small = small if bounces is None else settings_for(small, bounces=bounces)
+    samples = _reference_samples(scene, small, context, check)
     allowed = _reference_seconds(seconds)
-    reference = reference_for(scene, small, context, 0.25 * error, allowed, check=check)
+    reference = reference_for(
+        scene, small, context, 0.25 * error, allowed, check=check, samples=samples
+    )
     pixels = math.prod(settings.size) / math.prod(small.size)
-    trial = Trial(scene, settings, context, reference, pixels, check)
-    limits = trial.limits(small, error, bounces, reference.bounces)
+    trial = Trial(scene, settings, context, reference, error, pixels, check)
+    limits = trial.limits(small, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
-    leader = min(limits.values(), key=lambda candidate: candidate.seconds_to(error))
+    leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))
     variants = variants_of(scene, small, METHODS, leads=False)
     found = trial.methods(variants, leader)
     order = [*CLASSIC, *METHODS]
     ranked = sorted(found, key=lambda c: order.index(c.settings.method))
     untried = {variant.name for variant in variants} - {candidate.name for candidate in found}
-    candidates = tuple(trial.in_turns(ranked, small))
-    return Verdict(error, reference, candidates, beyond, tuple(sorted(untried)))
+    return Verdict(error, reference, tuple(ranked), beyond, tuple(sorted(untried)))
 
 
-def _small_frame(scene: Scene, settings: Settings) -> Settings:
-    """Settings for a frame of HEIGHT rows, or one in which the crop has about HEIGHT^2 pixels."""
+def _always(_renderer: Renderer | None) -> bool:
+    return True
+
+
+def _small_frame(settings: Settings) -> Settings:
+    """Settings for the whole frame in HEIGHT rows, or in which the crop has some HEIGHT^2 pixels.
+
+    Without AOVs, which cost time and tell nothing here.
+    """
+    own = settings_for(settings, aov=())
+    most = math.sqrt(MOST_WIDE / (settings.width * settings.height))
     if settings.crop is None:
-        small = frame_of(scene, HEIGHT)
-        return settings_for(settings, width=small.width, height=small.height)
+        scale = HEIGHT * min(1 / settings.height, most)
+        columns, rows = (max(1, round(scale * n)) for n in (settings.width, settings.height))
+        return settings_for(own, width=columns, height=rows)
     scale = HEIGHT / math.sqrt(math.prod(settings.size))
     scale = min(scale, MOST_PIXELS / max(settings.width, settings.height))
     left, top, columns, rows = settings.crop
@@ -98,7 +113,7 @@ def _small_frame(scene: Scene, settings: Settings) -> Settings:
     y, down = _scaled(top, rows, scale)
     width = max(round(scale * settings.width), x + across)
     height = max(round(scale * settings.height), y + down)
-    return settings_for(settings, width=width, height=height, crop=(x, y, across, down))
+    return settings_for(own, width=width, height=height, crop=(x, y, across, down))
 
 
 def _scaled(start: int, length: int, scale: float) -> tuple[int, int]:
@@ -107,8 +122,19 @@ def _scaled(start: int, length: int, scale: float) -> tuple[int, int]:
     return first, max(1, round(scale * (start + length)) - first)
 
 
+def _reference_samples(scene: Scene, small: Settings, context: Context, check: Check) -> int:
+    """Samples of a pixel in each half of the reference that take REFERENCE_WORK in all."""
+    wanted = settings_for(unlimited(scene, small, context), seed=SEEDS[0])
+    counter = Renderer(scene, wanted, context, tier="baked", variant=counting(scene, wanted))
+    try:
+        work = 2 * busy_pixels(wanted) * work_per_sample(counter, check)
+    finally:
+        counter.release()
+    return max(1, int(REFERENCE_WORK / work))
+
+
 def _reference_seconds(allowed: float) -> float:
     """Seconds for the reference: a power of two, so that similar times share a cached reference."""
-    if REFERENCE_SHARE * allowed >= REFERENCE_SECONDS:
-        return REFERENCE_SECONDS
+    if allowed == math.inf:
+        return math.inf
     return float(2.0 ** math.floor(math.log2(max(REFERENCE_SHARE * allowed, 2.0**-10))))

@@ -1,20 +1,23 @@
-"""Bias, variance and time of the methods for one scene, measured on a small frame.
+"""Bias, variance and work of the methods for one scene, measured on a small frame.
 
 With pictures x1, x2 of two seeds and the independent halves r1, r2 of the reference, the mean of
 (x1 - r1) (x2 - r2) is an unbiased estimator of the squared bias of a method. The bias from a limit
 of bounces is estimated from the difference of two pictures of the same seed, which follow the same
 paths up to their limits, so that most of their noise cancels.
+
+All that is compared is counted. Seconds are noted for the people who read the result.
 """
 
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
 from glrt.analysis.reference import Floats, Reference
 from glrt.analysis.variants import Variant
 from glrt.gpu.context import Context
@@ -25,13 +28,15 @@ from glrt.settings import Settings, settings_for
 
 SAMPLES = 128  # per pixel of each picture
 MOST_TRIED = 16 * SAMPLES  # the same, where the variance is not yet known precisely enough
-TURNS = 5  # rounds in which the methods are timed, interleaved so that other load affects all
+MOST_WORK = 2e9  # of the larger pictures of a method: some 3 s on one core of llvmpipe
 SEEDS = (0x53554646, 0x53554647)
 LIMITS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256)
+OF_FRAME = ("width", "height", "crop", "seed", "aov")  # settings that a trial has its own of
 LEADER = "mis"  # the method whose bounces are measured
 _EXTRA_LIMITS = 4  # tried beyond the first that suffices: more bounces may need fewer samples
 _SIGMAS = 2.0  # half width of intervals, in standard errors
 _PRECISE = 0.1  # relative standard error below which a variance is taken as known
+_FAR = 2.0  # times an error, or the work of another: what differs as much needs no better look
 
 
 class OutOfTimeError(Exception):
@@ -39,6 +44,7 @@ class OutOfTimeError(Exception):
 
 
 Check = Callable[[Renderer | None], bool]  # called after each dispatch: True, or OutOfTimeError
+BiasOf = Callable[[Sequence["_Picture"]], "Bias"]
 
 
 def until(deadline: float) -> Check:
@@ -76,13 +82,14 @@ class Bias(NamedTuple):
 
 @dataclass(frozen=True)
 class Candidate:
-    """A method with a limit of bounces, and its measured bias, variance and time."""
+    """A method with a limit of bounces, its measured bias and variance, and its counted work."""
 
     name: str
     settings: Settings  # for the requested frame
     bias: Bias
     variance: float  # relative, of one sample: upper bound at a confidence of 97.5 %
-    seconds_per_sample: float  # for one sample of every pixel of the requested frame
+    work_per_sample: float  # of one pixel
+    seconds_per_sample: float  # of every pixel of the requested frame; nothing is chosen by it
 
     def samples_to(self, error: float) -> int | None:
         """Samples per pixel to reach an error; None if the bias is not known to be below it.
@@ -93,52 +100,59 @@ class Candidate:
         block = self.settings.block
         return block * max(1, math.ceil(self.variance / room / block)) if room > 0 else None
 
+    def work_to(self, error: float) -> float:
+        """Work of a pixel to reach an error; infinite if `samples_to` is None."""
+        samples = self.samples_to(error)
+        return math.inf if samples is None else samples * self.work_per_sample
+
     def seconds_to(self, error: float) -> float:
-        """Seconds to reach an error; infinite if `samples_to` is None."""
+        """About how many seconds that takes; infinite if `samples_to` is None."""
         samples = self.samples_to(error)
         return math.inf if samples is None else samples * self.seconds_per_sample
 
 
 @dataclass(frozen=True)
 class Trial:
-    """Measures candidates on a small frame; the frame of `wanted` has `pixels` times its pixels."""
+    """Measures candidates for an error on a small frame, which `wanted` has `pixels` times of."""
 
     scene: Scene
     wanted: Settings
     context: Context
     reference: Reference
+    error: float
     pixels: float
     check: Check
 
-    def limits(
-        self, small: Settings, error: float, fixed: int | None, most: int
-    ) -> dict[int, Candidate]:
+    def limits(self, small: Settings, fixed: int | None, most: int) -> dict[int, Candidate]:
         """LEADER by limit of bounces: `fixed`, or up to `most`.
 
         Raises OutOfTimeError if the time runs out before one suffices.
         """
         found: dict[int, Candidate] = {}
         try:
-            found.update(self._limits(small, error, fixed, most))
+            found.update(self._limits(small, fixed, most))
         except OutOfTimeError:
-            if not any(candidate.bias.most < error for candidate in found.values()):
+            if not any(candidate.bias.most < self.error for candidate in found.values()):
                 raise
         return found
 
     def _limits(
-        self, small: Settings, error: float, fixed: int | None, most: int
+        self, small: Settings, fixed: int | None, most: int
     ) -> Iterator[tuple[int, Candidate]]:
         """Limits and candidates in ascending order, to some beyond the first that suffices."""
-        with self._opened(small, method=LEADER) as renderer:
+        small = settings_for(small, method=LEADER)
+        with self._opened(small) as renderer, self._counting(small) as counter:
             whole = [self._picture(renderer, seed, most) for seed in SEEDS]
             enough = 0
             for limit in [fixed] if fixed is not None else [n for n in LIMITS if n <= most]:
                 pictures = [self._picture(renderer, seed, limit) for seed in SEEDS]
                 cut = [a.radiance - b.radiance for a, b in zip(whole, pictures, strict=True)]
                 bias = self._bias(*cut)
-                yield limit, self._candidate(LEADER, renderer.settings, pictures, bias)
-                enough += bias.most < error
-                if enough > _EXTRA_LIMITS or bias.most < error / 8:
+                counter.update(bounces=limit)
+                work = work_per_sample(counter, self.check)
+                yield limit, self._candidate(LEADER, renderer.settings, pictures, bias, work)
+                enough += bias.most < self.error
+                if enough > _EXTRA_LIMITS or bias.most < self.error / 8:
                     break
 
     def methods(self, variants: Sequence[Variant], leader: Candidate) -> list[Candidate]:
@@ -152,51 +166,49 @@ class Trial:
 
     def _measured(self, variant: Variant, leader: Candidate) -> Candidate:
         if variant.settings.method in CLASSIC:
-            return self.model(variant)
-        return self.tracer(variant, leader.settings.bounces, leader.bias)
+            return self._tried(variant, self._bias_of_model, leader)
+        settings = settings_for(variant.settings, bounces=leader.settings.bounces)
+        return self._tried(Variant(variant.name, settings), lambda _: leader.bias, leader)
 
-    def model(self, variant: Variant) -> Candidate:
-        """The candidate of a classic model, with its bias measured against the reference."""
-        pictures = self._pictures(variant.settings)
+    def _bias_of_model(self, pictures: Sequence["_Picture"]) -> Bias:
+        """The bias of a classic model, measured against the reference."""
         halves = (self.reference.first, self.reference.second)
         errors = [p.radiance - r for p, r in zip(pictures, halves, strict=True)]
-        return self._candidate(variant.name, variant.settings, pictures, self._bias(*errors))
+        return self._bias(*errors)
 
-    def tracer(self, variant: Variant, limit: int, bias: Bias) -> Candidate:
-        """The candidate of a path tracing method: its bias is that of the limit of bounces."""
-        settings = settings_for(variant.settings, bounces=limit)
-        return self._candidate(variant.name, settings, self._pictures(settings), bias)
+    def _tried(self, variant: Variant, bias: BiasOf, leader: Candidate) -> Candidate:
+        """A candidate by a picture for each of SEEDS, with more samples until it is known well."""
+        name, settings = variant.name, variant.settings
+        with self._counting(settings) as counter:
+            work = work_per_sample(counter, self.check)
 
-    def in_turns(self, candidates: Sequence[Candidate], small: Settings) -> list[Candidate]:
-        """The candidates with interleaved timings: the shortest of TURNS for each.
+        def rated(samples: int) -> tuple[Candidate, bool]:
+            found = [self._picture(renderer, seed, samples=samples) for seed in SEEDS]
+            candidate = self._candidate(name, settings, found, bias(found), work)
+            return candidate, self._is_settled(candidate, found, leader)
 
-        Their earlier times are kept if the time runs out in the first turn.
-        """
-        frame = {name: getattr(small, name) for name in ("width", "height", "crop")}
-        turns: list[list[float]] = []
-        with ExitStack() as stack, suppress(OutOfTimeError):
-            renderers = [
-                stack.enter_context(self._opened(settings_for(c.settings, **frame)))
-                for c in candidates
-            ]
-            for turn in range(TURNS):
-                turns.append([self._picture(each, turn).seconds for each in renderers])
-        if not turns:
-            return list(candidates)
-        least = np.min(turns, axis=0) / SAMPLES * self.pixels
-        pairs = zip(candidates, least.tolist(), strict=True)
-        return [replace(candidate, seconds_per_sample=seconds) for candidate, seconds in pairs]
-
-    def _pictures(self, settings: Settings) -> list["_Picture"]:
-        """A picture for each of SEEDS, with more samples until the variance is known precisely."""
+        most = min(MOST_TRIED, MOST_WORK / (len(SEEDS) * busy_pixels(settings) * work))
         with self._opened(settings) as renderer:
-            found = [self._picture(renderer, seed) for seed in SEEDS]
-            samples = SAMPLES
+            candidate, is_settled = rated(samples := SAMPLES)
             with suppress(OutOfTimeError):
-                while samples < MOST_TRIED and not _is_known(self._noise(found)):
-                    samples *= 4
-                    found = [self._picture(renderer, seed, samples=samples) for seed in SEEDS]
-        return found
+                while not is_settled and (samples := 4 * samples) <= most:
+                    candidate, is_settled = rated(samples)
+        return candidate
+
+    def _is_settled(
+        self, candidate: Candidate, pictures: Sequence["_Picture"], leader: Candidate
+    ) -> bool:
+        """Whether more samples would change no choice: of few samples, or far from the leader."""
+        noise = self._noise(pictures)
+        needs_least = candidate.samples_to(self.error / _FAR) == candidate.settings.block
+        bias = Bias(candidate.bias.least**2, 0.0)
+        at_best = replace(candidate, bias=bias, variance=pictures[0].samples * noise.least**2)
+        is_far = at_best.work_to(self.error) > _FAR * leader.work_to(self.error)
+        return needs_least or is_far or noise.stderr <= _PRECISE * noise.squared
+
+    def _counting(self, settings: Settings) -> AbstractContextManager[Renderer]:
+        variant = counting(self.scene, settings)
+        return self._opened(settings, variant=variant, seed=SEEDS[0])
 
     @contextmanager
     def _opened(self, settings: Settings, **changes: Any) -> Iterator[Renderer]:
@@ -228,16 +240,22 @@ class Trial:
         return Bias(float(pixels.mean()), float(pixels.std() / math.sqrt(pixels.size)))
 
     def _candidate(
-        self, name: str, settings: Settings, pictures: Sequence["_Picture"], bias: Bias
+        self,
+        name: str,
+        settings: Settings,
+        pictures: Sequence["_Picture"],
+        bias: Bias,
+        work: float,
     ) -> Candidate:
         samples = pictures[0].samples
         seconds = min(picture.seconds for picture in pictures)  # less disturbed by other load
-        full = {name: getattr(self.wanted, name) for name in ("width", "height", "crop", "seed")}
+        full = {name: getattr(self.wanted, name) for name in OF_FRAME}
         return Candidate(
             name,
             settings_for(settings, **full),
             bias,
             samples * self._noise(pictures).most ** 2,
+            work,
             seconds / samples * self.pixels,
         )
 
@@ -261,7 +279,3 @@ class _Picture:
         image = renderer.image()
         squared = np.square(image.stderr.astype(float))
         return cls(samples, image.radiance.astype(float), squared, seconds)
-
-
-def _is_known(noise: Bias) -> bool:
-    return noise.stderr <= _PRECISE * noise.squared
