@@ -1,6 +1,7 @@
 """Parts of a render put together: one picture, whoever rendered them and in whatever order."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -21,13 +22,14 @@ from glrt.image.image import Image
 from glrt.image.moments import Moments, merged
 from glrt.image.partition import Partition
 from glrt.image.recipe import Recipe
-from glrt.settings import Aov, Settings
+from glrt.settings import Settings
 from glrt.text import counted
 
 Recipes = Mapping[str, Recipe]  # by the names that messages call pictures
 
 _DRIVERS = ("renderer", "tier", "pipeline")  # by these, the last bits of samples may differ
 _RADIANCE = "radiance"
+_NOTHING = np.zeros((1, 1, 1))
 
 
 def merge(images: Sequence[Image], incomplete: bool = False) -> Image:
@@ -45,19 +47,28 @@ def merge(images: Sequence[Image], incomplete: bool = False) -> Image:
 def merged_image(
     recipes: Mapping[str, Recipe | None], load: Callable[[str], Image], incomplete: bool = False
 ) -> Image:
-    """As `merge`, of pictures by name, which are loaded when their turn comes: few at a time."""
+    """As `merge`, of pictures by name, each loaded when its turn comes, once for each film.
+
+    So few are held at a time: about the binary logarithm of their number.
+    """
     parts = checked(recipes, incomplete)
     aovs = next(iter(parts.values())).settings.aov
     order = sorted(parts, key=lambda name: _number(parts[name]))
+    if len(order) == 1:
+        return load(order[0])
 
-    def films_of(name: str) -> Mapping[str, Moments]:
-        return _moments(name, load(name), aovs)
+    def film_of(film: str, name: str) -> Mapping[str, Moments]:
+        return {film: _moments(name, load(name), film)}
 
-    films = merged([partial(films_of, name) for name in order])
+    def whole(film: str) -> Moments:
+        return merged([partial(film_of, film, name) for name in order])[film]
+
     recipe = _recipe_of([parts[name] for name in order])
-    objects = {"object": load(order[0]).aovs["object"]} if "object" in aovs else {}
-    found = {name: _aov_image(name, films[name]) for name in aovs if name in films} | objects
-    return _image(films[_RADIANCE], recipe, {name: found[name] for name in aovs})
+    image = _image(whole(_RADIANCE), recipe)
+    objects = load(order[0]).aovs["object"] if "object" in aovs else None
+    means = {aov: _aov_image(aov, whole(aov)) for aov in aovs if aov != "object"}
+    found = means | ({"object": objects} if objects else {})
+    return replace(image, aovs={aov: found[aov] for aov in aovs})
 
 
 def checked(recipes: Mapping[str, Recipe | None], incomplete: bool) -> Recipes:
@@ -138,23 +149,30 @@ def _recipe_of(parts: Sequence[Recipe]) -> Recipe:
     return parts[0].model_copy(update={"partition": partition, "samples": samples, **drivers})
 
 
-def _moments(name: str, image: Image, aovs: Sequence[Aov]) -> dict[str, Moments]:
-    """What a picture has gathered, by the names of its films."""
-    state = image.film_state
-    if state is None or any(aov not in image.aovs for aov in aovs):
+def _moments(name: str, image: Image, film: str) -> Moments:
+    """What a picture has gathered on one of its films."""
+    aovs = {str(aov): found for aov, found in image.aovs.items()}
+    if film in aovs:
+        return _aov_moments(aovs[film])
+    if film != _RADIANCE or image.film_state is None:
         raise UsageError(
             f"{name} lacks the state of its film: another program saved it again; render it anew."
         )
-    means = [aov for aov in aovs if aov != "object"]
-    radiance = Moments(
+    return _radiance_moments(image, image.film_state)
+
+
+def _radiance_moments(image: Image, state: FilmState) -> Moments:
+    begun, part = _NOTHING, _NOTHING  # of a film without an observation that has begun
+    if state.begun.any():
+        begun, part = _counts(state.begun), state.part.astype(np.float64)
+    return Moments(
         _counts(image.samples - state.dropped),
         image.radiance.astype(np.float64),
         _counts(state.observations),
         state.variance.astype(np.float64),
-        _counts(state.begun),
-        state.part.astype(np.float64),
+        begun,
+        part,
     )
-    return {_RADIANCE: radiance, **{aov: _aov_moments(image.aovs[aov]) for aov in means}}
 
 
 def _aov_moments(aov: AovImage) -> Moments:
@@ -168,23 +186,25 @@ def _aov_moments(aov: AovImage) -> Moments:
     mean = np.where(count > 0, value, 0).astype(np.float64)
     is_known = observations >= 2
     variance = np.where(is_known, stderr, 0).astype(np.float64) ** 2 * (observations - 1)
-    nothing = np.zeros_like(mean)
-    return Moments(count, mean, observations, variance, np.zeros_like(count), nothing)
+    return Moments(count, mean, observations, variance, _NOTHING, _NOTHING)
 
 
 def _counts(plane: NDArray[Any]) -> NDArray[np.float64]:
     return plane[..., None].astype(np.float64)
 
 
-def _image(film: Moments, recipe: Recipe, aovs: Mapping[Aov, AovImage]) -> Image:
-    mean, variance, part = (x.astype(np.float32) for x in (film.mean, film.variance, film.part))
+def _image(film: Moments, recipe: Recipe) -> Image:
+    shape = film.mean.shape
+    wide = film.mean, film.variance, np.broadcast_to(film.part, shape)
+    mean, variance, part = (x.astype(np.float32) for x in wide)
+    begun_counts = np.broadcast_to(film.begun, film.samples.shape)
     count, observations, begun = (
-        x[..., 0].astype(np.float32) for x in (film.samples, film.observations, film.begun)
+        x[..., 0].astype(np.float32) for x in (film.samples, film.observations, begun_counts)
     )
     share = np.asarray(begun / np.maximum(count, 1), np.float32)
     stderr = error_of_mean(mean, variance, observations, part, share)
     state = FilmState(variance, recipe.samples - count, observations, part, begun)
-    return Image(mean, stderr, recipe.samples, recipe, state, aovs)
+    return Image(mean, stderr, recipe.samples, recipe, state)
 
 
 def _aov_image(name: str, film: Moments) -> AovImage:

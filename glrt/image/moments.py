@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 class Moments(NamedTuple):
-    """Of each pixel of a film; arrays (H, W, C) or, of counts, (H, W, 1).
+    """Of each pixel of a film; arrays (H, W, C) or, of counts, (H, W, 1), or what broadcasts.
 
     Samples are gathered into observations, whole but for one that may have begun at the end.
     """
