@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from glrt.analysis import reference as references
-from glrt.analysis.method_choice import search, trial
+from glrt.analysis.method_choice import search
 from glrt.gpu.context import Context
 from tests.support.verdicts import SIZE, SLOW_SIZE
 
@@ -23,9 +23,9 @@ def small_and_cached(
     That is processor time, where processors render.
     """
     if context.is_software:
-        for module in (references, trial):
-            monkeypatch.setattr(module, "time", SimpleNamespace(perf_counter=time.process_time))
+        clock = SimpleNamespace(perf_counter=time.process_time)
+        monkeypatch.setattr(references, "time", clock)
     size = SLOW_SIZE if request.node.get_closest_marker("slow") else SIZE
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "suffices"))
     monkeypatch.setattr(search, "HEIGHT", size)
-    monkeypatch.setattr(search, "REFERENCE_SECONDS", 1.0)
+    monkeypatch.setattr(search, "REFERENCE_WORK", 5e8)

@@ -80,7 +80,7 @@ def test_more_samples_than_a_picture_holds_are_not_enough() -> None:
         "Ask for a larger error."
     )
     one = replace(verdict, candidates=(replace(noisy, variance=1.0, seconds_per_sample=1e-5),))
-    assert "with 1 sample, in about 0.001 s at" in conclusion(one)
+    assert "with 1 sample; about 0.001 s at" in conclusion(one)
 
 
 def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 """What charts judge by: two halves without bias, closed forms, and a cache that is only a cache."""
 
+import itertools
+import math
 import shutil
 from pathlib import Path
 from types import SimpleNamespace
@@ -238,6 +240,20 @@ def test_samples_double_until_the_error_is_reached(context: Context) -> None:
     assert fine.samples > coarse.samples
 
 
+def test_counted_samples_end_a_reference_whatever_the_clock_says(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By a clock on which each look takes an hour."""
+    hours = itertools.count(step=3600.0)
+    clock = SimpleNamespace(perf_counter=lambda: next(hours))
+    monkeypatch.setattr(reference, "time", clock)
+    ends = [
+        reference_for(LIT, small(LIT), context, 1e-9, math.inf, samples=most).samples
+        for most in (255, 256, 1)
+    ]
+    assert ends == [128, 256, 64]
+
+
 def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> None:
     """In a closed box of albedo 0.9 with glowing walls, 4 bounces leave 59 % of the light."""
     walls = {"wall": lamp(0.1, 0.9)}
@@ -257,18 +273,18 @@ def test_the_loop_limit_of_software_bounds_the_paths(context: Context) -> None:
 
 
 def test_every_shader_file_is_part_of_the_name_of_a_reference(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Two files of one name in two folders are two files."""
     shaders = tmp_path / "shaders_glsl"
     shutil.copytree(folder("shaders_glsl"), shaders)
     for module in (glsl, reference):
         monkeypatch.setattr(module, "folder", lambda name: tmp_path / name)
-    names = {reference._key(LIT, small(LIT), 0.1, 1.0)}
+    names = {reference._key(LIT, small(LIT), context, 0.1, 1.0, 64)}
     files = glsl.shader_files()
     for file in files:
         before = file.read_text()
         file.write_text(f"{before}// another\n")
-        names.add(reference._key(LIT, small(LIT), 0.1, 1.0))
+        names.add(reference._key(LIT, small(LIT), context, 0.1, 1.0, 64))
         file.write_text(before)
     assert len(names) == 1 + len(files)

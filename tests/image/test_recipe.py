@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 
 from glrt.errors import SceneError
-from glrt.image.recipe import Recipe, Traced
+from glrt.image.recipe import Recipe, Traced, lasting
 from glrt.scene.toml import parse_scene
-from glrt.settings import Settings
+from glrt.settings import Settings, settings_for
 
 SCENE = {
     "title": "Скляна куля — “glass”",
@@ -80,6 +80,20 @@ def test_damaged_light_of_a_recipe_is_refused_with_the_key(
     assert "\n" not in str(caught.value)
 
 
+def test_decisions_survive_json_and_without_their_key_there_are_none(recipe: Recipe) -> None:
+    decided = recipe.model_copy(update={"decisions": {"method": "auto: counted work"}})
+    assert Recipe.from_json(decided.to_json(), "x.png") == decided
+    old = json.loads(decided.to_json())
+    del old["decisions"]
+    assert Recipe.from_json(json.dumps(old), "x.png") == recipe
+
+
+def test_decisions_last_while_their_settings_do() -> None:
+    chosen, told = Settings(bounces=3), {"method": "auto", "bounces": "auto"}
+    assert lasting(told, chosen, settings_for(chosen, samples=7, exposure=1.0)) == told
+    assert lasting(told, chosen, settings_for(chosen, bounces=4)) == {"method": "auto"}
+
+
 def test_every_setting_is_written_out_so_that_new_defaults_change_no_old_recipe(
     recipe: Recipe,
 ) -> None:
@@ -120,6 +134,8 @@ def test_what_is_no_recipe_is_refused_in_one_paragraph(text: str) -> None:
         ("settings.exposure", float("nan"), "settings.exposure"),
         ("settings.denoise", True, "settings.denoise"),
         ("samples", -1, "samples"),
+        ("decisions", {"denoiser": "auto"}, "denoiser"),
+        ("decisions", {"method": 3}, "decisions.method"),
         ("version", None, "version"),
         ("scene.camera.fov", 180.0, "camera.fov"),
         ("scene.objects", [{"shape": "torus"}], "torus"),

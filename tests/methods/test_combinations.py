@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from glrt.analysis.method_choice import search
 from glrt.cli.commands import run
 from glrt.errors import UsageError
 from glrt.methods.combinations import (
@@ -28,8 +29,9 @@ from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit, try
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Iterator[Path]:
-    """The folder in which commands run."""
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """The folder in which commands run; methods are chosen on a frame that is as small."""
+    monkeypatch.setattr(search, "HEIGHT", 12)
     before = Path.cwd()
     os.chdir(tmp_path)
     yield tmp_path

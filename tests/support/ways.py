@@ -16,7 +16,7 @@ Render = Callable[[Options], Image]
 
 X, Y, WIDTH, HEIGHT = CROP = (3, 2, 9, 7)
 SIZE = ["--width", "16", "--height", "12", "--bounces", "4"]
-ASKED = 20.0  # an error that 64 samples reach
+ASKED = 1.0  # an error that 64 samples reach
 OPTIONS: dict[Way, Options] = {
     Way.CROP: ["--crop", *map(str, CROP)],
     Way.AOV: ["--aov", "albedo,depth,object"],
@@ -186,6 +186,8 @@ def try_together(one: Way, other: Way) -> None:
             return LAWS[more](BASES[way])
         if way in ALONE:
             return ALONE[way](OPTIONS[more])
+    if one is Way.AUTO and other is Way.TIME:
+        return LAWS[Way.AUTO](lambda options: plain([*timed(options), *options]))
     if {one, other} == {Way.TIME, Way.ERROR}:
         return LAWS[Way.ERROR](lambda options: plain([*timed(options), *options]))
     return LAWS[other](lambda options: plain([*OPTIONS[one], *options]))

@@ -4,7 +4,7 @@ import math
 import time
 from dataclasses import dataclass
 
-from glrt.analysis.method_choice.trial import LEADER, SEEDS, Bias, Candidate, Check, Trial, until
+from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Trial, until
 from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
 from glrt.analysis.reference import Reference, reference_for, unlimited
 from glrt.analysis.variants import METHODS, variants_of
@@ -73,14 +73,17 @@ def what_suffices(
     check = until(time.perf_counter() + seconds) if seconds < math.inf else _always
     small = _small_frame(settings)
     small = small if bounces is None else settings_for(small, bounces=bounces)
-    samples = _reference_samples(scene, small, context, check)
-    allowed = _reference_seconds(seconds)
-    reference = reference_for(
-        scene, small, context, 0.25 * error, allowed, check=check, samples=samples
-    )
+    leading = settings_for(small, method=LEADER)
     pixels = math.prod(settings.size) / math.prod(small.size)
-    trial = Trial(scene, settings, context, reference, error, pixels, check)
-    limits = trial.limits(small, bounces, reference.bounces)
+    with counting(scene, leading, context) as counter:
+        longest = unlimited(scene, small, context).bounces
+        samples = _reference_samples(work_per_sample(counter, longest, check), small)
+        allowed = _reference_seconds(seconds)
+        reference = reference_for(
+            scene, small, context, 0.25 * error, allowed, check=check, samples=samples
+        )
+        trial = Trial(scene, settings, context, reference, error, pixels, check)
+        limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))
     variants = variants_of(scene, small, METHODS, leads=False)
@@ -122,15 +125,9 @@ def _scaled(start: int, length: int, scale: float) -> tuple[int, int]:
     return first, max(1, round(scale * (start + length)) - first)
 
 
-def _reference_samples(scene: Scene, small: Settings, context: Context, check: Check) -> int:
+def _reference_samples(work: float, small: Settings) -> int:
     """Samples of a pixel in each half of the reference that take REFERENCE_WORK in all."""
-    wanted = settings_for(unlimited(scene, small, context), seed=SEEDS[0])
-    counter = Renderer(scene, wanted, context, tier="baked", variant=counting(scene, wanted))
-    try:
-        work = 2 * busy_pixels(wanted) * work_per_sample(counter, check)
-    finally:
-        counter.release()
-    return max(1, int(REFERENCE_WORK / work))
+    return max(1, int(REFERENCE_WORK / (2 * busy_pixels(small) * work)))
 
 
 def _reference_seconds(allowed: float) -> float:

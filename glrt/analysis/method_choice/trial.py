@@ -11,9 +11,9 @@ All that is compared is counted. Seconds are noted for the people who read the r
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -123,33 +123,31 @@ class Trial:
     pixels: float
     check: Check
 
-    def limits(self, small: Settings, fixed: int | None, most: int) -> dict[int, Candidate]:
-        """LEADER by limit of bounces: `fixed`, or up to `most`.
+    def limits(self, counter: Renderer, fixed: int | None, most: int) -> dict[int, Candidate]:
+        """LEADER by limit of bounces: `fixed`, or up to `most`; `counter` counts its work.
 
         Raises OutOfTimeError if the time runs out before one suffices.
         """
         found: dict[int, Candidate] = {}
         try:
-            found.update(self._limits(small, fixed, most))
+            found.update(self._limits(counter, fixed, most))
         except OutOfTimeError:
             if not any(candidate.bias.most < self.error for candidate in found.values()):
                 raise
         return found
 
     def _limits(
-        self, small: Settings, fixed: int | None, most: int
+        self, counter: Renderer, fixed: int | None, most: int
     ) -> Iterator[tuple[int, Candidate]]:
         """Limits and candidates in ascending order, to some beyond the first that suffices."""
-        small = settings_for(small, method=LEADER)
-        with self._opened(small) as renderer, self._counting(small) as counter:
+        with self._opened(counter.settings) as renderer:
             whole = [self._picture(renderer, seed, most) for seed in SEEDS]
             enough = 0
             for limit in [fixed] if fixed is not None else [n for n in LIMITS if n <= most]:
                 pictures = [self._picture(renderer, seed, limit) for seed in SEEDS]
                 cut = [a.radiance - b.radiance for a, b in zip(whole, pictures, strict=True)]
                 bias = self._bias(*cut)
-                counter.update(bounces=limit)
-                work = work_per_sample(counter, self.check)
+                work = work_per_sample(counter, limit, self.check)
                 yield limit, self._candidate(LEADER, renderer.settings, pictures, bias, work)
                 enough += bias.most < self.error
                 if enough > _EXTRA_LIMITS or bias.most < self.error / 8:
@@ -157,7 +155,7 @@ class Trial:
 
     def methods(self, variants: Sequence[Variant], leader: Candidate) -> list[Candidate]:
         """A candidate for each variant while time is left, LEADER first, with its bounces."""
-        first = [v for v in variants if LEADER in v.name.split(" = ")]
+        first = [variant for variant in variants if _is_leader(variant)]
         found: list[Candidate] = []
         with suppress(OutOfTimeError):
             for variant in [*first, *(v for v in variants if v not in first)]:
@@ -179,21 +177,29 @@ class Trial:
     def _tried(self, variant: Variant, bias: BiasOf, leader: Candidate) -> Candidate:
         """A candidate by a picture for each of SEEDS, with more samples until it is known well."""
         name, settings = variant.name, variant.settings
-        with self._counting(settings) as counter:
-            work = work_per_sample(counter, self.check)
 
-        def rated(samples: int) -> tuple[Candidate, bool]:
-            found = [self._picture(renderer, seed, samples=samples) for seed in SEEDS]
-            candidate = self._candidate(name, settings, found, bias(found), work)
-            return candidate, self._is_settled(candidate, found, leader)
+        def taken(samples: int) -> list[_Picture]:
+            return [self._picture(renderer, seed, samples=samples) for seed in SEEDS]
 
-        most = min(MOST_TRIED, MOST_WORK / (len(SEEDS) * busy_pixels(settings) * work))
         with self._opened(settings) as renderer:
-            candidate, is_settled = rated(samples := SAMPLES)
+            pictures = taken(samples := SAMPLES)
+            work = self._work(variant, bias(pictures), leader)
+            candidate = self._candidate(name, settings, pictures, bias(pictures), work)
+            most = min(MOST_TRIED, MOST_WORK / (len(SEEDS) * busy_pixels(settings) * work))
             with suppress(OutOfTimeError):
-                while not is_settled and (samples := 4 * samples) <= most:
-                    candidate, is_settled = rated(samples)
+                while not self._is_settled(candidate, pictures, leader) and 4 * samples <= most:
+                    pictures = taken(samples := 4 * samples)
+                    candidate = self._candidate(name, settings, pictures, bias(pictures), work)
         return candidate
+
+    def _work(self, variant: Variant, bias: Bias, leader: Candidate) -> float:
+        """The work of a sample; infinite, and not counted, if no number of them is enough."""
+        if bias.least >= self.error:
+            return math.inf
+        if _is_leader(variant):
+            return leader.work_per_sample
+        with counting(self.scene, variant.settings, self.context) as counter:
+            return work_per_sample(counter, variant.settings.bounces, self.check)
 
     def _is_settled(
         self, candidate: Candidate, pictures: Sequence["_Picture"], leader: Candidate
@@ -206,14 +212,10 @@ class Trial:
         is_far = at_best.work_to(self.error) > _FAR * leader.work_to(self.error)
         return needs_least or is_far or noise.stderr <= _PRECISE * noise.squared
 
-    def _counting(self, settings: Settings) -> AbstractContextManager[Renderer]:
-        variant = counting(self.scene, settings)
-        return self._opened(settings, variant=variant, seed=SEEDS[0])
-
     @contextmanager
-    def _opened(self, settings: Settings, **changes: Any) -> Iterator[Renderer]:
+    def _opened(self, settings: Settings) -> Iterator[Renderer]:
         self.check(None)
-        renderer = Renderer(self.scene, settings, self.context, tier="baked", **changes)
+        renderer = Renderer(self.scene, settings, self.context, tier="baked")
         try:
             yield renderer
         finally:
@@ -279,3 +281,7 @@ class _Picture:
         image = renderer.image()
         squared = np.square(image.stderr.astype(float))
         return cls(samples, image.radiance.astype(float), squared, seconds)
+
+
+def _is_leader(variant: Variant) -> bool:
+    return LEADER in variant.name.split(" = ")

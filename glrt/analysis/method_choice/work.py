@@ -1,0 +1,63 @@
+"""The work of a sample, counted: the cost by which methods are chosen, without a clock.
+
+The unit is one round of the loops that find what a ray meets. A kernel that counts rays gives each
+ray its weight. The weights are those that predict best, relative to `mis`, how long the methods
+take on llvmpipe: to 18 % (root mean square) over the methods of 26 scenes.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from glrt.analysis.chart.rays import SAMPLES, counting_variant
+from glrt.gpu.context import Context
+from glrt.gpu.program import TILE, tile_count
+from glrt.methods.features import contents_of, needs_of
+from glrt.methods.table import METHODS
+from glrt.rendering.kernel_structs import CONSTANTS
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import rounds_of_search
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+SURFACE = 10  # of what a scattered ray meets: position, material, the next direction
+CAMERA = 6  # less than SURFACE for the rays of the camera, which are alike
+CLUSTER = 3  # of a cluster of lamps, or a part of one, weighed to choose a lamp
+PARTS = 2 * CONSTANTS["PARTS"]  # of the chosen cluster; they are weighed for two densities
+STRIPS = 5  # of a point on a quad lamp, even in solid angle
+LAMP = 2  # of a lamp in a loop over all, without its shadow ray
+
+Check = Callable[[Renderer], bool]
+
+
+@contextmanager
+def counting(scene: Scene, settings: Settings, context: Context) -> Iterator[Renderer]:
+    """A renderer that gives the weights of the rays of a sample in place of radiance."""
+    search, needs = rounds_of_search(scene), needs_of(scene, settings)
+    weighed = needs.clusters if needs.clusters > 1 else 0
+    choice = CLUSTER * (weighed + PARTS * needs.many_lights)
+    is_sampled = METHODS[settings.method].chooses_lights and "quad" in needs.lamps
+    strips = STRIPS if is_sampled and not needs.quads_by_area else 0
+    variant = counting_variant(search + SURFACE + choice + strips, search)
+    counter = Renderer(scene, settings, context, tier="baked", variant=variant)
+    try:
+        yield counter
+    finally:
+        counter.release()
+
+
+def work_per_sample(counter: Renderer, bounces: int, check: Check) -> float:
+    """The work of a sample by a renderer of `counting`, on average over its frame.
+
+    `check` is called after each dispatch and may raise to stop.
+    """
+    counter.update(bounces=bounces)
+    weights = float(counter.render(SAMPLES, check).image().radiance.mean(dtype=float))
+    traits = METHODS[counter.settings.method]
+    loops_over_lamps = bool(traits.model) and not traits.chooses_lights
+    lamps = contents_of(counter.scene).sampled_lamps if loops_over_lamps else 0
+    return weights - CAMERA + LAMP * lamps
+
+
+def busy_pixels(settings: Settings) -> int:
+    """The pixels of the tiles of a frame, those outside it included: they take time as well."""
+    return TILE * TILE * tile_count(*settings.size)
