@@ -1,10 +1,10 @@
 """`glrt merge`: put the parts of a render together."""
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
+from glrt.cli.process import file_names, print_figures
 from glrt.errors import UsageError
 from glrt.image.image import Image, check_writable, read_recipe
 from glrt.image.merge import merged_image
@@ -70,18 +70,18 @@ def _tell(arguments: argparse.Namespace, image: Image) -> None:
     held, count = len(recipe.partition.numbers), recipe.partition.count
     if arguments.json:
         figures = {"parts": held, "of": count, "samples": image.samples, "error": error}
-        print(json.dumps(figures), flush=True)
+        print_figures(figures, arguments.outputs)
     elif not arguments.quiet:
         known = "" if error is None else f", estimated error {100 * error:.2g} %"
-        names = ", ".join(arguments.outputs)
         print(
-            f"Wrote {names}: {held} of {counted(count, 'part')}, "
+            f"Wrote {file_names(arguments.outputs)}: {held} of {counted(count, 'part')}, "
             f"{counted(image.samples, 'sample')}{known}.",
             file=sys.stderr,
         )
-    if " and " in recipe.renderer and not arguments.quiet:
+    ways = [way for way in (recipe.renderer, recipe.pipeline, recipe.tier) if " and " in way]
+    if ways and not arguments.quiet:
         print(
-            f"glrt: caution: the parts come from several drivers ({recipe.renderer}): rendered "
-            "again on one, the picture has other last bits.",
+            f"glrt: caution: the parts come from several drivers or kernels ({'; '.join(ways)}): "
+            "rendered again by one, the picture may have other last bits.",
             file=sys.stderr,
         )

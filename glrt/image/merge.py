@@ -65,10 +65,9 @@ def merged_image(
 
     recipe = _recipe_of([parts[name] for name in order])
     image = _image(whole(_RADIANCE), recipe)
-    objects = load(order[0]).aovs["object"] if "object" in aovs else None
-    means = {aov: _aov_image(aov, whole(aov)) for aov in aovs if aov != "object"}
-    found = means | ({"object": objects} if objects else {})
-    return replace(image, aovs={aov: found[aov] for aov in aovs})
+    objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(_NOTHING)
+    found = {a: objects if a == "object" else _aov_image(a, whole(a)) for a in aovs}
+    return replace(image, aovs=found)
 
 
 def checked(recipes: Mapping[str, Recipe | None], incomplete: bool) -> Recipes:
@@ -155,10 +154,21 @@ def _moments(name: str, image: Image, film: str) -> Moments:
     if film in aovs:
         return _aov_moments(aovs[film])
     if film != _RADIANCE or image.film_state is None:
-        raise UsageError(
-            f"{name} lacks the state of its film: another program saved it again; render it anew."
-        )
+        raise _incomplete(name)
     return _radiance_moments(image, image.film_state)
+
+
+def _objects_of(name: str, image: Image) -> AovImage:
+    """The numbers of objects, which are the same in each part."""
+    if "object" not in image.aovs:
+        raise _incomplete(name)
+    return image.aovs["object"]
+
+
+def _incomplete(name: str) -> UsageError:
+    return UsageError(
+        f"{name} lacks the state of its film: another program saved it again; render it anew."
+    )
 
 
 def _radiance_moments(image: Image, state: FilmState) -> Moments:

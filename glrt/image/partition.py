@@ -71,6 +71,14 @@ def sample_range(partition: Partition, number: int, settings: Settings) -> range
     return range(block * first, min(block * end, samples))
 
 
+def wanted_range(part: Partition | None, settings: Settings) -> range:
+    """The numbers of the samples that a render wants, or its one part; UsageError as `one_part`."""
+    if part is None:
+        return range(settings.samples)
+    one = one_part(part.numbers[0], part.count, settings)
+    return sample_range(one, one.numbers[0], settings)
+
+
 def parse_part(text: str) -> tuple[int, int]:
     """Number and count from `K/N`; ValueError for anything else."""
     match = re.fullmatch(r"(\d{1,7})/(\d{1,7})", text)

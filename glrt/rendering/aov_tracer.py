@@ -105,11 +105,16 @@ class AovTracer:
         wanted = settings.size, settings.block, settings.aov
         return wanted == (self._size, self._block, self.aovs)
 
-    def restart(self, first_sample: int = 0) -> None:
-        """Forget everything."""
+    def check(self, plan: Plan) -> None:
+        """SceneError if an observation of a plan is beyond the driver's loop limit."""
+        if self.aovs:
+            _most_observations(self._context, plan)
+
+    def restart(self, plan: Plan) -> None:
+        """Forget everything, and begin a plan that these kernels serve."""
         for stage in self._stages:
-            stage.schedule.drop()
-            stage.film.restart(first_sample)
+            stage.schedule.limit(_most_observations(self._context, plan))
+            stage.film.restart(plan.first_sample)
 
     @property
     def samples(self) -> int:

@@ -14,7 +14,7 @@ from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
 from glrt.gpu.glsl import Source
 from glrt.image.image import Image
-from glrt.image.partition import Partition, one_part, sample_range
+from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
 from glrt.methods.combinations import Way, check, ways_of
@@ -103,9 +103,11 @@ class Renderer:
 
     @property
     def _samples(self) -> range:
-        if not self._part:
-            return range(self.settings.samples)
-        return sample_range(self._part, self._part.numbers[0], self.settings)
+        return wanted_range(self._part, self.settings)
+
+    def _check_part(self, samples: int) -> None:
+        if self._part and samples > self.wanted_samples:
+            raise UsageError(f"Part {self._part} has {self.wanted_samples} samples, not {samples}.")
 
     def lacks(self, samples: int) -> bool:
         """Whether the picture has fewer samples, or an AOV fewer than the picture."""
@@ -177,13 +179,16 @@ class Renderer:
         after = scene or self.scene, settings_for(self.settings, **changes)
         if (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
-        if relit := self.plan.relit(*after, layering):
+        wanted = wanted_range(self._part, after[1])
+        is_other_part = self._part is not None and wanted != self._samples
+        relit = None if is_other_part else self.plan.relit(*after, layering)
+        if relit:
             cost = Cost.FREE if relit == self.plan else Cost.RELIGHT
             with self.context.gl:
                 self._tracer.use_aovs(after[1])
             (self.scene, self.settings), self.plan = after, relit
             return cost
-        plan = plan_for(*after, layering, self._samples.start)
+        plan = plan_for(*after, layering, wanted.start)
         with self.context.gl:
             self._tracer, cost = self._tracer.replaced_for(plan)
         (self.scene, self.settings), self.plan = after, plan
@@ -209,6 +214,7 @@ class Renderer:
             raise UsageError(
                 f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
             )
+        self._check_part(self.samples + samples)
         with self.context.gl:
             self._tracer.step(samples)
 
@@ -219,6 +225,7 @@ class Renderer:
         several calls. Until it is complete the picture stays as it was.
         """
         target = self.wanted_samples if samples is None else samples
+        self._check_part(target)
         before, start, spent = self.shown, time.perf_counter(), 0.0
         while self.lacks(target) and spent <= ENOUGH * seconds:
             self._work(target - self.samples, INTERACTIVE, seconds - spent)
@@ -234,6 +241,7 @@ class Renderer:
         `goes_on` is asked after each dispatch, of which a frame may need several.
         """
         target = self.wanted_samples if samples is None else samples
+        self._check_part(target)
         while self.samples < target:
             self._work(target - self.samples, HEADLESS)
             if goes_on and not goes_on(self):

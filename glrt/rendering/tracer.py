@@ -80,7 +80,7 @@ class Tracer:
         if after.aovs is not self.aovs:
             self.aovs.release(after.aovs)
         after.film.restart(plan.first_sample)
-        after.aovs.restart(plan.first_sample)
+        after.aovs.restart(plan)
         if after.switch is not self.switch:
             self.switch.release()
             return after, Cost.RECOMPILE
@@ -108,7 +108,7 @@ class Tracer:
         """Begin to accumulate anew."""
         self.switch.schedule.drop()
         self.film.restart(self._plan.first_sample)
-        self.aovs.restart(self._plan.first_sample)
+        self.aovs.restart(self._plan)
         self._tiers.clear()
 
     def begin_at(self, first_sample: int) -> None:
@@ -120,6 +120,7 @@ class Tracer:
         """Gather other AOVs; on an error, which is as the constructor raises it, the same."""
         if settings.aov != self.aovs.aovs:
             after = self._aovs_for(settings, self)
+            after.restart(self._plan)
             self.aovs.release(after)
             self.aovs = after
 
@@ -138,6 +139,7 @@ class Tracer:
         """Take up what another film has read, by a kernel of the same tier."""
         self.switch.schedule.drop()
         self.film.write(samples, mean, film_state)
+        self.aovs.restart(self._plan)
         self._tiers = {self.device_scene.tier}
 
     def bake(self) -> bool:
@@ -183,9 +185,10 @@ class Tracer:
         """What gathers the AOVs of settings: that of `before` where it does."""
         if before and not self.device_scene.has_kernel_of(before.device_scene):
             before = None
-        if before and before.aovs.serve(settings):
-            return before.aovs
         plan = replace(self._plan, settings=settings)
+        if before and before.aovs.serve(settings):
+            before.aovs.check(plan)
+            return before.aovs
         known = before.aovs if before else None
         return AovTracer(self._context, plan, self.device_scene, known)
 

@@ -4,9 +4,11 @@ The tests themselves are on trial: `python -m tests.mutation` plants one bug aft
 copy of the tree and runs its test, which must fail.
 """
 
+from tests.mutation.aovs import AOVS
 from tests.mutation.film import FILM
+from tests.mutation.merging import MERGING
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.transport import TRANSPORT
 
-MUTANTS = [*TRANSPORT, *SHAPES, *SAMPLING, *FILM]
+MUTANTS = [*TRANSPORT, *SHAPES, *SAMPLING, *FILM, *AOVS, *MERGING]
