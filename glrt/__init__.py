@@ -5,9 +5,11 @@ Importing it loads nothing else: each public name is imported when it is first u
 Modules and packages, each importing only what stands above it:
 
 - version: the version of glrt
+- early: Ctrl-C before anything else is imported
 - errors: what can go wrong, with the exit code of each kind
 - text: words and numbers of the user in messages
-- signals: Ctrl-C and SIGTERM
+- signals: Ctrl-C, SIGTERM and SIGHUP
+- silence: what compiled libraries print by themselves
 - resources: where shaders and scenes lie
 - files: files that appear whole or not at all
 - settings: every render setting, once
@@ -27,12 +29,12 @@ Modules and packages, each importing only what stands above it:
 - __main__: `python -m glrt`
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
 from glrt.version import VERSION
 
+TYPE_CHECKING = False  # importing `typing` takes 5 ms, in which Ctrl-C would end in a traceback
 if TYPE_CHECKING:
+    from typing import Any
+
     from glrt.api import render
     from glrt.comparison.result import Comparison
     from glrt.comparison.verdict import compare
@@ -93,10 +95,12 @@ _HOMES = {
 }
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """A public name, imported from where it is defined."""
     if name not in _HOMES:
         raise AttributeError(f"module 'glrt' has no attribute {name!r}")
+    from importlib import import_module
+
     return getattr(import_module(f"glrt.{_HOMES[name]}"), name)
 
 

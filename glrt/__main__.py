@@ -2,6 +2,10 @@
 
 import sys
 
-from glrt.cli.main import main
+try:
+    from glrt.cli.main import main
+except KeyboardInterrupt:
+    sys.stderr.write("glrt: interrupted\n")
+    sys.exit(130)
 
 sys.exit(main())

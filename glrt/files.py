@@ -91,6 +91,10 @@ def reason(error: BaseException) -> str:
     """What an error says, without its number and its full stop."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
+    if isinstance(error, UnicodeDecodeError):
+        return "a text in it is damaged, or not in UTF-8"
+    if isinstance(error, UnicodeEncodeError):
+        return "a text for it, as the name of a file, has signs that UTF-8 cannot hold"
     return (str(error) or type(error).__name__).rstrip(".")
 
 
@@ -105,7 +109,7 @@ def _obstacle(path: Path) -> str | None:
     """
     target = path.resolve()
     if not target.parent.is_dir():
-        return f"there is no folder {path.parent}"
+        return _no_folder(path, target)
     if target.exists() and not target.is_file():
         return "it is a folder or a device, not a file"
     if target.exists():
@@ -114,6 +118,15 @@ def _obstacle(path: Path) -> str | None:
     _create(probe)
     probe.unlink()
     return None
+
+
+def _no_folder(path: Path, target: Path) -> str:
+    """`target` is where the path leads by its links."""
+    if path.is_symlink():
+        return f"it is a link to {target}, and there is no folder {target.parent}"
+    if path.parent.is_symlink():
+        return f"{path.parent} is a link to {target.parent}, and there is no such folder"
+    return f"there is no folder {path.parent}"
 
 
 def _beside(target: Path) -> Path:

@@ -1,4 +1,4 @@
-"""SIGINT and SIGTERM: how they end the command, from its first import to its last file."""
+"""SIGINT, SIGTERM and SIGHUP: how they end the command, from its imports to its last file."""
 
 import signal
 import threading
@@ -7,11 +7,13 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
 
-INTERRUPTED = 128  # plus the number of the signal: the exit code
-PLAIN = "interrupted"  # of a command that renders no picture, or not yet known to
+from glrt.early import INTERRUPTED as INTERRUPTED
+from glrt.early import PLAIN as PLAIN
+from glrt.early import WATCHED
+
 NOTHING = "interrupted before anything was rendered"
 
-_WATCHED = (signal.SIGINT, signal.SIGTERM)
+_HANGUP = getattr(signal, "SIGHUP", None)  # which Windows does not have
 
 Handler = Callable[[int, FrameType | None], None]
 
@@ -32,14 +34,24 @@ def exit_code_of(error: KeyboardInterrupt) -> int:
 
 @contextmanager
 def handled(handler: Handler) -> Iterator[None]:
-    """Let `handler` take the two signals inside, unless they are ignored, as by nohup.
+    """Let `handler` take the signals inside, unless they are ignored, as by nohup.
 
-    Only the main thread can; elsewhere, and where handlers are not Python's, nothing changes.
+    Only the main thread can; elsewhere, and where handlers are not Python's, nothing changes. Of
+    SIGHUP the first is taken alone: a shell whose terminal is closed sends one, and the system
+    another when the shell ends.
     """
+
+    def take(number: int, frame: FrameType | None) -> None:
+        try:
+            handler(number, frame)
+        finally:
+            if number == _HANGUP:
+                signal.signal(number, signal.SIG_IGN)
+
     is_main = threading.current_thread() is threading.main_thread()
     others = (signal.SIG_IGN, None)
-    watched = [n for n in _WATCHED if is_main and signal.getsignal(n) not in others]
-    before = {number: signal.signal(number, handler) for number in watched}
+    watched = [n for n in WATCHED if is_main and signal.getsignal(n) not in others]
+    before = {number: signal.signal(number, take) for number in watched}
     try:
         yield
     finally:
@@ -49,7 +61,7 @@ def handled(handler: Handler) -> Iterator[None]:
 
 @contextmanager
 def postponed() -> Iterator[None]:
-    """Let the two signals wait until the end of the block: the first that came is raised anew.
+    """Let the signals wait until the end of the block: the first that came is raised anew.
 
     For compiled code that calls Python and takes for granted that no exception comes of it.
     """

@@ -1,6 +1,6 @@
 """Quote words and numbers of the user in messages: short, on one line, with the nearest match."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
 
@@ -14,6 +14,14 @@ def shortened(text: str) -> str:
     """Text of the user, fit for a message: short, on one line."""
     printable = "".join(letter if letter.isprintable() else " " for letter in text)
     return printable if len(printable) <= 60 else printable[:57] + "..."
+
+
+def escaped(text: str) -> str:
+    """Text of the user, whole, with what cannot be printed as in Python: a line break is `\\n`."""
+    return "".join(
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode()
+        for letter in text
+    )
 
 
 def quoted(word: str) -> str:
@@ -30,10 +38,20 @@ def nearest(word: str, known: tuple[str, ...]) -> str | None:
     return near[0] if near else None
 
 
-def unknown(kind: str, word: str, known: Iterable[str], owner: str = "The scene has") -> str:
-    """Advice about a word that is none of the known ones: the nearest of them, and them all."""
+def unknown(
+    kind: str,
+    word: str,
+    known: Iterable[str],
+    owner: str = "The scene has",
+    short: Mapping[str, str] | None = None,
+) -> str:
+    """Advice about a word that is none of the known ones: the nearest of them, and them all.
+
+    `short` are other words that the user may have meant, with the known one for each.
+    """
     names = tuple(known)
-    near = nearest(word, names)
+    near = nearest(word, tuple(short or names))
+    near = short[near] if short and near else near
     question = f"; did you mean {quoted(near)}?" if near else "."
     shown = ", ".join(shortened(name) for name in names[:12])
     rest = f" and {len(names) - 12} more" if len(names) > 12 else ""

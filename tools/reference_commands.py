@@ -85,6 +85,7 @@ def exit_codes() -> list[tuple[int, str]]:
         (errors.UsageError.exit_code, "a wrong command line, file or scene"),
         (errors.ContextError.exit_code, "no usable OpenGL"),
         (errors.RenderError.exit_code, "the render failed: driver, memory or disk"),
+        (signals.INTERRUPTED + 1, "its terminal was closed (SIGHUP); a render saves what it has"),
         (signals.INTERRUPTED + 2, "interrupted by Ctrl-C; a render saves what it has"),
         (signals.INTERRUPTED + 15, "ended by SIGTERM; a render saves what it has"),
     ]

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - view: `glrt view`
 - merge: `glrt merge`
 - compare: `glrt compare`
+- scenes: `glrt scenes`
 - inspect: `glrt inspect`
 - chart: `glrt chart`
 - stress: `glrt stress`

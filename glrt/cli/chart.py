@@ -15,9 +15,10 @@ from glrt.analysis.chart.experiment import Plan, Tell, measure_scene
 from glrt.analysis.chart.files import save_chart, save_page
 from glrt.analysis.plot import check_matplotlib
 from glrt.cli.options import SCENE, add_context
+from glrt.cli.process import file_names
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, open_context
-from glrt.image.sources import load
+from glrt.image.sources import STANDARD_INPUT, load
 from glrt.rendering.stopping import Interruption
 from glrt.scene.scene import Scene
 from glrt.signals import INTERRUPTED
@@ -29,7 +30,7 @@ DESCRIPTION = (
 EPILOG = (
     "The same command continues after an interruption. References are kept in the user's cache "
     "folder. Exit codes: 0 done, 2 wrong usage or scene, or no matplotlib, 3 no usable OpenGL, "
-    "4 a render failed, 130 interrupted."
+    "4 a render failed, 129, 130 and 143 interrupted."
 )
 
 
@@ -66,13 +67,16 @@ def run(arguments: argparse.Namespace) -> int:
                 page = _chart(scenes, plan, folder, arguments.context, tell_or_stop)
         except KeyboardInterrupt:
             print(
-                f"glrt: interrupted; the rounds so far are kept in {folder}, and the same command "
-                "continues from there.",
+                f"glrt: interrupted; the rounds so far are kept in {file_names([folder])}, and the "
+                "same command continues from there.",
                 file=sys.stderr,
             )
             return INTERRUPTED + (interruption.signal or 0)
     if not arguments.quiet:
-        print(f"Wrote {page} and the charts of {', '.join(scenes)}.", file=sys.stderr)
+        print(
+            f"Wrote {file_names([page])} and the charts of {file_names([*scenes])}.",
+            file=sys.stderr,
+        )
     return 0
 
 
@@ -111,7 +115,7 @@ def _plan(arguments: argparse.Namespace) -> Plan:
 def _scenes(sources: Sequence[str]) -> dict[str, Scene]:
     scenes: dict[str, Scene] = {}
     for source in sources:
-        name = Path(source).stem
+        name = "standard-input" if source == STANDARD_INPUT else Path(source).stem
         if name in scenes:
             raise UsageError(f"Two scenes are called {name}: their charts would share a file.")
         scenes[name] = load(source)

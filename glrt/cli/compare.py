@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from glrt import files
-from glrt.comparison.noise import BLOCK
-from glrt.comparison.result import CHANNELS, Comparison, Interval, percent
+from glrt.comparison.result import CHANNELS, Comparison
 from glrt.comparison.verdict import compare
 from glrt.errors import UsageError
 from glrt.image.image import Image
@@ -67,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
         from glrt.comparison.heatmap import save_picture
 
         save_picture(comparison, arguments.picture)
-    print(json.dumps(figures(comparison)) if arguments.json else report(comparison), flush=True)
+    print(json.dumps(figures(comparison)) if arguments.json else repr(comparison), flush=True)
     wanted = ("same",) if arguments.strict else ("same", "undecided")
     return 0 if comparison.verdict in wanted else DIFFERENT
 
@@ -82,41 +81,6 @@ def read(path: str, samples: int | None, option: str) -> Image:
             f"{path}: this file does not say how many samples a pixel it has. Give {option} N."
         )
     return replace(image, samples=image.samples or samples or 0)
-
-
-def report(comparison: Comparison) -> str:
-    """Verdict and figures, for people."""
-    row = "{:<7}{:>11}{:>11}  {:>11}   {}".format
-    sure = f"{100 * (1 - comparison.alpha):g} %"
-    lines = [
-        str(comparison),
-        "",
-        row("mean", "image", "reference", "difference", f"{sure} interval"),
-    ]
-    rows = zip(CHANNELS, comparison.means, comparison.differences, strict=True)
-    lines += [row(c, *(f"{m:.5g}" for m in means), *_percent(d)) for c, means, d in rows]
-    if comparison.factors:
-        lines += ["", "weighted by 1 / noise, which best shows a factor between the pictures:"]
-        rest = zip(CHANNELS, comparison.factors, strict=True)
-        lines += [row(c, "", "", *_percent(factor)) for c, factor in rest]
-    else:
-        lines += ["", "The methods may differ: each picture is judged by its own noise."]
-    c = comparison
-    return "\n".join(
-        [
-            *lines,
-            "",
-            f"{BLOCK} x {BLOCK} blocks: spread {c.spread:.2f} of 1 expected; largest "
-            f"{c.largest:+.2f} of {c.limit:.2f} allowed, {c.worst}",
-            f"its worst pixel: {c.pixel}",
-            f"smallest difference that would have been found: {percent(c.shown)} of the picture",
-        ]
-    )
-
-
-def _percent(interval: Interval) -> tuple[str, str]:
-    difference, low, high = (percent(value, digits=3, sign="+") for value in interval)
-    return difference, f"{low} to {high}"
 
 
 def figures(comparison: Comparison) -> dict[str, Any]:

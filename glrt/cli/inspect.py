@@ -2,19 +2,21 @@
 
 import argparse
 
-from glrt.cli.options import SCENE, add_context, add_pipeline, add_settings
+from glrt.cli.options import SCENE, add_context, add_pipeline, add_settings, error_limit
 from glrt.cli.request import check_limit, open_renderer, scene_and_settings
 from glrt.errors import UsageError
-from glrt.image.sources import recipe_of
+from glrt.image.sources import recipe_of, shown
 from glrt.methods.features import contents_of, explain
 from glrt.methods.omissions import left_out, omissions
 from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
+from glrt.scene.summary import summary
 from glrt.settings import Settings
+from glrt.text import counted
 
 DESCRIPTION = (
-    "Show what the kernel for a scene contains and leaves out, and why; with --error, measure the "
-    "cheapest method and the fewest bounces that reach it."
+    "Show what a scene holds, and what the kernel for it contains and leaves out, and why; with "
+    "--error, measure the cheapest method and the fewest bounces that reach it."
 )
 EPILOG = ""
 
@@ -25,9 +27,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_settings(parser)
     parser.add_argument(
         "--error",
-        type=float,
+        type=error_limit,
         metavar="E",
-        help="measure which method and how many bounces reach this relative RMS error",
+        help="measure which method and how many bounces reach this relative RMS error (2%% or "
+        "0.02)",
     )
     parser.add_argument(
         "--kernel",
@@ -59,8 +62,10 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     from glrt.gpu.driver_checks import LLVMPIPE_ROUNDS
     from glrt.rendering.schedule import iterations_per_sample
 
-    print(f"{name}: {scene.title or 'no title'}")
-    print(f"method {settings.method}, {settings.bounces} bounces, {len(scene.objects)} objects\n")
+    print(f"{shown(name)}: {scene.title or 'no title'}")
+    count, bounces = counted(len(scene.objects), "object"), counted(settings.bounces, "bounce")
+    print(f"method {settings.method}, {bounces}, {count}\n")
+    print("\n".join(summary(scene)) + "\n")
     for feature in explain(scene, settings):
         print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
     if missing := omissions(scene, settings):

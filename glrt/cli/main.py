@@ -1,10 +1,11 @@
-"""The command `glrt`: how it starts, and how it ends."""
+"""The command `glrt`: how it starts, and how it ends.
+
+Nothing that takes time is imported before `main` has seen to Ctrl-C.
+"""
 
 import sys
-from contextlib import nullcontext
 
-from glrt.cli import process
-from glrt.cli.process import fail
+from glrt.early import leave_early
 
 SMALLER = "Render a smaller picture or a --crop."
 
@@ -15,14 +16,29 @@ def main(arguments: list[str] | None = None) -> int:
     Without `arguments` this is the process of the command `glrt`, whose command line it runs. With
     them it is a program's: signals and the garbage collector are left as they are.
     """
+    if arguments is None:
+        leave_early()
+    from contextlib import nullcontext
+
+    from glrt.cli import process
+
     process.open_missing()
+    if arguments is None:
+        process.make_patient()
     with process.loading() if arguments is None else nullcontext():
-        from glrt import signals
         from glrt.cli import commands
-        from glrt.errors import GlrtError, RenderError
-        from glrt.files import reason
 
         commands.load(arguments)
+    return _run(arguments)
+
+
+def _run(arguments: list[str] | None) -> int:
+    from glrt import signals
+    from glrt.cli import commands, process
+    from glrt.cli.process import fail
+    from glrt.errors import GlrtError, RenderError
+    from glrt.files import reason
+
     try:
         with signals.handled(signals.interrupt):
             code = commands.run(arguments)

@@ -10,7 +10,10 @@ from glrt.gpu.context import ROUTES, Pipeline
 from glrt.settings import RenderSettings, Settings, editable_of
 
 AUTO = "auto"  # as --method: chosen by a measurement
-SCENE = "a scene file, the name of a scene that comes with glrt, or a picture rendered by glrt"
+SCENE = (
+    "a scene file, the name of a scene that comes with glrt, a picture rendered by glrt, or - for "
+    "a scene file on standard input"
+)
 
 
 class Parser(argparse.ArgumentParser):
@@ -125,6 +128,20 @@ def _light(text: str) -> tuple[str, float]:
 
 def _refuse_light(text: str) -> NoReturn:
     raise argparse.ArgumentTypeError(f"{text!r} is not GROUP=X, such as ceiling=0.5")
+
+
+def error_limit(text: str) -> float:
+    """The value of `--error`: a fraction, or a percentage with its sign; 1 at most without it."""
+    word = text.strip()
+    try:
+        share = float(word.removesuffix("%")) / (100 if word.endswith("%") else 1)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no error, such as 0.02 or 2%") from None
+    if 1 < share < float("inf") and not word.endswith("%"):
+        raise argparse.ArgumentTypeError(
+            f"{100 * share:g} %? For {share:g} % write {share:g}% or {share / 100:g}"
+        )
+    return share
 
 
 def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:

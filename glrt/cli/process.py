@@ -1,16 +1,21 @@
 """The process of a command: start, standard streams, age and memory."""
 
 import gc
+import io
+import json
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from types import FrameType
-from typing import IO
+from typing import IO, Any
 
-from glrt.signals import INTERRUPTED, PLAIN, handled
+from glrt.early import leave_at_once
+from glrt.errors import RenderError
+from glrt.files import reason
+from glrt.signals import handled
+from glrt.text import escaped
 
 
 def open_missing() -> None:
@@ -27,6 +32,35 @@ def open_missing() -> None:
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
 
 
+class Patient(io.TextIOWrapper):
+    """A stream that goes on when nobody takes what it is given: all later text goes nowhere.
+
+    For stderr: a terminal that is closed during a render must not cost the picture.
+    """
+
+    def write(self, text: str) -> int:
+        """Return the length of the text, whatever becomes of it."""
+        try:
+            return super().write(text)
+        except OSError:
+            silence(self)
+            return len(text)
+
+    def flush(self) -> None:
+        """Write out what is pending, if possible."""
+        try:
+            super().flush()
+        except OSError:
+            silence(self)
+
+
+def make_patient() -> None:
+    """Let no failure to write to stderr end the command."""
+    old = sys.stderr
+    if isinstance(old, io.TextIOWrapper):
+        sys.stderr = Patient(old.buffer, old.encoding, old.errors, line_buffering=True)
+
+
 def tell(text: str) -> None:
     """A line on stderr, if that takes one."""
     try:
@@ -39,6 +73,25 @@ def fail(message: str, code: int) -> int:
     """Tell why the command fails, in one paragraph; returns the exit code."""
     tell(f"glrt: {' '.join(message.split())}")
     return code
+
+
+def file_names(outputs: Sequence[str | Path]) -> str:
+    """Files that were written, for a message on one line."""
+    return ", ".join(escaped(str(output)) for output in outputs)
+
+
+def print_figures(figures: dict[str, Any], outputs: Sequence[str]) -> None:
+    """A line of JSON on stdout; if that takes none, RenderError says that the files are saved."""
+    try:
+        print(json.dumps(figures), flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        settle(sys.stdout)
+        raise RenderError(
+            f"The picture is saved in {file_names(outputs)}, but its figures could not be written "
+            f"to standard output: {reason(error)}. Send them to another place."
+        ) from None
 
 
 def settle(stream: IO[str]) -> None:
@@ -71,15 +124,6 @@ def loading() -> Iterator[None]:
         if was_enabled:
             gc.freeze()
             gc.enable()
-
-
-def leave_at_once(number: int, _frame: FrameType | None) -> None:
-    """A handler: ends the process without an exception.
-
-    One that is raised while a compiled package is loaded can end in C++'s terminate: SIGABRT.
-    """
-    os.write(2, f"glrt: {PLAIN}\n".encode())
-    os._exit(INTERRUPTED + number)
 
 
 _IMPORTED = time.perf_counter()

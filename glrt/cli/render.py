@@ -1,7 +1,6 @@
 """`glrt render`: render a scene to files, with figures and an exit code for scripts."""
 
 import argparse
-import json
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -11,13 +10,22 @@ from typing import Any, NamedTuple
 
 from glrt import signals
 from glrt.cli.autosave import Autosave
-from glrt.cli.options import AUTO, SCENE, add_context, add_pipeline, add_settings, is_automatic
-from glrt.cli.process import fail, peak_bytes, since_start
+from glrt.cli.options import (
+    AUTO,
+    SCENE,
+    add_context,
+    add_pipeline,
+    add_settings,
+    error_limit,
+    is_automatic,
+)
+from glrt.cli.process import fail, file_names, peak_bytes, print_figures, since_start
 from glrt.cli.request import Order, opened, order
 from glrt.error.reliability import doubt
 from glrt.errors import RenderError, UsageError
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
+from glrt.image.sources import check_not_scene
 from glrt.methods.omissions import left_out, omissions
 from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
@@ -31,7 +39,7 @@ EPILOG = (
     "--error without --samples raises the limit of samples to 1048576. Ctrl-C saves what was "
     "rendered; a long render saves every minute; --resume continues from its .exr. Exit codes: "
     "0 done, 1 --error not reached, 2 wrong usage or scene, 3 no usable OpenGL, 4 the render "
-    "failed, 130 and 143 interrupted."
+    "failed, 129, 130 and 143 interrupted."
 )
 
 
@@ -57,9 +65,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--error",
-        type=float,
+        type=error_limit,
         metavar="E",
-        help="stop at this estimated relative RMS error (2 %%: 0.02)",
+        help="stop at this estimated relative RMS error (2%% or 0.02)",
     )
     parser.add_argument(
         "--part",
@@ -100,6 +108,8 @@ def _run(arguments: argparse.Namespace) -> int:
     wanted = order(arguments)
     for output in arguments.outputs:
         check_writable(output)
+        if arguments.scene is not None:
+            check_not_scene(output, arguments.scene)
     is_kept = any(name.lower().endswith(".exr") for name in arguments.outputs)
     if getattr(arguments, "aov", ()) and not is_kept:
         raise UsageError("--aov needs an .exr output: other files hold the picture alone.")
@@ -220,14 +230,14 @@ def _tell(arguments: argparse.Namespace, done: Done) -> None:
     renderer, begun, new = done.renderer, done.begun, done.new
     width, height = renderer.size
     if arguments.json:
-        print(json.dumps(_figures(arguments, done)), flush=True)
+        print_figures(_figures(arguments, done), arguments.outputs)
     elif not arguments.quiet:
         known = "" if done.error is None else f", estimated error {100 * done.error:.2g} %"
-        names = ", ".join(arguments.outputs)
         more = f" ({new} of them new)" if begun else ""
         print(
-            f"Wrote {names}: {width} x {height}, {counted(done.image.samples, 'sample')}{more} in "
-            f"{done.seconds['render']:.1f} s ({done.rate / 1e6:.2f} million samples/s){known}.",
+            f"Wrote {file_names(arguments.outputs)}: {width} x {height}, "
+            f"{counted(done.image.samples, 'sample')}{more} in {done.seconds['render']:.1f} s "
+            f"({done.rate / 1e6:.2f} million samples/s){known}.",
             file=sys.stderr,
         )
         if dropped := done.dropped:

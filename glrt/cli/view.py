@@ -3,7 +3,7 @@
 import argparse
 
 from glrt.cli.options import SCENE, add_pipeline, add_settings, settings_given
-from glrt.cli.process import leave_at_once
+from glrt.early import leave_at_once
 from glrt.errors import ContextError, UsageError
 from glrt.image.sources import load_recipe
 from glrt.scene.scene import with_lights
@@ -15,8 +15,8 @@ DESCRIPTION = (
     "preferences; its buttons save pictures and scenes."
 )
 EPILOG = (
-    "Exit codes: 0 closed, 2 wrong usage or scene, 3 no window or no usable OpenGL, 130 and 143 "
-    "interrupted."
+    "Exit codes: 0 closed, 2 wrong usage or scene, 3 no window or no usable OpenGL, 129, 130 and "
+    "143 interrupted."
 )
 
 

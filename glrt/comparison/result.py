@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from glrt.comparison.noise import Array
+from glrt.comparison.noise import BLOCK, Array
 
 Verdict = Literal["same", "different", "undecided"]
 
@@ -39,9 +39,11 @@ class Place(NamedTuple):
         return f"{self.channel} at x {self.x} to {right}, y {self.y} to {bottom}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """The result of `compare`; false in a condition if the pictures differ.
+
+    `str` is a line, the verdict; `repr`, as notebooks show it, the report of `glrt compare`.
 
     A score is the number of standard errors of a normal distribution that is as unlikely: about 1
     by chance. Pixels that are NaN or infinite are left out of all figures.
@@ -68,6 +70,9 @@ class Comparison:
     def __bool__(self) -> bool:
         return self.verdict != "different"
 
+    def __repr__(self) -> str:
+        return _report(self)
+
     def __str__(self) -> str:
         if self.verdict == "different":
             return f"different: {'; '.join(self.reasons)}"
@@ -75,3 +80,34 @@ class Comparison:
             return f"same: a difference of {percent(self.bias)} would have shown"
         missing = f"{self.needs} samples in both" if self.needs else "more samples"
         return f"undecided: needs {missing} to show a difference of {percent(self.bias)}"
+
+
+def _report(c: Comparison) -> str:
+    """Verdict and figures, for people."""
+    sure = f"{100 * (1 - c.alpha):g} % interval"
+    lines = [str(c), "", _row("mean", "image", "reference", "difference", sure)]
+    rows = zip(CHANNELS, c.means, c.differences, strict=True)
+    lines += [_row(name, *(f"{m:.5g}" for m in means), *_percent(d)) for name, means, d in rows]
+    if c.factors:
+        lines += ["", "weighted by 1 / noise, which best shows a factor between the pictures:"]
+        rest = zip(CHANNELS, c.factors, strict=True)
+        lines += [_row(name, "", "", *_percent(factor)) for name, factor in rest]
+    else:
+        lines += ["", "The methods may differ: each picture is judged by its own noise."]
+    lines += [
+        "",
+        f"{BLOCK} x {BLOCK} blocks: spread {c.spread:.2f} of 1 expected; largest "
+        f"{c.largest:+.2f} of {c.limit:.2f} allowed, {c.worst}",
+        f"its worst pixel: {c.pixel}",
+        f"smallest difference that would have been found: {percent(c.shown)} of the picture",
+    ]
+    return "\n".join(lines)
+
+
+def _row(*cells: str) -> str:
+    return "{:<7}{:>11}{:>11}  {:>11}   {}".format(*cells)
+
+
+def _percent(interval: Interval) -> tuple[str, str]:
+    difference, low, high = (percent(value, digits=3, sign="+") for value in interval)
+    return difference, f"{low} to {high}"

@@ -18,6 +18,8 @@ from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
 from glrt.settings import Aov, Settings, ToneMap
+from glrt.silence import silenced
+from glrt.text import escaped
 
 Pixels = NDArray[np.float32]
 
@@ -122,7 +124,9 @@ class Image:
         channels |= aovs.to_channels(self.aovs)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
-        OpenEXR.File(header, contiguous).write(str(path))
+        name = str(path)
+        name.encode()  # of another name the library says something else
+        OpenEXR.File(header, contiguous).write(name)
 
     def _write_png(
         self,
@@ -170,7 +174,8 @@ def read_recipe(path: str | Path) -> Recipe:
 
 def check_writable(path: str | Path) -> None:
     """Raise `UsageError` if `Image.save` could not write there; leaves nothing behind."""
-    _known_suffix(Path(path))
+    if _known_suffix(Path(path)) == ".exr":
+        _check_name(Path(path))
     files.check_writable(Path(path))
 
 
@@ -185,19 +190,42 @@ def _known_suffix(path: Path) -> str:
 
 def _read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Header and channels by name, (H, W) each."""
-    import OpenEXR
 
     if _first_bytes(path) != _EXR_MAGIC:
         raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
+    header, channels = _opened_exr(path, True, "its header is damaged")
+    if not header_only:
+        _check_size(header["dataWindow"], path)
+        header, channels = _opened_exr(path, False, "its pixels are damaged, or it is cut off")
+    return header, channels
+
+
+def _opened_exr(
+    path: Path, header_only: bool, damage: str
+) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Header and channels; the library's own words say nothing of what is wrong."""
+    import OpenEXR
+
+    _check_name(path)
     try:
-        file = OpenEXR.File(str(path), separate_channels=True, header_only=True)
-        if not header_only:
-            _check_size(file.header()["dataWindow"], path)
-            file = OpenEXR.File(str(path), separate_channels=True)
-        channels = {name: channel.pixels for name, channel in file.channels().items()}
-        return file.header(), channels
-    except (RuntimeError, ValueError) as error:
+        with silenced():
+            file = OpenEXR.File(str(path), separate_channels=True, header_only=header_only)
+            channels = {name: channel.pixels for name, channel in file.channels().items()}
+            return file.header(), channels
+    except UnicodeError as error:
         raise _unreadable(path, error) from None
+    except (RuntimeError, ValueError):
+        advice = "Copy it or render it again."
+        raise UsageError(f"{path}: cannot read this image: {damage}. {advice}") from None
+
+
+def _check_name(path: Path) -> None:
+    """Raise UsageError for a name of an EXR file that the library does not take."""
+    try:
+        str(path.absolute()).encode()
+    except UnicodeError:
+        advice = "OpenEXR takes only names in UTF-8; rename the file or its folder."
+        raise UsageError(f"{escaped(str(path))}: {advice}") from None
 
 
 def _check_size(window: Any, path: Path) -> None:

@@ -17,5 +17,6 @@ Modules, each importing only what stands above it:
 - toml: scene files read
 - toml_writer: scene files written, with their comments kept
 - catalog: the scenes that come with glrt, by name
+- summary: what a scene holds, in words
 - limits: what lies beyond float32 or the model: cautions
 """

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from glrt.errors import RenderError
 from glrt.files import reason
+from glrt.silence import silenced
 from glrt.text import shortened
 
 Pixels = NDArray[np.float32]
@@ -239,7 +240,8 @@ def _read_exr(path: str, color: bool) -> Pixels:
 def _opened_exr(path: str, header_only: bool = False) -> Any:
     import OpenEXR  # type: ignore[import-not-found]
 
-    file = OpenEXR.File(path, separate_channels=True, header_only=header_only)
+    with silenced():
+        file = OpenEXR.File(path, separate_channels=True, header_only=header_only)
     if not file.parts:  # since 3.5, of pixels that cannot be decoded
         raise damaged("its pixels cannot be decoded")
     if len(file.parts) > 1:

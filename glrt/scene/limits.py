@@ -29,6 +29,7 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         _huge_ball(scene),
         _crossing_glass(scene),
         _walled_in(scene),
+        _dark(scene),
     )
     return [text for text in found if text]
 
@@ -113,6 +114,24 @@ def _walled_in(scene: Scene) -> str:
                 "no light. Move the camera out, or put a lamp inside."
             )
     return ""
+
+
+def _dark(scene: Scene) -> str:
+    """Nothing that emits: the picture is black, and sure of it."""
+    used = {thing.material for thing in scene.objects}
+    emits = any(any(scene.emission(name)) for name in used)
+    if emits or any(map(any, scene.background_colors)):
+        return ""
+    lamps = any(scene.materials[name].type == "light" for name in used)
+    remedy = (
+        "Raise the emission of a lamp, or the intensity of its group under [lights] or with --light"
+        if lamps
+        else 'Give an object a material of type "light", or add a [background] with a color'
+    )
+    return (
+        "there is no light in this scene: no lamp emits and the background is black, so the "
+        f"picture is black, with an estimated error of 0 %. {remedy}."
+    )
 
 
 def _reaches_into(ball: Sphere, lamp: Shape) -> bool:

@@ -25,7 +25,24 @@ _LONG_KEY = re.compile(rf"(?:{_PART}\.[ \t]*+){{{_MOST_PARTS}}}")
 def read_scene(path: Path) -> Scene:
     """The scene in a TOML file; raises `SceneError`, one paragraph that begins with the path."""
     source = str(path)
-    return parse_scene(_toml(_text(path, source), source), source)
+    return decode_scene(_content(path, source), source)
+
+
+def decode_scene(content: bytes, source: str) -> Scene:
+    """The scene in what a TOML file holds; `source` is what messages call it.
+
+    Raises `SceneError` with one paragraph that begins with `source`.
+    """
+    if len(content) > LARGEST:
+        problem = f"it is longer than {LARGEST >> 20} MiB, more than 65,536 objects take"
+        raise scene_error(source, f"not a scene: {problem}")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise scene_error(
+            source, "not a text file in UTF-8; a scene is a TOML file, see the folder scenes"
+        ) from None
+    return parse_scene(_toml(text, source), source)
 
 
 def parse_scene(data: Mapping[str, Any], source: str) -> Scene:
@@ -36,15 +53,11 @@ def parse_scene(data: Mapping[str, Any], source: str) -> Scene:
     return validated(Scene, data, source)
 
 
-def _text(path: Path, source: str) -> str:
+def _content(path: Path, source: str) -> bytes:
     try:
-        return read_at_most(path, LARGEST).decode("utf-8-sig")
+        return read_at_most(path, LARGEST)
     except FileNotFoundError:
         raise scene_error(source, f"no such file{_neighbour(path)}") from None
-    except UnicodeDecodeError:
-        raise scene_error(
-            source, "not a text file in UTF-8; a scene is a TOML file, see the folder scenes"
-        ) from None
     except OSError as error:
         if path.is_dir():
             raise scene_error(source, "is a folder; name a scene file in it") from None

@@ -78,6 +78,14 @@ def test_report_tells_the_figures(folder: Path, capsys: pytest.CaptureFixture[st
         assert f"{low} to {high}" in text
 
 
+def test_a_notebook_shows_the_report(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """IPython takes `repr`, as Python's own prompt does; `str` is a line for messages."""
+    comparison = compare(Image.load(folder / "a.exr"), Image.load(folder / "c.exr"))
+    assert repr(comparison) + "\n" == run(folder, "a.exr c.exr", capsys)[1]
+    assert "array(" not in repr(comparison)
+    assert "\n" not in str(comparison)
+
+
 def test_percent_is_written_without_exponent() -> None:
     assert percent(1.4567) == "150 %"
     assert percent(0.00123, digits=2) == "0.12 %"

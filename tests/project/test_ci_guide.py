@@ -83,6 +83,12 @@ def test_the_number_of_threads_changes_no_bit(tmp_path: Path) -> None:
     assert bits[0] == bits[1]
 
 
+def test_both_caches_of_mesa_are_kept() -> None:
+    """Newer versions keep kernels in one file, in a folder of another name."""
+    kept = set(re.findall(r"^ +~/\.cache/(\w+)$", block("yaml"), re.MULTILINE))
+    assert kept == {"mesa_shader_cache", "mesa_shader_cache_db"}
+
+
 def test_the_packages_named_are_those_that_the_advice_names() -> None:
     named = re.findall(r"lib[\w-]+", ADVICE)
     assert len(named) >= 4

@@ -285,5 +285,7 @@ def test_figures_that_nobody_can_write_do_not_cost_the_picture(tmp_path: Path) -
     command = f'"{sys.executable}" -m glrt render sky -o "{path}" {" ".join(SMALL)} --json'
     done = subprocess.run(["bash", "-c", f"{command} > /dev/full"], capture_output=True, text=True)
     assert done.returncode == 4
-    assert "No space left" in one_paragraph(done.stderr)
+    said = one_paragraph(done.stderr)
+    assert "No space left" in said
+    assert f"The picture is saved in {path}" in said
     assert Image.load(path).samples == 64

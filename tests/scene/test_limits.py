@@ -23,7 +23,8 @@ def told(scene: Scene, **settings: Any) -> list[str]:
 
 
 def with_balls(*balls: dict[str, Any], **camera: Any) -> Scene:
-    return scene_of([plane([0, -9, 0], [0, 1, 0], "m"), *balls], MATERIALS, camera)
+    things = [plane([0, -9, 0], [0, 1, 0], "m"), *balls]
+    return scene_of(things, MATERIALS, camera, background={"color": [1, 1, 1]})
 
 
 @pytest.mark.parametrize("name", scene_names())
@@ -114,6 +115,35 @@ def test_pixels_narrower_than_a_rounding_are_told(fov: float, height: int, warns
     assert bool(found) == warns
     if warns:
         assert found[0].startswith("camera.fov 0.001 at 512 rows makes pixels of 3e-08 radians")
+
+
+BALL = sphere([0, 0, -5], 1, "m")
+LAMP = sphere([0, 4, -5], 1, "lamp")
+BLACK = {"color": [0, 0, 0]}
+
+
+@pytest.mark.parametrize(
+    ("things", "tables", "remedy"),
+    [
+        ([BALL], {}, 'Give an object a material of type "light"'),
+        ([BALL], {"background": BLACK}, "add a [background]"),
+        ([BALL, LAMP], {"lights": {"lamp": 0}}, "the intensity of its group"),
+        ([BALL, LAMP], {}, ""),
+        ([BALL], {"background": {"bottom": [0, 0, 0], "top": [0, 0, 1]}}, ""),
+        ([BALL], {"background": {"color": [1, 1, 1]}, "lights": {"background": 0}}, "[background]"),
+    ],
+)
+def test_a_scene_without_light_is_told_with_the_remedy(
+    context: Context, things: list[dict[str, Any]], tables: dict[str, Any], remedy: str
+) -> None:
+    """And its picture is black, with an error of 0; all others show something."""
+    scene = scene_of(things, MATERIALS, **tables)
+    found = told(scene)
+    assert len(found) == bool(remedy)
+    assert all("there is no light in this scene" in text and remedy in text for text in found)
+    image = rendered(scene, context, 32, width=16, height=16)
+    assert image.radiance.any() != bool(remedy)
+    assert (image.error == 0) == bool(remedy)
 
 
 SCENE = """

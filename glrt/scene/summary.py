@@ -1,0 +1,47 @@
+"""What a scene holds, a line for each sort of thing."""
+
+from collections.abc import Iterable, Iterator
+
+from glrt.scene.materials import TYPES
+from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.shapes import KINDS
+from glrt.text import counted, number, shortened
+
+MOST_NAMED = 8  # of a sort
+
+
+def summary(scene: Scene) -> list[str]:
+    """Objects by kind, materials by type, and light groups with their intensity."""
+    return [
+        f"objects    {', '.join(_objects(scene)) or 'none'}",
+        f"materials  {'; '.join(_materials(scene)) or 'none'}",
+        f"lights     {_few(_lights(scene)) or 'none'}",
+    ]
+
+
+def _objects(scene: Scene) -> Iterator[str]:
+    for kind in KINDS:
+        if count := sum(thing.shape == kind for thing in scene.objects):
+            yield counted(count, kind)
+
+
+def _materials(scene: Scene) -> Iterator[str]:
+    for type_ in TYPES:
+        names = [name for name, material in scene.materials.items() if material.type == type_]
+        if names:
+            yield f"{type_} {_few(names)}"
+
+
+def _lights(scene: Scene) -> Iterator[str]:
+    """The background too, unless it is black at any intensity."""
+    has_sky = any(map(any, scene.background.gradient))
+    for group, intensity in scene.light_groups.items():
+        if group != SKY_GROUP or has_sky:
+            yield f"{group}={number(intensity)}"
+
+
+def _few(words: Iterable[str]) -> str:
+    """The first of many, and how many others there are."""
+    found = [shortened(word) for word in words]
+    rest = f" and {len(found) - MOST_NAMED:,} more" if len(found) > MOST_NAMED else ""
+    return ", ".join(found[:MOST_NAMED]) + rest
