@@ -109,7 +109,7 @@ AOVS = [
     ),
     Mutant(
         "an edit leaves AOVs as they were",
-        (Edit("glrt/rendering/tracer.py", "        after.aovs.restart(plan.first_sample)\n", ""),),
+        (Edit("glrt/rendering/tracer.py", "        after.aovs.restart(plan)\n", ""),),
         "rendering/test_aov_updates.py::test_an_edit_restarts_aovs_and_leaves_nothing_behind",
     ),
     Mutant(

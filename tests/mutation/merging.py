@@ -120,9 +120,9 @@ MERGING = [
     ),
     bug(
         "AOVs of a part begin with the first sample of the render",
-        "rendering/tracer.py",
-        "self.aovs.restart(self._plan.first_sample)",
-        "self.aovs.restart(0)",
+        "rendering/aov_tracer.py",
+        "stage.film.restart(plan.first_sample)",
+        "stage.film.restart(0)",
         "rendering/test_parts.py::test_merged_parts_are_one_render_up_to_rounding",
     ),
 ]
