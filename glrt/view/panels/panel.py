@@ -18,6 +18,7 @@ from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.objects import draw_object, with_material
 from glrt.view.panels.widgets import button, edited, edited_fields, legend
 from glrt.view.state.controls import Control, control_of_items, controls_of, replaced
+from glrt.view.state.costs import cost_of_fewer_bounces, cost_of_light
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
@@ -75,7 +76,7 @@ def _commands(app: App) -> None:
         session.paused = not session.paused
     imgui.same_line()
     if imgui.button("restart"):
-        session.restart()
+        app.restart()
     imgui.same_line()
     if button("undo", session.history.can_undo):
         session.undo()
@@ -95,7 +96,7 @@ def _lights(app: App) -> None:
         if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
             continue
         imgui.separator_text(group)
-        control = INTENSITY.named("intensity").costing(app.session.cost_of_light(group))
+        control = INTENSITY.named("intensity").costing(cost_of_light(app.session, group))
         new = edited(control, intensity, group)
         if new is not None:
             app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
@@ -105,7 +106,7 @@ def _lights(app: App) -> None:
 
 
 def _emission(app: App, name: str, material: Light) -> None:
-    cost = app.session.cost_of_light(material.group or name, is_tint=True)
+    cost = cost_of_light(app.session, material.group or name, is_tint=True)
     color = edited(EMISSION.costing(cost), material.emission, name)
     if color is not None:
         app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
@@ -121,7 +122,7 @@ def _with_background(scene: Scene, **colors: Any) -> Scene:
 
 def _paths(app: App) -> None:
     session = app.session
-    bounces = SETTINGS["bounces"].costing(session.cost_of_fewer_bounces())
+    bounces = SETTINGS["bounces"].costing(cost_of_fewer_bounces(session))
     _edit(app, edited_fields((bounces,), dict(session.settings)))
     if session.pipeline == "compute":
         _, session.by_length = imgui.checkbox("bounces live", session.by_length)

@@ -7,10 +7,11 @@ from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.methods.features import explain
 from glrt.methods.light_layers import Plan
-from glrt.settings import MAX_SAMPLES, Settings
+from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.state.error_history import Look, Progress
+from glrt.view.state.session import Session
 
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
@@ -37,9 +38,9 @@ def figures(app: App) -> list[str]:
     rate = work * width * height / max(session.rendering, 1e-9)
     preview = " (coarse while it moves)" if session.is_preview else ""
     lines = [
-        f"{session.samples} of {session.settings.samples} samples{preview}",
+        _samples(session.samples, session.settings.samples) + preview,
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {_banded(progress.last, session.settings)}",
+        f"error {_banded(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
     if progress.last and progress.last.nonfinite:
@@ -60,10 +61,23 @@ def forecast(progress: Progress, target: float, samples: int) -> str:
     return f"{_percent(target)} in about {_duration(seconds)} of rendering{more}"
 
 
-def _banded(look: Look | None, settings: Settings) -> str:
+def _samples(done: int, wanted: int) -> str:
+    if done > wanted:
+        return f"{done} samples, {wanted} are wanted"
+    return f"{done} of {wanted} samples"
+
+
+def _unknown(session: Session) -> str:
+    """Why there is no error, and when there is."""
+    if session.samples >= session.known_from and not session.is_preview:
+        return "unknown until the picture is read"
+    more = f": raise samples to {session.known_from}"
+    is_short = session.settings.samples < session.known_from
+    return f"unknown, known from {session.known_from} samples on{more if is_short else ''}"
+
+
+def _banded(look: Look) -> str:
     """The error, and the band that chance leaves it: to as many digits as tell its ends apart."""
-    if look is None:
-        return f"estimated from {2 * settings.block} samples on"
     error, low, high = (100 * part for part in look.band)
     if not 0 < high - low < math.inf:
         return f"{error:.2g} %, estimated"

@@ -61,9 +61,18 @@ def draw_viewport(app: App) -> None:
         _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
     if app.show.drawn != "picture":
         draw_legend(app.show, app.camera, app.progress.last, corner + ImVec2(0, height), width)
-    notices = app.show.notice(app.session), app.recent_message(time.perf_counter())
-    for line, notice in enumerate(filter(None, notices)):
+    for line, notice in enumerate(filter(None, _notices(app))):
         _notice(notice, corner + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+
+
+def _notices(app: App) -> tuple[str, ...]:
+    """What is told in the picture, a line each; "" for nothing."""
+    return (
+        app.show.notice(app.session),
+        "old picture, until the new one has a sample" if app.show.is_old else "",
+        "paused" if app.session.paused else "",
+        app.recent_message(time.perf_counter()),
+    )
 
 
 def _wipe(app: App) -> None:

@@ -10,6 +10,7 @@ from glrt.error.estimate import Band, error_band
 from glrt.methods.light_layers import Weights
 from glrt.rendering.film import Film
 from glrt.rendering.weighting import mixed
+from glrt.view.state.session import Session
 
 GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
 PAUSE = 0.5  # seconds between two looks, at least
@@ -51,14 +52,33 @@ class Progress:
         self._picture: Hashable = None
         self._looked = 0.0
 
-    def is_due(self, picture: Hashable, samples: int, now: float, is_done: bool = False) -> bool:
-        """Whether to look at the error now; another picture forgets the looks at the one before.
+    def follow(self, session: Session, now: float) -> Look | None:
+        """A frame: forget another picture, and look at this one where that is due."""
+        renderer = session.renderer
+        if not renderer:
+            return None
+        self.begin((session.restarts, session.weights))
+        if session.is_preview or session.samples < session.known_from:
+            return None  # of fewer samples no error is known, and reading them takes time
+        if not self.is_due(session.samples, now, session.is_done):
+            return None
+        look = look_at(renderer.film, session.weights, session.rendering)
+        self.record(look, now)
+        return look
 
-        `picture` tells pictures apart: it changes with each restart, and each change of light. One
-        that `is_done` is looked at once more: its error is that of all its samples.
+    def begin(self, picture: Hashable) -> None:
+        """Forget the looks at another picture.
+
+        `picture` tells pictures apart: it changes with each restart, and each change of light.
         """
         if picture != self._picture:
             self._picture, self.looks = picture, []
+
+    def is_due(self, samples: int, now: float, is_done: bool = False) -> bool:
+        """Whether to look at the error now.
+
+        A picture that `is_done` is looked at once more: its error is that of all its samples.
+        """
         least = GROWTH * self.looks[-1].samples if self.looks else 2
         if is_done and self.looks:
             least = self.looks[-1].samples + 1

@@ -12,13 +12,11 @@ from glrt.errors import GlrtError, RenderError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
 from glrt.methods.features import needs_of
-from glrt.methods.light_layers import Layering, Weights, emitters, layer_of_group, plan_for
+from glrt.methods.light_layers import Layering, Weights, plan_for
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
-from glrt.scene.scene import SKY_GROUP, Scene
-from glrt.scene.values import Radiance
+from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost, Settings, settings_for
-from glrt.view.memo import kept_for_the_same
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
@@ -88,6 +86,11 @@ class Session:
         return self.renderer.samples if self.renderer else 0
 
     @property
+    def known_from(self) -> int:
+        """The samples from which on an error is known: of two observations."""
+        return 2 * (self.renderer or self).settings.block
+
+    @property
     def layering(self) -> Layering:
         """What the layers of the film are to hold: light groups, or lengths of paths.
 
@@ -112,30 +115,25 @@ class Session:
         is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
         return plan.alone(self.alone or 0) if is_alone else plan.weights
 
-    def cost_of_light(self, group: str, is_tint: bool = False) -> Cost:
-        """What another intensity of a light group costs now, or another colour of one lamp."""
-        layers, lamps = _lamps(self.scene)
-        shares = [other for other in layers if layers[other] == layers.get(group)]
-        is_weighed = len(shares) == 1 and not (is_tint and len(lamps.get(group, [])) > 1)
-        if is_weighed and self.layering == "groups":
-            return Cost.RELIGHT
-        return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
-
-    def cost_of_fewer_bounces(self) -> Cost:
-        """What a lower bounce limit costs now."""
-        return Cost.RELIGHT if self.layering == "lengths" else Cost.RESTART
-
     @property
     def is_preview(self) -> bool:
         """Whether the renderer is at less than full size."""
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
 
     @property
+    def is_behind(self) -> bool:
+        """Whether the renderer lacks an edit."""
+        if self.renderer is None:
+            return True
+        given = State(self.renderer.scene, self.renderer.settings)
+        return given != self._wanted() or self.renderer.plan.layering != self.layering
+
+    @property
     def is_done(self) -> bool:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
         is_short = self.renderer is None or self.renderer.lacks(self.settings.samples)
-        return not self._is_behind and (waits or not is_short)
+        return not self.is_behind and (waits or not is_short)
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
@@ -213,17 +211,9 @@ class Session:
             width, height = renderer.size
             self._preview.record(spent / (done * width * height))
 
-    @property
-    def _is_behind(self) -> bool:
-        """Whether the renderer lacks an edit."""
-        if self.renderer is None:
-            return True
-        given = State(self.renderer.scene, self.renderer.settings)
-        return given != self._wanted() or self.renderer.plan.layering != self.layering
-
     def _apply_pending(self) -> bool:
         """Whether the renderer has all edits; what compiles is announced first."""
-        is_behind = self._is_behind
+        is_behind = self.is_behind
         if is_behind and self._compiles() and self._announced < ANNOUNCED:
             self.busy = "Compiling a kernel for this scene"
             self._announced += 1
@@ -291,9 +281,3 @@ class Session:
             size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
             settings = settings_for(settings, **size)
         return State(self.scene, settings)
-
-
-@kept_for_the_same
-def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
-    """The layer of each light group, and what its lamps emit."""
-    return layer_of_group(scene), emitters(scene)
