@@ -12,7 +12,7 @@ from glrt.methods.light_layers import NONE, ONE
 from glrt.rendering.film import Film
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
-from glrt.view.state.costs import cost_of_fewer_bounces, cost_of_light
+from glrt.view.state.costs import cost_of_light, reach_of_bounces
 from glrt.view.state.session import Session
 from tests.support.mixed_scene import everything
 from tests.support.sessions import Clock, start
@@ -34,7 +34,7 @@ def test_bounces_are_weighed_while_their_control_is_open(session: Session) -> No
     start(session)
     session.by_length = True
     assert cost_of_light(session, "lamp") is Cost.RESTART
-    assert cost_of_fewer_bounces(session) is Cost.RELIGHT
+    assert reach_of_bounces(session)
     start(session)
     restarts, samples = session.restarts, session.samples
     session.edit(bounces=1)
@@ -68,7 +68,7 @@ def test_without_compute_another_light_restarts(context: Context, clock: Clock) 
         for edit in edits:
             restarts = session.restarts
             assert cost_of_light(session, "lamp") is Cost.RESTART
-            assert cost_of_fewer_bounces(session) is Cost.RESTART
+            assert reach_of_bounces(session) is None
             session.edit(**edit)
             start(session)
             assert (session.restarts, session.last_cost) == (restarts + 1, Cost.RESTART)
@@ -86,7 +86,7 @@ def test_layers_that_are_too_wide_for_the_driver_are_not_kept(session: Session) 
     start(session)
     assert session.lacks_room
     assert session.renderer.plan.layers == 0
-    assert cost_of_fewer_bounces(session) is Cost.RESTART
+    assert reach_of_bounces(session) is None
     session.by_length = False
     session.edit(width=24)
     start(session)

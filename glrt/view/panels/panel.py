@@ -1,31 +1,32 @@
 """The panel: every setting and every editable value of the scene, by subject."""
 
+from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 
 from glrt.methods.light_layers import MOST_LAYERS
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
-from glrt.settings import Settings
+from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.objects import draw_object, with_material
 from glrt.view.panels.widgets import button, edited, edited_fields, legend
-from glrt.view.state.controls import Control, control_of_items, controls_of, replaced
-from glrt.view.state.costs import cost_of_fewer_bounces, cost_of_light
+from glrt.view.state.controls import Control, control_of_items, controls_of, replaced, switch
+from glrt.view.state.costs import cost_of_light, reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
 PATHS = ("method", "sampler", "roulette", "seed")
 DISPLAY = ("exposure", "tonemap")
-FRAME = ("width", "height")
+FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 INTENSITY = control_of_items(Scene, "lights")
 EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
@@ -39,6 +40,10 @@ _LIVE = (
     "be shown alone. Turning it on or off restarts the picture; while it is on, a change of a lamp "
     "restarts it too."
 )
+LIVE = switch("bounces_live", _LIVE, Cost.RECOMPILE)
+_SHOWN = "the light of all paths, or of those of one length alone"
+SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGHT)
+GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
 _NO_ROOM = (
     "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
     "of light restarts the picture. A smaller picture has room."
@@ -122,11 +127,12 @@ def _with_background(scene: Scene, **colors: Any) -> Scene:
 
 def _paths(app: App) -> None:
     session = app.session
-    bounces = SETTINGS["bounces"].costing(cost_of_fewer_bounces(session))
+    reach = reach_of_bounces(session)
+    bounces = SETTINGS["bounces"].costing(Cost.RELIGHT if reach else Cost.RESTART, reach)
     _edit(app, edited_fields((bounces,), dict(session.settings)))
     if session.pipeline == "compute":
-        _, session.by_length = imgui.checkbox("bounces live", session.by_length)
-        imgui.set_item_tooltip(_LIVE)
+        is_live = edited(LIVE, session.by_length)
+        session.by_length = session.by_length if is_live is None else is_live
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
@@ -138,9 +144,9 @@ def _lengths(session: Session) -> None:
     rest = f"{last} and more" if session.settings.bounces > last else f"{last}"
     names = ["all light", *[f"bounce {n} alone" for n in range(last)], f"bounce {rest} alone"]
     chosen = 0 if session.alone is None else min(session.alone, last) + 1
-    imgui.set_next_item_width(hello_imgui.em_size(9.5))
-    _, chosen = imgui.combo("shown", chosen, names)
-    session.alone = chosen - 1 if chosen else None
+    shown = edited(replace(SHOWN, choices=tuple(names)), names[chosen])
+    if shown is not None:
+        session.alone = names.index(shown) - 1 if shown != names[0] else None
 
 
 def _samples(app: App) -> None:
@@ -178,14 +184,17 @@ def _background(app: App) -> None:
     if changes:
         kept = {name: values[name] for name in names}
         app.edit_scene("background", partial(_with_background, **{**kept, **changes}))
-    pressed, wanted = imgui.checkbox("gradient", is_gradient)
-    if pressed:
+    wanted = edited(GRADIENT, is_gradient)
+    if wanted is not None:
         other: dict[str, Any] = {"color": top} if not wanted else {"bottom": bottom, "top": top}
         app.edit_scene("", partial(_with_background, **other))
 
 
 def _frame(app: App) -> None:
-    _settings(app, FRAME)
+    session = app.session
+    usual = Cost.RECOMPILE if session.lacks_room else Cost.RESTART
+    sides = tuple(SETTINGS[side].costing(usual, reach_of_size(session, side)) for side in FRAME)
+    _edit(app, edited_fields(sides, dict(session.settings)))
 
 
 def _window(app: App) -> None:

@@ -31,7 +31,10 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     imgui.set_next_item_width(_width_beside(control.label))
     changed, new = _draw(control, label, value)
     tooltip(control)
-    _tag(control.cost)
+    if len(control.costs) == 1:
+        tag(control.cost)
+    else:
+        _tags_below(control)
     return _clamped(control, new) if changed else None
 
 
@@ -47,7 +50,10 @@ def tooltip(control: Control) -> None:
     """Tell what the item drawn last does, and what it costs."""
     help_text = control.help[:1].upper() + control.help[1:]
     unit = f" [{control.unit}]" if control.unit else ""
-    imgui.set_item_tooltip(f"{help_text}{unit}\n{control.cost.value}: {MEANING[control.cost]}")
+    costs = (
+        f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
+    )
+    imgui.set_item_tooltip("\n".join([f"{help_text}{unit}", *costs]))
 
 
 def legend() -> None:
@@ -58,11 +64,21 @@ def legend() -> None:
         imgui.text_wrapped(meaning)
 
 
-def _tag(cost: Cost) -> None:
-    """At the right edge; where the label reaches that far, behind it."""
+def tag(cost: Cost) -> None:
+    """What an edit costs, at the right edge; where the label reaches that far, behind it."""
     end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
     imgui.same_line(max(end, _tags_start()))
     imgui.text_colored(COLORS[cost], cost.value)
+
+
+def _tags_below(control: Control) -> None:
+    """A line for a cost that depends on the value."""
+    imgui.indent()
+    for number, (cost, where) in enumerate(control.costs):
+        if number:
+            imgui.same_line()
+        imgui.text_colored(COLORS[cost], f"{cost.value} {where}")
+    imgui.unindent()
 
 
 def _tags_start() -> float:

@@ -5,14 +5,13 @@ Edits are gathered and reach the renderer once a frame. It knows no window.
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from glrt.errors import GlrtError, RenderError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
-from glrt.methods.features import needs_of
-from glrt.methods.light_layers import Layering, Weights, plan_for
+from glrt.methods.light_layers import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
@@ -33,6 +32,7 @@ class State:
 
     scene: Scene
     settings: Settings
+    by_length: bool = False  # layers by the length of paths, so that bounces are weighed
 
 
 class Session:
@@ -55,7 +55,6 @@ class Session:
         self.renderer: Renderer | None = None
         self.paused = False
         self.waits = False  # for another picture, which is to get as many samples
-        self.by_length = False  # layers by the length of paths, so that bounces are weighed
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
         self.busy = ""  # what the next frame will wait for
@@ -79,6 +78,15 @@ class Session:
     def settings(self) -> Settings:
         """The settings as edited, at full size."""
         return self.state.settings
+
+    @property
+    def by_length(self) -> bool:
+        """Whether the film is to keep the light of each bounce apart."""
+        return self.state.by_length
+
+    @by_length.setter
+    def by_length(self, wanted: bool) -> None:
+        self._take(replace(self.state, by_length=wanted))
 
     @property
     def samples(self) -> int:
@@ -138,10 +146,13 @@ class Session:
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
         try:
-            after = State(scene or self.scene, settings_for(self.settings, **changes))
+            settings = settings_for(self.settings, **changes)
         except GlrtError as error:
             self.problem = str(error)
             return
+        self._take(replace(self.state, scene=scene or self.scene, settings=settings), gesture)
+
+    def _take(self, after: State, gesture: str = "") -> None:
         if after != self.state:
             self.history.record(self.state, gesture)
             self._set_state(after)
@@ -255,7 +266,8 @@ class Session:
         self.problem = str(error)
         if not self.renderer:
             raise error
-        self.state = State(self.renderer.scene, self.settings_of(self.renderer))
+        given = self.renderer.scene, self.settings_of(self.renderer)
+        self.state = State(*given, self.renderer.plan.layering == "lengths")
 
     def settings_of(self, renderer: Renderer) -> Settings:
         """The renderer's settings at full size."""
@@ -265,15 +277,12 @@ class Session:
     def _compiles(self) -> bool:
         if not self.renderer:
             return True
-        plan = self.renderer.plan
-        if plan.relit(self.scene, self._wanted().settings, self.layering):
-            return False
-        after = plan_for(self.scene, self.settings, self.layering)
-        is_other = needs_of(after.scene, after.settings) != needs_of(plan.scene, plan.settings)
-        return is_other or after.constants() != plan.constants()
+        wanted = self._wanted()
+        cost = self.renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
+        return cost is Cost.RECOMPILE
 
     def _wanted(self) -> State:
-        """What the renderer is to have: while the camera moves, a size that keeps up."""
+        """What the renderer is to show: while the camera moves, at a size that keeps up."""
         shown = (self.aov,) if self.aov else ()
         settings = settings_for(self.settings, aov=(*self.settings.aov, *shown))
         factor = self._preview.factor
