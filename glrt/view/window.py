@@ -13,6 +13,7 @@ from glrt.rendering.stopping import Interruption
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.view.app import App
+from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.opengl import window_version, wrap_window
 from glrt.view.panels.panel import draw_panel
@@ -55,6 +56,7 @@ class Window:
         self._styled: tuple[str, float] | None = None
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
+        self._wait, self._told = EventWait(), ("", "")
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
 
@@ -81,6 +83,7 @@ class Window:
         callbacks.post_init = self._open
         callbacks.pre_new_frame = self._render
         callbacks.before_exit = self._close
+        params.fps_idling.enable_idling = False  # it draws nine frames a second; see EventWait
         return params
 
     def _docking(self) -> hello_imgui.DockingParams:
@@ -117,6 +120,7 @@ class Window:
 
     def _render(self) -> None:
         """Before a frame is drawn: keys, edits, samples, and the picture of them."""
+        self._began += self._wait.wait(self._is_quiet)
         app, now = self.app, time.perf_counter()
         app.frame_seconds = now - self._began
         app.pace.record(app.frame_seconds, self._rendered)
@@ -126,13 +130,28 @@ class Window:
         self._style()
         app.advance()
         app.look(now)
-        app.follow_files(now)
-        app.dialogs.poll()
+        self._poll(now)
         self._rendered = time.perf_counter() - now
-        self.params.fps_idling.enable_idling = app.show.is_done(app.session)
-        self._keep(now)
+        self._told = self._tells(now)
         if self._interruption.signal:
             self.params.app_shall_exit = True
+
+    def _poll(self, now: float) -> None:
+        """What is no event of the window: files, dialogs, and preferences to be written."""
+        self.app.follow_files(now)
+        self.app.dialogs.poll()
+        self._keep(now)
+
+    def _is_quiet(self) -> bool:
+        """Whether a frame would show what is on the screen."""
+        now = time.perf_counter()
+        self._poll(now)
+        is_done = self.app.show.is_done(self.app.session)
+        return is_done and not self._interruption.signal and self._tells(now) == self._told
+
+    def _tells(self, now: float) -> tuple[str, str]:
+        """What comes and goes by itself."""
+        return self.app.session.problem, self.app.recent_message(now)
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -172,8 +191,9 @@ def _opengl(version: int) -> hello_imgui.OpenGlOptions:
 
 
 def _configure() -> None:
-    """The arrow keys move the camera, not from widget to widget."""
+    """The arrow keys move the camera, not from widget to widget; no caret blinks by frames."""
     hello_imgui.imgui_default_settings.setup_default_imgui_config()
     io = imgui.get_io()
     io.config_windows_move_from_title_bar_only = True
+    io.config_input_text_cursor_blink = False
     io.config_flags &= ~imgui.ConfigFlags_.nav_enable_keyboard.value

@@ -51,7 +51,7 @@ def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path:
 @pytest.mark.parametrize(
     ("moment", "code"),
     [
-        *((name, 143) for name in ("compiling", "dragging", "choosing", "saving")),
+        *((name, 143) for name in ("compiling", "dragging", "choosing", "saving", "resting")),
         ("saving_when_killed", -signal.SIGKILL),
         ("closing", 0),
     ],
