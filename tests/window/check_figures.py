@@ -4,10 +4,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
+from imgui_bundle import imgui
 
 from glrt.rendering.renderer import Renderer
 from glrt.view.panels import viewport
 from glrt.view.panels.plots import figures
+from tests.window.gestures import replaced_fov
 from tests.window.hand import Hand, check
 
 ENOUGH = 32  # samples: two observations
@@ -72,3 +74,23 @@ def an_old_picture_and_a_pause_are_marked_in_the_picture(hand: Hand) -> None:
         hand.there(lambda: session.edit(method="naive"))
         hand.until(lambda: bool(session.busy), frames=3)
         assert any(text.startswith("old picture") for text in told)
+
+
+@check
+def cautions_of_the_scene_stand_in_the_panel(hand: Hand) -> None:
+    told: list[str] = []
+    inner = imgui.text_wrapped
+
+    def seen(text: str) -> None:
+        told.append(text)
+        inner(text)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(imgui, "text_wrapped", seen)
+        hand.ctx.yield_(2)
+        assert not any("Caution" in text for text in told)
+        hand.there(lambda: hand.session.edit(replaced_fov(hand, 1e-5)))
+        hand.settle()
+        told.clear()
+        hand.ctx.yield_(2)
+    assert any(text.startswith("Caution: camera.fov 1e-05") for text in told), told

@@ -9,15 +9,17 @@ from imgui_bundle import imgui
 from glrt.methods.light_layers import MOST_LAYERS
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
+from glrt.scene.limits import cautions
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.objects import draw_object, with_material
-from glrt.view.panels.widgets import button, edited, edited_fields, legend
+from glrt.view.panels.widgets import COLORS, button, edited, edited_fields, legend
 from glrt.view.state.controls import Control, control_of_items, controls_of, replaced, switch
 from glrt.view.state.costs import cost_of_light, reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
@@ -55,6 +57,7 @@ def draw_panel(app: App) -> None:
     """The content of the window that holds the controls."""
     _problem(app)
     _commands(app)
+    _cautions(app)
     for title, section, flags in _SECTIONS:
         if imgui.collapsing_header(title, flags):
             section(app)
@@ -68,11 +71,24 @@ def _problem(app: App) -> None:
         return
     if is_new:
         imgui.set_scroll_y(0.0)
-    imgui.push_style_color(imgui.Col_.text, _RED)
-    imgui.text_wrapped(app.session.problem)
-    imgui.pop_style_color()
+    _colored(_RED, app.session.problem)
     if imgui.button("dismiss"):
         app.session.problem = ""
+
+
+def _cautions(app: App) -> None:
+    """Where the scene oversteps what float32 or the model can do; `glrt render` tells it, too."""
+    for caution in _found(app.session.scene, app.session.settings):
+        _colored(COLORS[Cost.RESTART], f"Caution: {caution}")
+
+
+_found = kept_for_the_same(cautions)
+
+
+def _colored(color: tuple[float, float, float, float], text: str) -> None:
+    imgui.push_style_color(imgui.Col_.text, color)
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()
 
 
 def _commands(app: App) -> None:
