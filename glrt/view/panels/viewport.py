@@ -105,7 +105,10 @@ def _wipe_handle(app: App) -> None:
 def draw_keys(app: App) -> None:
     """Act on the keys; not while a text is typed, a list is open, or a key is chosen."""
     io = imgui.get_io()
-    if io.want_text_input or imgui.is_popup_open("", _ANY_POPUP) or is_choosing(app):
+    is_open = imgui.is_popup_open("", _ANY_POPUP)
+    if is_open and imgui.is_key_pressed(imgui.Key.escape):
+        imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+    if io.want_text_input or is_open or is_choosing(app):
         return
     seconds = min(io.delta_time, _LONGEST_STEP)
     held = [axis for action, axis in _AXES.items() if _is_held(app, action)]
