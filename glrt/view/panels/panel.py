@@ -113,12 +113,13 @@ def _lights(app: App) -> None:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_disabled(_NO_ROOM)
         imgui.pop_text_wrap_pos()
-    for group, intensity in scene.light_groups.items():
-        if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
-            continue
+    has_sky = any(map(any, scene.background.gradient))
+    groups = [group for group in scene.light_groups if group != SKY_GROUP or has_sky]
+    for group in groups:
         imgui.separator_text(group)
-        control = INTENSITY.named("intensity").costing(cost_of_light(app.session, group))
-        new = edited(control, intensity, group)
+        row = f"{group} intensity" if len(groups) > 1 else "intensity"
+        control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
+        new = edited(control, scene.light_groups[group], group)
         if new is not None:
             app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
         for name, material in scene.materials.items():
@@ -128,7 +129,9 @@ def _lights(app: App) -> None:
 
 def _emission(app: App, name: str, material: Light) -> None:
     cost = cost_of_light(app.session, material.group or name, is_tint=True)
-    color = edited(EMISSION.costing(cost), material.emission, name)
+    is_one = sum(isinstance(m, Light) for m in app.session.scene.materials.values()) == 1
+    row = EMISSION if is_one else EMISSION.named(f"{name} emission")
+    color = edited(row.costing(cost), material.emission, name)
     if color is not None:
         app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
 
