@@ -16,6 +16,7 @@ from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.opengl import window_version, wrap_window
+from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.viewport import draw_keys, draw_viewport
@@ -28,6 +29,7 @@ from glrt.view.viewport.picture_view import PictureView
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
+PARTS = ("Controls", "Figures", "Picture")
 MOST = 0.45  # of either, where the text is large
 RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
 THEMES = {
@@ -57,6 +59,7 @@ class Window:
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
         self._wait, self._told = EventWait(), ("", "")
+        self._shares = Shares()
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
 
@@ -94,9 +97,9 @@ class Window:
         docking = hello_imgui.DockingParams()
         docking.docking_splits = [side, below]
         docking.dockable_windows = [
-            _part("Controls", "Side", lambda: draw_panel(self.app)),
-            _part("Figures", "Below", lambda: draw_figures(self.app)),
-            _part("Picture", "MainDockSpace", lambda: draw_viewport(self.app)),
+            _part(PARTS[0], "Side", lambda: draw_panel(self.app)),
+            _part(PARTS[1], "Below", lambda: draw_figures(self.app)),
+            _part(PARTS[2], "MainDockSpace", lambda: draw_viewport(self.app)),
         ]
         return docking
 
@@ -127,6 +130,7 @@ class Window:
         self._began = now
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
+        self._shares.keep(PARTS)
         self._style()
         app.advance()
         app.look(now)

@@ -19,7 +19,7 @@ from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.objects import draw_object, with_material
-from glrt.view.panels.widgets import COLORS, button, edited, edited_fields, legend
+from glrt.view.panels.widgets import COLORS, beside, button, edited, edited_fields, legend
 from glrt.view.state.controls import Control, control_of_items, controls_of, replaced, switch
 from glrt.view.state.costs import cost_of_light, reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
@@ -95,13 +95,13 @@ def _commands(app: App) -> None:
     session = app.session
     if imgui.button("go on" if session.paused else "pause"):
         session.paused = not session.paused
-    imgui.same_line()
+    beside("restart")
     if imgui.button("restart"):
         app.restart()
-    imgui.same_line()
+    beside("undo")
     if button("undo", session.history.can_undo):
         session.undo()
-    imgui.same_line()
+    beside("redo")
     if button("redo", session.history.can_redo):
         session.redo()
 

@@ -46,6 +46,14 @@ def button(label: str, is_enabled: bool = True) -> bool:
     return pressed
 
 
+def beside(text: str) -> None:
+    """Go on in this line if a button with this text has room there."""
+    imgui.same_line()
+    width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
+
+
 def tooltip(control: Control) -> None:
     """Tell what the item drawn last does, and what it costs."""
     help_text = control.help[:1].upper() + control.help[1:]
