@@ -2,6 +2,7 @@
 
 from imgui_bundle import hello_imgui, imgui
 
+from tests.window.gestures import move
 from tests.window.hand import Hand, check
 
 
@@ -24,6 +25,8 @@ def a_small_window_leaves_the_picture_most_of_its_room(hand: Hand) -> None:
     before = share_of(hand, "Picture")
     resized(hand, (640, 400))
     across, down = share_of(hand, "Picture")
+    move(hand, "exposure", 1.5)
+    hand.until(lambda: hand.session.settings.exposure == 1.5)
     resized(hand, (usual[0], usual[1]))
     assert across * down > 0.5, (across, down)
     again = share_of(hand, "Picture")
