@@ -32,3 +32,21 @@ def a_small_window_leaves_the_picture_most_of_its_room(hand: Hand) -> None:
     again = share_of(hand, "Picture")
     assert abs(again[0] - before[0]) < 0.02, "and back"
     assert abs(again[1] - before[1]) < 0.02, "and back"
+
+
+@check
+def tooltips_wrap(hand: Hand) -> None:
+    """None is wider than a panel, however long its sentences are."""
+    hand.ctx.set_ref("Controls")
+    for reference in ("bounces live", "method", "view"):
+        hand.ctx.mouse_move(reference)
+        hand.until(lambda: hand.there(lambda: tooltip_width() > 0))
+        hand.ctx.yield_(3)
+        assert hand.there(tooltip_width) < hello_imgui.em_size(32), reference
+        hand.ctx.mouse_move("exposure")
+
+
+def tooltip_width() -> float:
+    """Of the tooltip that is shown, 0 if there is none."""
+    window = imgui.internal.find_window_by_name("##Tooltip_00")
+    return window.size.x if window and window.active else 0.0

@@ -4,7 +4,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from glrt.errors import GlrtError
 from glrt.view.app import App
-from glrt.view.panels.widgets import beside, button
+from glrt.view.panels.widgets import beside, button, tip
 from glrt.view.state import keys
 from glrt.view.state.controls import replaced
 from glrt.view.state.keys import Action
@@ -54,7 +54,7 @@ def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
             _waiting(app, action, chords)
         elif imgui.button(f"{text}##{action} {index}"):
             app.awaited = (action, index)
-        imgui.set_item_tooltip("Click, then press a key" if chord else "Add a key")
+        tip("Click, then press a key" if chord else "Add a key")
 
 
 def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:

@@ -13,7 +13,7 @@ from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
-from glrt.view.panels.widgets import edited, edited_fields, tag
+from glrt.view.panels.widgets import edited, edited_fields, tag, tip
 from glrt.view.state.controls import Control, controls_of, replaced
 from glrt.view.viewport.transform import with_object
 
@@ -72,7 +72,7 @@ def _buttons(app: App, shape: Shape) -> None:
         app.focus_on(shape.middle)
     imgui.same_line()
     imgui.text_disabled("handles; Shift scales")
-    imgui.set_item_tooltip("Drag the handles of the selected object in the picture to move it")
+    tip("Drag the handles of the selected object in the picture to move it")
     tag(Cost.RESTART)
 
 

@@ -10,6 +10,7 @@ from glrt.methods.light_layers import Plan
 from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.widgets import tip
 from glrt.view.state.error_history import Look, Progress
 from glrt.view.state.session import Session
 
@@ -105,7 +106,7 @@ def _kernel(app: App) -> None:
     inside, left_out = _contents(session.renderer.plan)
     imgui.push_text_wrap_pos(0.0)
     imgui.text_disabled(f"{session.pipeline} kernel: {inside}")
-    imgui.set_item_tooltip(f"left out\n{left_out}")
+    tip(f"left out\n{left_out}")
     baked = "; the kernel of a scene at rest" if session.renderer.is_baked else ""
     imgui.text_disabled(f"{session.renderer.context.renderer}{baked}")
     imgui.pop_text_wrap_pos()

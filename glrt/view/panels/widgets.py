@@ -20,6 +20,7 @@ COLORS = {
 }
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
 LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
+_TIP = 28.0  # letters' heights across, of a tooltip
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
 
@@ -74,6 +75,15 @@ def beside(text: str) -> None:
         imgui.new_line()
 
 
+def tip(text: str) -> None:
+    """Explain the item drawn last, when the mouse rests on it: in lines that are easily read."""
+    if imgui.begin_item_tooltip():
+        imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
+        imgui.text_unformatted(text)
+        imgui.pop_text_wrap_pos()
+        imgui.end_tooltip()
+
+
 def tooltip(control: Control) -> None:
     """Tell what the item drawn last does, and what it costs."""
     help_text = control.help[:1].upper() + control.help[1:]
@@ -81,7 +91,7 @@ def tooltip(control: Control) -> None:
     costs = (
         f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
     )
-    imgui.set_item_tooltip("\n".join([f"{help_text}{unit}", *costs]))
+    tip("\n".join([f"{help_text}{unit}", *costs]))
 
 
 def legend() -> None:
