@@ -139,12 +139,18 @@ def _plot(app: App) -> None:
     ):
         implot.setup_axis_ticks(axis.value, list(ticks), list(ticks.values()))
     implot.setup_axes_limits(*limits, implot.Cond_.always.value)
+    if len(app.progress.relit) > 1:
+        _line("before relight", app.progress.relit)
     if len(looks) > 1:
-        seconds = np.array([look.seconds for look in looks])
-        implot.plot_line("error", seconds, np.array([look.error for look in looks]))
+        _line("error", looks)
         along, down = app.progress.slope()
         implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
     implot.end_plot()
+
+
+def _line(name: str, looks: list[Look]) -> None:
+    seconds = np.array([look.seconds for look in looks])
+    implot.plot_line(name, seconds, np.array([look.error for look in looks]))
 
 
 def _ticks(low: float, high: float) -> list[float]:
