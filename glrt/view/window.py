@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from imgui_bundle import hello_imgui, imgui, immapp
 
+from glrt.errors import ContextError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
 from glrt.rendering.aov_view import AovView
@@ -15,7 +16,7 @@ from glrt.settings import Settings
 from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
-from glrt.view.opengl import window_version, wrap_window
+from glrt.view.opengl import INSTEAD, window_version, wrap_window
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
@@ -36,6 +37,7 @@ THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
     "light": hello_imgui.ImGuiTheme_.light_rounded,
 }
+GONE = "no window can be opened, though the display was there a moment ago"
 KEEP_EVERY = 2.0  # seconds between looks at whether preferences are to be written
 
 
@@ -64,9 +66,17 @@ class Window:
         self.params = self._params()
 
     def run(self) -> int:
-        """Show the window until it is closed, or the process is asked to end; the exit code."""
+        """Show the window until it is closed, or the process is asked to end; the exit code.
+
+        ContextError if the display has gone since it was asked.
+        """
         with Interruption().watched() as self._interruption:
-            immapp.run(self.params, self.add_ons)
+            try:
+                immapp.run(self.params, self.add_ons)
+            except RuntimeError as error:
+                if hasattr(self, "app"):
+                    raise
+                raise ContextError(f"{GONE}: {error}. {INSTEAD}") from None
         return 128 + self._interruption.signal if self._interruption.signal else 0
 
     def _params(self) -> hello_imgui.RunnerParams:
