@@ -1,7 +1,8 @@
-"""The window, driven by a script: `python -m bench.window_tour drag`, `rest`, or `film FILE.webp`.
+"""The window, driven by a script: `python -m bench.window_tour drag`, `rest`, `idle`, `film`.
 
-`drag` measures frame times while the camera turns, `rest` while nothing is edited; `film` makes the
-animation of the README. Without a display a virtual X server, Xvfb, is used.
+`drag` measures frame times while the camera turns, `rest` while nothing is edited, `idle` what a
+complete picture takes of the processor; `film FILE.webp` makes the animation of the README. Without
+a display a virtual X server, Xvfb, is used.
 """
 
 import argparse
@@ -25,6 +26,7 @@ from glrt.view.state.preferences import Preferences
 
 DRAG = 60  # frames
 WAITED = 256  # samples per pixel of a picture at rest
+SETTLED, IDLE = 3.0, 20.0  # seconds after the picture is complete: let pass, and measured
 WARM = 30  # frames before a drag, for compilation and for the measurement of dispatch times
 STEP = 0.004  # motion per frame of a drag, in widths of the window
 SHARES = (50, 95, 99)  # percentiles of frame times
@@ -37,7 +39,7 @@ Script = Iterator[None]
 def main(arguments: list[str] | None = None) -> int:
     """Measure a drag or a rest, or make the film; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m bench.window_tour", description=__doc__)
-    parser.add_argument("task", choices=["drag", "rest", "film"])
+    parser.add_argument("task", choices=["drag", "rest", "idle", "film"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
     parser.add_argument("--scene", default="cornell", help="scene to show (default: cornell)")
     parsed = parser.parse_args(arguments)
@@ -49,6 +51,8 @@ def main(arguments: list[str] | None = None) -> int:
         os.environ.update({"DISPLAY": name} if name else {})
         if parsed.task == "drag":
             print("\n".join(told(*measure_drag(parsed.scene))))
+        elif parsed.task == "idle":
+            print("\n".join(told_idle(parsed.scene, *measure_idle(parsed.scene))))
         elif parsed.task == "rest":
             print(
                 "\n".join(
@@ -141,6 +145,31 @@ def told_rest(scene: str, waits: list[Wait]) -> Iterator[str]:
         name = "with the faster kernel" if wait.rests else "without"
         cells = [name, f"{wait.seconds:.1f} s", f"{wait.rate:.2f}", *shares]
         yield f"| {' | '.join(cells)} |"
+
+
+def measure_idle(scene: str) -> tuple[float, float]:
+    """Open a scene, and let it be once its picture is complete: processor share, and frames/s."""
+    found: list[float] = []
+
+    def script(window: Any) -> Script:
+        yield from frames_until_done(window)
+        for seconds in (SETTLED, IDLE):
+            start, used, frames = time.perf_counter(), time.process_time(), 0
+            while time.perf_counter() - start < seconds:
+                frames += 1
+                yield
+        spent = time.perf_counter() - start
+        found.extend([(time.process_time() - used) / spent, frames / spent])
+
+    play(load(scene), script, width=640, height=480, samples=32)
+    return found[0], found[1]
+
+
+def told_idle(scene: str, share: float, rate: float) -> Iterator[str]:
+    """The results as a Markdown table."""
+    yield "| picture complete, nothing done | of a core | frames/s |"
+    yield "|---|---|---|"
+    yield f"| {scene} | {100 * share:.1f} % | {rate:.1f} |"
 
 
 def make_film(file: Path) -> None:

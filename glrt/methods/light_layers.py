@@ -10,7 +10,7 @@ from typing import Literal
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.features import used_materials
+from glrt.methods.features import needs_of, used_materials
 from glrt.scene.background import Background
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene
@@ -58,6 +58,15 @@ class Plan:
         """The same film under other weights; None if what is wanted must be traced anew."""
         weights = _weights(self, scene, settings) if layering == self.layering else None
         return replace(self, weights=weights) if weights else None
+
+    def cost_of(self, scene: Scene, settings: Settings, layering: Layering) -> Cost:
+        """What it costs to trace or show that instead."""
+        if relit := self.relit(scene, settings, layering):
+            return Cost.FREE if relit == self else Cost.RELIGHT
+        after = plan_for(scene, settings, layering)
+        needs = (needs_of(plan.scene, plan.settings) for plan in (self, after))
+        is_same = len(set(needs)) == 1 and self.constants() == after.constants()
+        return Cost.RESTART if is_same else Cost.RECOMPILE
 
     def alone(self, length: int) -> Weights:
         """The light of the paths of one length; the last layer holds all that are longer."""

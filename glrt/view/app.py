@@ -25,7 +25,7 @@ from glrt.settings import RenderSettings, settings_for
 from glrt.view.file_dialogs import Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.state.controls import replaced
-from glrt.view.state.error_history import Progress, look_at
+from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
 from glrt.view.state.preferences import Preferences, save_preferences
@@ -251,6 +251,11 @@ class App:
             self.show.view = "picture"
             self.complain(str(error))
 
+    def restart(self) -> None:
+        """Begin the picture anew, and its figures."""
+        self.session.restart()
+        self.progress = Progress()
+
     def keep(self) -> None:
         """Keep the picture as A, to compare it with what comes."""
         with self.telling():
@@ -258,16 +263,9 @@ class App:
 
     def look(self, now: float) -> None:
         """Estimate the error where that is due."""
-        session = self.session
-        renderer = session.renderer
-        if session.is_preview or not renderer or session.samples < 2 * renderer.settings.block:
-            return  # of fewer samples no error is known, and reading them takes time
-        picture = session.restarts, session.weights
-        if self.progress.is_due(picture, session.samples, now, session.is_done):
-            with self.telling():
-                look = look_at(renderer.film, session.weights, session.rendering)
-                self.progress.record(look, now)
-                self.show.mean = look.mean if look else self.show.mean
+        with self.telling():
+            look = self.progress.follow(self.session, now)
+            self.show.mean = look.mean if look else self.show.mean
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         """Turn by a drag, given as shares of the window's width and height."""

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from imgui_bundle import hello_imgui, imgui, immapp
 
+from glrt.errors import ContextError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
 from glrt.rendering.aov_view import AovView
@@ -14,8 +15,10 @@ from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.view.app import App
+from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
-from glrt.view.opengl import window_version, wrap_window
+from glrt.view.opengl import INSTEAD, window_version, wrap_window
+from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.viewport import draw_keys, draw_viewport
@@ -28,12 +31,14 @@ from glrt.view.viewport.picture_view import PictureView
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
+PARTS = ("Controls", "Figures", "Picture")
 MOST = 0.45  # of either, where the text is large
 RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
 THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
     "light": hello_imgui.ImGuiTheme_.light_rounded,
 }
+GONE = "no window can be opened, though the display was there a moment ago"
 KEEP_EVERY = 2.0  # seconds between looks at whether preferences are to be written
 
 
@@ -56,13 +61,23 @@ class Window:
         self._styled: tuple[str, float] | None = None
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
+        self._wait, self._told = EventWait(), ("", "")
+        self._shares = Shares()
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
 
     def run(self) -> int:
-        """Show the window until it is closed, or the process is asked to end; the exit code."""
+        """Show the window until it is closed, or the process is asked to end; the exit code.
+
+        ContextError if the display has gone since it was asked.
+        """
         with Interruption().watched() as self._interruption:
-            immapp.run(self.params, self.add_ons)
+            try:
+                immapp.run(self.params, self.add_ons)
+            except RuntimeError as error:
+                if hasattr(self, "app"):
+                    raise
+                raise ContextError(f"{GONE}: {error}. {INSTEAD}") from None
         return 128 + self._interruption.signal if self._interruption.signal else 0
 
     def _params(self) -> hello_imgui.RunnerParams:
@@ -82,6 +97,7 @@ class Window:
         callbacks.post_init = self._open
         callbacks.pre_new_frame = self._render
         callbacks.before_exit = self._close
+        params.fps_idling.enable_idling = False  # it draws nine frames a second; see EventWait
         return params
 
     def _docking(self) -> hello_imgui.DockingParams:
@@ -92,9 +108,9 @@ class Window:
         docking = hello_imgui.DockingParams()
         docking.docking_splits = [side, below]
         docking.dockable_windows = [
-            _part("Controls", "Side", lambda: draw_panel(self.app)),
-            _part("Figures", "Below", lambda: draw_figures(self.app)),
-            _part("Picture", "MainDockSpace", lambda: draw_viewport(self.app)),
+            _part(PARTS[0], "Side", lambda: draw_panel(self.app)),
+            _part(PARTS[1], "Below", lambda: draw_figures(self.app)),
+            _part(PARTS[2], "MainDockSpace", lambda: draw_viewport(self.app)),
         ]
         return docking
 
@@ -118,22 +134,39 @@ class Window:
 
     def _render(self) -> None:
         """Before a frame is drawn: keys, edits, samples, and the picture of them."""
+        self._began += self._wait.wait(self._is_quiet)
         app, now = self.app, time.perf_counter()
         app.frame_seconds = now - self._began
         app.pace.record(app.frame_seconds, self._rendered)
         self._began = now
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
+        self._shares.keep(PARTS)
         self._style()
         app.advance()
         app.look(now)
-        app.follow_files(now)
-        app.dialogs.poll()
+        self._poll(now)
         self._rendered = time.perf_counter() - now
-        self.params.fps_idling.enable_idling = app.show.is_done(app.session)
-        self._keep(now)
+        self._told = self._tells(now)
         if self._interruption.signal:
             self.params.app_shall_exit = True
+
+    def _poll(self, now: float) -> None:
+        """What is no event of the window: files, dialogs, and preferences to be written."""
+        self.app.follow_files(now)
+        self.app.dialogs.poll()
+        self._keep(now)
+
+    def _is_quiet(self) -> bool:
+        """Whether a frame would show what is on the screen."""
+        now = time.perf_counter()
+        self._poll(now)
+        is_done = self.app.show.is_done(self.app.session)
+        return is_done and not self._interruption.signal and self._tells(now) == self._told
+
+    def _tells(self, now: float) -> tuple[str, str]:
+        """What comes and goes by itself."""
+        return self.app.session.problem, self.app.recent_message(now)
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -173,8 +206,9 @@ def _opengl(version: int) -> hello_imgui.OpenGlOptions:
 
 
 def _configure() -> None:
-    """The arrow keys move the camera, not from widget to widget."""
+    """The arrow keys move the camera, not from widget to widget; no caret blinks by frames."""
     hello_imgui.imgui_default_settings.setup_default_imgui_config()
     io = imgui.get_io()
     io.config_windows_move_from_title_bar_only = True
+    io.config_input_text_cursor_blink = False
     io.config_flags &= ~imgui.ConfigFlags_.nav_enable_keyboard.value

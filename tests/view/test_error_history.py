@@ -20,30 +20,54 @@ def seen(samples: int, seconds: float, error: float) -> Look:
 
 def test_looks_come_with_growing_samples_and_pauses() -> None:
     progress = Progress()
-    assert not progress.is_due(1, 1, 10.0)
-    assert progress.is_due(1, 2, 10.0)
+    assert not progress.is_due(1, 10.0)
+    assert progress.is_due(2, 10.0)
     progress.record(seen(100, 1.0, 0.5), 10.0)
-    assert not progress.is_due(1, 1000, 10.0 + PAUSE / 2)
-    assert not progress.is_due(1, int(100 * GROWTH) - 1, 10.0 + PAUSE)
-    assert progress.is_due(1, int(100 * GROWTH), 10.0 + PAUSE)
+    assert not progress.is_due(1000, 10.0 + PAUSE / 2)
+    assert not progress.is_due(int(100 * GROWTH) - 1, 10.0 + PAUSE)
+    assert progress.is_due(int(100 * GROWTH), 10.0 + PAUSE)
 
 
 def test_a_picture_that_is_done_is_looked_at_once_more() -> None:
     progress = Progress()
-    assert progress.is_due(1, 100, 10.0)
+    assert progress.is_due(100, 10.0)
     progress.record(seen(100, 1.0, 0.5), 10.0)
-    assert not progress.is_due(1, 101, 20.0)
-    assert progress.is_due(1, 101, 20.0, is_done=True)
+    assert not progress.is_due(101, 20.0)
+    assert progress.is_due(101, 20.0, is_done=True)
     progress.record(seen(101, 1.0, 0.5), 20.0)
-    assert not progress.is_due(1, 101, 30.0, is_done=True)
+    assert not progress.is_due(101, 30.0, is_done=True)
 
 
 def test_another_picture_forgets_the_one_before() -> None:
     progress = Progress()
+    progress.begin("one", "light")
     progress.record(seen(100, 1.0, 0.5), 0.0)
-    assert progress.is_due(2, 2, 10.0)
+    progress.begin("one", "light")
+    assert progress.last
+    progress.begin("another", "light")
+    assert progress.is_due(2, 10.0)
     assert progress.last is None
     assert progress.remaining(0.1) is None
+
+
+def test_the_history_stays_over_a_relight_and_the_figure_does_not() -> None:
+    progress = Progress()
+    progress.begin("picture", "dim")
+    for look in (seen(40, 1.0, 0.2), seen(60, 2.0, 0.15)):
+        progress.record(look, 0.0)
+    progress.begin("picture", "bright")
+    assert progress.last is None
+    assert progress.remaining(0.1) is None
+    assert progress.is_due(61, 10.0)
+    progress.record(seen(80, 3.0, 0.1), 10.0)
+    assert [look.samples for look in progress.relit] == [40, 60]
+    assert [look.samples for look in progress.drawn] == [80]
+    first, last, least, most = progress.limits()
+    assert first < 1.0 < 3.0 < last
+    assert least < 0.1 < 0.2 < most
+    progress.begin("another", "bright")
+    assert progress.relit == progress.drawn == []
+    assert progress.limits() == EMPTY
 
 
 def test_the_forecast_is_that_of_noise() -> None:

@@ -12,6 +12,7 @@ from glrt.methods.light_layers import NONE, ONE
 from glrt.rendering.film import Film
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
+from glrt.view.state.costs import cost_of_light, reach_of_bounces
 from glrt.view.state.session import Session
 from tests.support.mixed_scene import everything
 from tests.support.sessions import Clock, start
@@ -21,7 +22,7 @@ def test_light_is_weighed_without_a_restart(session: Session) -> None:
     start(session)
     samples, restarts = session.samples, session.restarts
     session.edit(with_lights(session.scene, {"lamp": 0.0}))
-    assert session.cost_of_light("lamp") is Cost.RELIGHT
+    assert cost_of_light(session, "lamp") is Cost.RELIGHT
     session.advance(0.01)
     assert session.last_cost is Cost.RELIGHT
     assert session.samples > samples
@@ -32,8 +33,8 @@ def test_light_is_weighed_without_a_restart(session: Session) -> None:
 def test_bounces_are_weighed_while_their_control_is_open(session: Session) -> None:
     start(session)
     session.by_length = True
-    assert session.cost_of_light("lamp") is Cost.RESTART
-    assert session.cost_of_fewer_bounces() is Cost.RELIGHT
+    assert cost_of_light(session, "lamp") is Cost.RESTART
+    assert reach_of_bounces(session)
     start(session)
     restarts, samples = session.restarts, session.samples
     session.edit(bounces=1)
@@ -66,8 +67,8 @@ def test_without_compute_another_light_restarts(context: Context, clock: Clock) 
         ]
         for edit in edits:
             restarts = session.restarts
-            assert session.cost_of_light("lamp") is Cost.RESTART
-            assert session.cost_of_fewer_bounces() is Cost.RESTART
+            assert cost_of_light(session, "lamp") is Cost.RESTART
+            assert reach_of_bounces(session) is None
             session.edit(**edit)
             start(session)
             assert (session.restarts, session.last_cost) == (restarts + 1, Cost.RESTART)
@@ -85,12 +86,12 @@ def test_layers_that_are_too_wide_for_the_driver_are_not_kept(session: Session) 
     start(session)
     assert session.lacks_room
     assert session.renderer.plan.layers == 0
-    assert session.cost_of_fewer_bounces() is Cost.RESTART
+    assert reach_of_bounces(session) is None
     session.by_length = False
     session.edit(width=24)
     start(session)
     assert session.lacks_room
-    assert session.cost_of_light("lamp") is Cost.RESTART
+    assert cost_of_light(session, "lamp") is Cost.RESTART
     session.edit(with_lights(session.scene, {"lamp": 0.5}))
     session.advance(0.01)
     assert session.last_cost is Cost.RESTART

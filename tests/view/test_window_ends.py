@@ -51,7 +51,7 @@ def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path:
 @pytest.mark.parametrize(
     ("moment", "code"),
     [
-        *((name, 143) for name in ("compiling", "dragging", "choosing", "saving")),
+        *((name, 143) for name in ("compiling", "dragging", "choosing", "saving", "resting")),
         ("saving_when_killed", -signal.SIGKILL),
         ("closing", 0),
     ],
@@ -117,3 +117,18 @@ def test_a_bad_scene_is_refused_before_a_window_opens() -> None:
     done = glrt("view", "cornel", DISPLAY="")
     assert done.returncode == 2
     assert "cornell" in done.stderr
+
+
+def test_a_display_that_goes_away_while_the_window_starts_is_told(display: str) -> None:
+    code = (
+        "import os; from glrt.view import window; run = window.Window.run\n"
+        "def gone(self): os.environ['DISPLAY'] = ':4242'; return run(self)\n"
+        "window.Window.run = gone\n"
+        "from glrt.cli.main import main; raise SystemExit(main(['view', 'cornell']))"
+    )
+    command, environment = [sys.executable, "-c", code], {**os.environ, "DISPLAY": display}
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    assert done.returncode == 3
+    assert "no window can be opened, though" in done.stderr
+    assert "glrt render" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -16,6 +16,7 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "intensity##lamp": (panel.INTENSITY, 3.0),
     "emission##lamp/##emission/$$0": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
     "bounces": (panel.SETTINGS["bounces"], 1),
+    "bounces live": (panel.LIVE, None),
     "method/nee": (panel.SETTINGS["method"], None),
     "sampler/independent": (panel.SETTINGS["sampler"], None),
     "seed": (panel.SETTINGS["seed"], 7),
@@ -29,10 +30,16 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "position/$$2": (panel.CAMERA["position"], 3.0),
     "look at/$$0": (panel.CAMERA["look_at"], 0.3),
     "color##background/##color/$$2": (panel.BACKGROUND["color"], 0.5),
+    "gradient": (panel.GRADIENT, None),
     "width": (panel.SETTINGS["width"], 30),
     "height": (panel.SETTINGS["height"], 30),
 }
-UNSEEN = ("samples", "focus distance")  # no other picture is shown; of the second, without a lens
+UNSEEN = (
+    "samples",
+    "focus distance",
+    "bounces live",
+    "gradient",
+)  # no other picture is shown; of the second, without a lens
 SECTIONS = ("Background", "Frame", "Files", "Mouse and keys", "Window")  # closed at the start
 
 

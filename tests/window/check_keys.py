@@ -54,3 +54,21 @@ def keys_are_chosen_in_the_panel(hand: Hand) -> None:
     ctx.yield_(2)
     assert app.preferences.bindings == Preferences().bindings
     ctx.item_close("Mouse and keys")
+
+
+@check
+def escape_closes_a_list_and_chooses_nothing(hand: Hand) -> None:
+    ctx, before = hand.ctx, hand.session.settings
+    ctx.set_ref("Controls")
+    for reference in ("tonemap", "emission##lamp/hue"):
+        ctx.item_click(reference)
+        ctx.yield_(2)
+        assert hand.there(is_open), reference
+        press(hand, imgui.Key.escape)
+        assert not hand.there(is_open), reference
+    assert hand.session.settings == before
+
+
+def is_open() -> bool:
+    """Whether any list or box is open above the panel."""
+    return len(imgui.get_current_context().open_popup_stack) > 0

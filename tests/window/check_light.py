@@ -2,10 +2,15 @@
 
 from typing import Any
 
+import pytest
+
+from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
-from tests.window.gestures import move
-from tests.window.hand import Hand, check
+from glrt.view.panels import panel, widgets
+from glrt.view.state.controls import Control
+from tests.window.gestures import move, reopen
+from tests.window.hand import SMALL, Hand, check
 
 
 @check
@@ -66,3 +71,23 @@ def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
     ctx.item_click("bounces live")
     hand.settle()
     assert hand.session.restarts == restarts + 1
+
+
+@check
+def a_row_of_the_panel_tells_its_lamp(hand: Hand) -> None:
+    labels: list[str] = []
+    inner = widgets.edited
+
+    def seen(control: Control, value: Any, name: str = "") -> Any:
+        labels.append(control.label)
+        return inner(control, value, name)
+
+    hand.there(lambda: hand.session.edit(load("lamps"), **SMALL))
+    hand.settle()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(panel, "edited", seen)
+        hand.until(lambda: labels.count("method") + labels.count("bounces live") > 0)
+    lamps = hand.there(lambda: [label for label in labels if "intensity" in label])
+    assert {"amber intensity", "blue intensity", "rose intensity"} <= set(lamps)
+    assert "emission" not in labels
+    reopen(hand)

@@ -4,13 +4,15 @@ import math
 from typing import Any
 
 import numpy as np
+import pytest
 from imgui_bundle import imgui
 
 from glrt.methods.features import explain
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
-from glrt.view.panels import objects, plots
+from glrt.view.panels import objects, plots, widgets
 from glrt.view.panels.gizmo import is_held
+from glrt.view.state.controls import Control
 from glrt.view.viewport.orbit import axes
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.window.gestures import ball, click, place_of
@@ -121,3 +123,29 @@ def an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_t
     finally:
         panel._name, figures.explain = named, explain
     app.selected = None
+
+
+@check
+def what_edits_of_an_object_cost_stands_beside_them(hand: Hand) -> None:
+    number, _ = ball(hand)
+    costs: dict[str, Cost] = {}
+    handles: list[Cost] = []
+    inner = widgets.edited
+
+    def seen(control: Control, value: Any, name: str = "") -> Any:
+        costs[control.label] = control.cost
+        return inner(control, value, name)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(objects, "edited", seen)
+        patch.setattr(objects, "tag", handles.append)
+        hand.window.app.selected = number
+        hand.ctx.yield_(2)
+    assert costs == {"material": Cost.RECOMPILE}
+    assert set(handles) == {Cost.RESTART}
+    hand.ctx.set_ref("Controls")
+    hand.ctx.combo_click("material/red")
+    hand.settle()
+    assert hand.session.scene.objects[number].material == "red"
+    assert hand.session.last_cost in (Cost.RESTART, Cost.RECOMPILE)
+    hand.window.app.selected = None

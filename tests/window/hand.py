@@ -89,6 +89,7 @@ class Hand:
         def reset() -> None:
             app = self.window.app
             self.session.paused, self.session.problem = False, ""
+            self.session.by_length = False
             self.session.rest = None  # no other process, but where a check wants it
             app.preferences = self._preferences
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))

@@ -4,10 +4,13 @@ Each moment is brought about in the window itself, which then gets a signal, or 
 cross. Before that a preference was changed.
 """
 
+import ctypes
+import math
 import os
 import signal
 import sys
 from collections.abc import Callable
+from ctypes.util import find_library
 from itertools import count
 from typing import Any
 
@@ -17,10 +20,12 @@ import glfw  # isort: skip
 from glrt import files
 from glrt.cli.main import main
 from glrt.rendering import kernel_switch
+from glrt.view import event_wait
 from glrt.view.state.controls import replaced
 from glrt.view.window import Window
 
 FRAMES = 12  # after which the picture has samples, and what the moment needs begins
+RESTED = 10  # pauses without a frame
 Act = Callable[[Window, int], None]  # what is done in a frame, by its number
 
 
@@ -89,9 +94,41 @@ def closing(_window: Window, frame: int) -> None:
         glfw.set_window_should_close(glfw.get_current_context(), True)
 
 
+naps: list[float] = []  # since the last frame
+
+
+def nap() -> None:
+    """A pause at rest. After some the mouse moves: that is answered by a frame."""
+    naps.append(event_wait.SLICE)
+    if len(naps) == RESTED:
+        move_mouse()
+    if len(naps) == 50 * RESTED:
+        os._exit(1)
+
+
+def resting(window: Window, frame: int) -> None:
+    if frame == FRAMES:
+        event_wait.LONGEST = math.inf
+        before(window._wait, "_pause", nap)
+    if len(naps) >= RESTED:
+        terminate()  # which is heard at rest, too
+        return
+    naps.clear()
+
+
+def move_mouse() -> None:
+    """As a hand does: it is the X server that tells of it."""
+    x11 = ctypes.CDLL(find_library("X11"))
+    x11.XOpenDisplay.restype = x11.XDefaultRootWindow.restype = ctypes.c_void_p
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    root = ctypes.c_void_p(x11.XDefaultRootWindow(display))
+    x11.XWarpPointer(display, None, root, 0, 0, 0, 0, 300, 300)
+    x11.XCloseDisplay(display)
+
+
 MOMENTS: dict[str, Act] = {
     act.__name__: act
-    for act in (compiling, dragging, choosing, saving, saving_when_killed, closing)
+    for act in (compiling, dragging, choosing, saving, saving_when_killed, resting, closing)
 }
 
 

@@ -2,6 +2,8 @@
 
 Modules, each importing only what stands above it:
 
+- layout: the shares of the window that its parts have
+- slider_text: where the number of a slider stands
 - widgets: a widget for each kind of control
 - legend: what false colours mean
 - plots: figures and the error over time

@@ -6,16 +6,14 @@ from glrt.files import printable
 from glrt.scene.catalog import scene_names
 from glrt.view import file_dialogs
 from glrt.view.app import App
-from glrt.view.panels.widgets import button
+from glrt.view.panels.widgets import button, tip
 
 
 def draw_files(app: App) -> None:
     """Scenes to open, and where pictures and scenes go."""
     _chooser(app)
     app.open_path, entered = _path("open", app.open_path, "scene file or picture")
-    imgui.set_item_tooltip(
-        "A scene file, or a picture rendered by glrt: opens its scene, camera and settings"
-    )
+    tip("A scene file, or a picture rendered by glrt: opens its scene, camera and settings")
     imgui.same_line()
     if button("open", bool(app.open_path)) or (entered and app.open_path):
         app.open(app.open_path)
@@ -26,16 +24,14 @@ def draw_files(app: App) -> None:
     imgui.same_line()
     if button("save", has_picture) or (entered and has_picture):
         app.save()
-    imgui.set_item_tooltip(
-        "The picture as shown, with its recipe; .exr holds radiance and its standard error"
-    )
+    tip("The picture as shown, with its recipe; .exr holds radiance and its standard error")
     if has_picture and _browse("save"):
         app.dialogs.ask_save("Save the picture", app.save_path, file_dialogs.PICTURE, app.save)
     app.scene_path, entered = _path("scene file", app.scene_path, "scene.toml")
     imgui.same_line()
     if button("save scene", bool(app.scene_path)) or (entered and app.scene_path):
         app.save_scene()
-    imgui.set_item_tooltip(
+    tip(
         "The scene as a TOML file. Comments, order and formatting of the file that it was opened "
         "from are kept."
     )
@@ -56,7 +52,7 @@ def _chooser(app: App) -> None:
 def _recipe(app: App, has_picture: bool) -> None:
     if button("copy recipe", has_picture):
         app.copy_recipe()
-    imgui.set_item_tooltip(
+    tip(
         "Copies scene, settings and samples of this picture as text, for another window or a report"
     )
     imgui.same_line()

@@ -4,7 +4,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from glrt.errors import GlrtError
 from glrt.view.app import App
-from glrt.view.panels.widgets import button
+from glrt.view.panels.widgets import beside, button, tip
 from glrt.view.state import keys
 from glrt.view.state.controls import replaced
 from glrt.view.state.keys import Action
@@ -49,12 +49,12 @@ def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
     for index, chord in enumerate((*chords, "")):
         text = keys.label(chord) if chord else "+"
         if index:
-            _beside(text)
+            beside(text)
         if app.awaited == (action, index):
             _waiting(app, action, chords)
         elif imgui.button(f"{text}##{action} {index}"):
             app.awaited = (action, index)
-        imgui.set_item_tooltip("Click, then press a key" if chord else "Add a key")
+        tip("Click, then press a key" if chord else "Add a key")
 
 
 def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
@@ -63,17 +63,9 @@ def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
     if imgui.button("press a key##awaited"):
         app.awaited = None
     if index < len(chords):
-        _beside("remove")
+        beside("remove")
         if imgui.button("remove##awaited"):
             _bind(app, action, (*chords[:index], *chords[index + 1 :]))
-
-
-def _beside(text: str) -> None:
-    """Go on in this line if a button with this text has room there."""
-    imgui.same_line()
-    width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
-    if imgui.get_content_region_avail().x < width:
-        imgui.new_line()
 
 
 def is_choosing(app: App) -> bool:

@@ -1,6 +1,7 @@
 """The part of the panel that edits the selected object and its material."""
 
 from collections import Counter
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -9,13 +10,16 @@ from imgui_bundle import hello_imgui, imgui
 from glrt.scene.materials import Material
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
+from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
-from glrt.view.panels.widgets import edited_fields
+from glrt.view.panels.widgets import edited, edited_fields, tag, tip
 from glrt.view.state.controls import Control, controls_of, replaced
 from glrt.view.viewport.transform import with_object
 
 _NONE = "nothing"
+_MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"
+MATERIAL = Control("material", "choice", _MATERIAL, Cost.RECOMPILE, "", None, None, None)
 
 
 def draw_object(app: App) -> None:
@@ -67,7 +71,9 @@ def _buttons(app: App, shape: Shape) -> None:
     if imgui.button("focus here"):
         app.focus_on(shape.middle)
     imgui.same_line()
-    imgui.text_disabled("Shift scales")
+    imgui.text_disabled("handles; Shift scales")
+    tip("Drag the handles of the selected object in the picture to move it")
+    tag(Cost.RESTART)
 
 
 def _shape(app: App, index: int, shape: Shape) -> None:
@@ -83,10 +89,9 @@ def _reshaped(index: int, changes: dict[str, Any], scene: Scene) -> Scene:
 def _material(app: App, index: int, shape: Shape) -> None:
     scene, name = app.session.scene, shape.material
     names = list(scene.materials)
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    chosen, which = imgui.combo("material", names.index(name), names)
-    if chosen:
-        app.edit_scene("", partial(_reshaped, index, {"material": names[which]}))
+    chosen = edited(replace(MATERIAL, choices=tuple(names)), name)
+    if chosen is not None:
+        app.edit_scene("", partial(_reshaped, index, {"material": chosen}))
         return
     sharing = _uses(scene.objects)[name]
     imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s)")

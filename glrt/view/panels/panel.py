@@ -1,30 +1,34 @@
 """The panel: every setting and every editable value of the scene, by subject."""
 
+from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 
 from glrt.methods.light_layers import MOST_LAYERS
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
+from glrt.scene.limits import cautions
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
-from glrt.settings import Settings
+from glrt.settings import Cost, Settings
 from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.objects import draw_object, with_material
-from glrt.view.panels.widgets import button, edited, edited_fields, legend
-from glrt.view.state.controls import Control, control_of_items, controls_of, replaced
+from glrt.view.panels.widgets import COLORS, beside, button, edited, edited_fields, legend
+from glrt.view.state.controls import Control, control_of_items, controls_of, replaced, switch
+from glrt.view.state.costs import cost_of_light, reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
 PATHS = ("method", "sampler", "roulette", "seed")
 DISPLAY = ("exposure", "tonemap")
-FRAME = ("width", "height")
+FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 INTENSITY = control_of_items(Scene, "lights")
 EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
@@ -38,6 +42,10 @@ _LIVE = (
     "be shown alone. Turning it on or off restarts the picture; while it is on, a change of a lamp "
     "restarts it too."
 )
+LIVE = switch("bounces_live", _LIVE, Cost.RECOMPILE)
+_SHOWN = "the light of all paths, or of those of one length alone"
+SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGHT)
+GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
 _NO_ROOM = (
     "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
     "of light restarts the picture. A smaller picture has room."
@@ -49,6 +57,7 @@ def draw_panel(app: App) -> None:
     """The content of the window that holds the controls."""
     _problem(app)
     _commands(app)
+    _cautions(app)
     for title, section, flags in _SECTIONS:
         if imgui.collapsing_header(title, flags):
             section(app)
@@ -62,24 +71,37 @@ def _problem(app: App) -> None:
         return
     if is_new:
         imgui.set_scroll_y(0.0)
-    imgui.push_style_color(imgui.Col_.text, _RED)
-    imgui.text_wrapped(app.session.problem)
-    imgui.pop_style_color()
+    _colored(_RED, app.session.problem)
     if imgui.button("dismiss"):
         app.session.problem = ""
+
+
+def _cautions(app: App) -> None:
+    """Where the scene oversteps what float32 or the model can do; `glrt render` tells it, too."""
+    for caution in _found(app.session.scene, app.session.settings):
+        _colored(COLORS[Cost.RESTART], f"Caution: {caution}")
+
+
+_found = kept_for_the_same(cautions)
+
+
+def _colored(color: tuple[float, float, float, float], text: str) -> None:
+    imgui.push_style_color(imgui.Col_.text, color)
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()
 
 
 def _commands(app: App) -> None:
     session = app.session
     if imgui.button("go on" if session.paused else "pause"):
         session.paused = not session.paused
-    imgui.same_line()
+    beside("restart")
     if imgui.button("restart"):
-        session.restart()
-    imgui.same_line()
+        app.restart()
+    beside("undo")
     if button("undo", session.history.can_undo):
         session.undo()
-    imgui.same_line()
+    beside("redo")
     if button("redo", session.history.can_redo):
         session.redo()
 
@@ -91,12 +113,13 @@ def _lights(app: App) -> None:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_disabled(_NO_ROOM)
         imgui.pop_text_wrap_pos()
-    for group, intensity in scene.light_groups.items():
-        if group == SKY_GROUP and not any(map(any, scene.background.gradient)):
-            continue
+    has_sky = any(map(any, scene.background.gradient))
+    groups = [group for group in scene.light_groups if group != SKY_GROUP or has_sky]
+    for group in groups:
         imgui.separator_text(group)
-        control = INTENSITY.named("intensity").costing(app.session.cost_of_light(group))
-        new = edited(control, intensity, group)
+        row = f"{group} intensity" if len(groups) > 1 else "intensity"
+        control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
+        new = edited(control, scene.light_groups[group], group)
         if new is not None:
             app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
         for name, material in scene.materials.items():
@@ -105,8 +128,10 @@ def _lights(app: App) -> None:
 
 
 def _emission(app: App, name: str, material: Light) -> None:
-    cost = app.session.cost_of_light(material.group or name, is_tint=True)
-    color = edited(EMISSION.costing(cost), material.emission, name)
+    cost = cost_of_light(app.session, material.group or name, is_tint=True)
+    is_one = sum(isinstance(m, Light) for m in app.session.scene.materials.values()) == 1
+    row = EMISSION if is_one else EMISSION.named(f"{name} emission")
+    color = edited(row.costing(cost), material.emission, name)
     if color is not None:
         app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
 
@@ -121,11 +146,12 @@ def _with_background(scene: Scene, **colors: Any) -> Scene:
 
 def _paths(app: App) -> None:
     session = app.session
-    bounces = SETTINGS["bounces"].costing(session.cost_of_fewer_bounces())
+    reach = reach_of_bounces(session)
+    bounces = SETTINGS["bounces"].costing(Cost.RELIGHT if reach else Cost.RESTART, reach)
     _edit(app, edited_fields((bounces,), dict(session.settings)))
     if session.pipeline == "compute":
-        _, session.by_length = imgui.checkbox("bounces live", session.by_length)
-        imgui.set_item_tooltip(_LIVE)
+        is_live = edited(LIVE, session.by_length)
+        session.by_length = session.by_length if is_live is None else is_live
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
@@ -137,9 +163,9 @@ def _lengths(session: Session) -> None:
     rest = f"{last} and more" if session.settings.bounces > last else f"{last}"
     names = ["all light", *[f"bounce {n} alone" for n in range(last)], f"bounce {rest} alone"]
     chosen = 0 if session.alone is None else min(session.alone, last) + 1
-    imgui.set_next_item_width(hello_imgui.em_size(9.5))
-    _, chosen = imgui.combo("shown", chosen, names)
-    session.alone = chosen - 1 if chosen else None
+    shown = edited(replace(SHOWN, choices=tuple(names)), names[chosen])
+    if shown is not None:
+        session.alone = names.index(shown) - 1 if shown != names[0] else None
 
 
 def _samples(app: App) -> None:
@@ -177,14 +203,17 @@ def _background(app: App) -> None:
     if changes:
         kept = {name: values[name] for name in names}
         app.edit_scene("background", partial(_with_background, **{**kept, **changes}))
-    pressed, wanted = imgui.checkbox("gradient", is_gradient)
-    if pressed:
+    wanted = edited(GRADIENT, is_gradient)
+    if wanted is not None:
         other: dict[str, Any] = {"color": top} if not wanted else {"bottom": bottom, "top": top}
         app.edit_scene("", partial(_with_background, **other))
 
 
 def _frame(app: App) -> None:
-    _settings(app, FRAME)
+    session = app.session
+    usual = Cost.RECOMPILE if session.lacks_room else Cost.RESTART
+    sides = tuple(SETTINGS[side].costing(usual, reach_of_size(session, side)) for side in FRAME)
+    _edit(app, edited_fields(sides, dict(session.settings)))
 
 
 def _window(app: App) -> None:

@@ -7,10 +7,12 @@ from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.methods.features import explain
 from glrt.methods.light_layers import Plan
-from glrt.settings import MAX_SAMPLES, Settings
+from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.widgets import tip
 from glrt.view.state.error_history import Look, Progress
+from glrt.view.state.session import Session
 
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
@@ -37,9 +39,9 @@ def figures(app: App) -> list[str]:
     rate = work * width * height / max(session.rendering, 1e-9)
     preview = " (coarse while it moves)" if session.is_preview else ""
     lines = [
-        f"{session.samples} of {session.settings.samples} samples{preview}",
+        _samples(session.samples, session.settings.samples) + preview,
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {_banded(progress.last, session.settings)}",
+        f"error {_banded(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
     if progress.last and progress.last.nonfinite:
@@ -60,10 +62,23 @@ def forecast(progress: Progress, target: float, samples: int) -> str:
     return f"{_percent(target)} in about {_duration(seconds)} of rendering{more}"
 
 
-def _banded(look: Look | None, settings: Settings) -> str:
+def _samples(done: int, wanted: int) -> str:
+    if done > wanted:
+        return f"{done} samples, {wanted} are wanted"
+    return f"{done} of {wanted} samples"
+
+
+def _unknown(session: Session) -> str:
+    """Why there is no error, and when there is."""
+    if session.samples >= session.known_from and not session.is_preview:
+        return "unknown until the picture is read"
+    more = f": raise samples to {session.known_from}"
+    is_short = session.settings.samples < session.known_from
+    return f"unknown, known from {session.known_from} samples on{more if is_short else ''}"
+
+
+def _banded(look: Look) -> str:
     """The error, and the band that chance leaves it: to as many digits as tell its ends apart."""
-    if look is None:
-        return f"estimated from {2 * settings.block} samples on"
     error, low, high = (100 * part for part in look.band)
     if not 0 < high - low < math.inf:
         return f"{error:.2g} %, estimated"
@@ -91,7 +106,7 @@ def _kernel(app: App) -> None:
     inside, left_out = _contents(session.renderer.plan)
     imgui.push_text_wrap_pos(0.0)
     imgui.text_disabled(f"{session.pipeline} kernel: {inside}")
-    imgui.set_item_tooltip(f"left out\n{left_out}")
+    tip(f"left out\n{left_out}")
     baked = "; the kernel of a scene at rest" if session.renderer.is_baked else ""
     imgui.text_disabled(f"{session.renderer.context.renderer}{baked}")
     imgui.pop_text_wrap_pos()
@@ -124,12 +139,18 @@ def _plot(app: App) -> None:
     ):
         implot.setup_axis_ticks(axis.value, list(ticks), list(ticks.values()))
     implot.setup_axes_limits(*limits, implot.Cond_.always.value)
+    if len(app.progress.relit) > 1:
+        _line("before relight", app.progress.relit)
     if len(looks) > 1:
-        seconds = np.array([look.seconds for look in looks])
-        implot.plot_line("error", seconds, np.array([look.error for look in looks]))
+        _line("error", looks)
         along, down = app.progress.slope()
         implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
     implot.end_plot()
+
+
+def _line(name: str, looks: list[Look]) -> None:
+    seconds = np.array([look.seconds for look in looks])
+    implot.plot_line(name, seconds, np.array([look.error for look in looks]))
 
 
 def _ticks(low: float, high: float) -> list[float]:

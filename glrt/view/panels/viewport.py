@@ -61,9 +61,18 @@ def draw_viewport(app: App) -> None:
         _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
     if app.show.drawn != "picture":
         draw_legend(app.show, app.camera, app.progress.last, corner + ImVec2(0, height), width)
-    notices = app.show.notice(app.session), app.recent_message(time.perf_counter())
-    for line, notice in enumerate(filter(None, notices)):
+    for line, notice in enumerate(filter(None, _notices(app))):
         _notice(notice, corner + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+
+
+def _notices(app: App) -> tuple[str, ...]:
+    """What is told in the picture, a line each; "" for nothing."""
+    return (
+        app.show.notice(app.session),
+        "old picture, until the new one has a sample" if app.show.is_old else "",
+        "paused" if app.session.paused else "",
+        app.recent_message(time.perf_counter()),
+    )
 
 
 def _wipe(app: App) -> None:
@@ -96,7 +105,10 @@ def _wipe_handle(app: App) -> None:
 def draw_keys(app: App) -> None:
     """Act on the keys; not while a text is typed, a list is open, or a key is chosen."""
     io = imgui.get_io()
-    if io.want_text_input or imgui.is_popup_open("", _ANY_POPUP) or is_choosing(app):
+    is_open = imgui.is_popup_open("", _ANY_POPUP)
+    if is_open and imgui.is_key_pressed(imgui.Key.escape):
+        imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+    if io.want_text_input or is_open or is_choosing(app):
         return
     seconds = min(io.delta_time, _LONGEST_STEP)
     held = [axis for action, axis in _AXES.items() if _is_held(app, action)]

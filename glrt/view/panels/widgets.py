@@ -5,9 +5,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.settings import Cost
+from glrt.view.panels.slider_text import Slider, beside_grip, share_of
 from glrt.view.state.controls import MEANING, Control
 
 # Hue tells the classes apart in both themes; the word stands beside it.
@@ -18,6 +19,8 @@ COLORS = {
     Cost.RECOMPILE: (0.88, 0.36, 0.36, 1.0),
 }
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
+LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
+_TIP = 28.0  # letters' heights across, of a tooltip
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
 
@@ -28,11 +31,32 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     `name` distinguishes controls of one label: those of two lamps, say.
     """
     label = f"{control.label}##{name}" if name else control.label
-    imgui.set_next_item_width(_width_beside(control.label))
-    changed, new = _draw(control, label, value)
-    tooltip(control)
-    _tag(control.cost)
+    is_narrow = control.kind != "switch" and _room_beside(control.label) < hello_imgui.em_size(
+        LEAST
+    )
+    changed, new = (_drawn_below if is_narrow else _drawn_beside)(control, label, value)
     return _clamped(control, new) if changed else None
+
+
+def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    imgui.set_next_item_width(_width_beside(control.label))
+    drawn = _draw(control, label, value)
+    tooltip(control)
+    _tags(control)
+    return drawn
+
+
+def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """Below its label, which the widget has too, so that its name is the same, but cut off."""
+    imgui.text(control.label)
+    _tags(control)
+    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
+    imgui.set_next_item_width(room)
+    drawn = _draw(control, label, value)
+    imgui.pop_clip_rect()
+    tooltip(control)
+    return drawn
 
 
 def button(label: str, is_enabled: bool = True) -> bool:
@@ -43,11 +67,31 @@ def button(label: str, is_enabled: bool = True) -> bool:
     return pressed
 
 
+def beside(text: str) -> None:
+    """Go on in this line if a button with this text has room there."""
+    imgui.same_line()
+    width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
+
+
+def tip(text: str) -> None:
+    """Explain the item drawn last, when the mouse rests on it: in lines that are easily read."""
+    if imgui.begin_item_tooltip():
+        imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
+        imgui.text_unformatted(text)
+        imgui.pop_text_wrap_pos()
+        imgui.end_tooltip()
+
+
 def tooltip(control: Control) -> None:
     """Tell what the item drawn last does, and what it costs."""
     help_text = control.help[:1].upper() + control.help[1:]
     unit = f" [{control.unit}]" if control.unit else ""
-    imgui.set_item_tooltip(f"{help_text}{unit}\n{control.cost.value}: {MEANING[control.cost]}")
+    costs = (
+        f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
+    )
+    tip("\n".join([f"{help_text}{unit}", *costs]))
 
 
 def legend() -> None:
@@ -58,11 +102,27 @@ def legend() -> None:
         imgui.text_wrapped(meaning)
 
 
-def _tag(cost: Cost) -> None:
-    """At the right edge; where the label reaches that far, behind it."""
+def tag(cost: Cost) -> None:
+    """What an edit costs, at the right edge; where the label reaches that far, behind it."""
     end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
     imgui.same_line(max(end, _tags_start()))
     imgui.text_colored(COLORS[cost], cost.value)
+
+
+def _tags(control: Control) -> None:
+    if len(control.costs) == 1:
+        return tag(control.cost)
+    return _tags_below(control)
+
+
+def _tags_below(control: Control) -> None:
+    """A line for a cost that depends on the value."""
+    imgui.indent()
+    for number, (cost, where) in enumerate(control.costs):
+        if number:
+            imgui.same_line()
+        imgui.text_colored(COLORS[cost], f"{cost.value} {where}")
+    imgui.unindent()
 
 
 def _tags_start() -> float:
@@ -74,10 +134,14 @@ def _tags_start() -> float:
 
 def _width_beside(label: str) -> float:
     """The width of a widget that leaves room for its label and its tag."""
-    beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
-    room = _tags_start() - imgui.get_cursor_pos_x() - beside
     usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
-    return max(hello_imgui.em_size(3.5), min(usual, room))
+    return max(hello_imgui.em_size(3.5), min(usual, _room_beside(label)))
+
+
+def _room_beside(label: str) -> float:
+    """The width that a label and a tag leave in a line."""
+    beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
+    return _tags_start() - imgui.get_cursor_pos_x() - beside
 
 
 def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
@@ -139,8 +203,20 @@ def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
         return _free_number(control, label, value)
     low, high = control.slider
     if control.kind == "integer":
-        return imgui.slider_int(label, value, int(low), int(high), flags=flags)
-    return imgui.slider_float(label, value, float(low), float(high), "%.3g", flags)
+        form = _beside_grip(control, "%d", value)
+        return imgui.slider_int(label, value, int(low), int(high), form, flags)
+    form = _beside_grip(control, "%.3g", value)
+    return imgui.slider_float(label, value, float(low), float(high), form, flags)
+
+
+def _beside_grip(control: Control, form: str, value: float) -> str:
+    low, high = control.slider or (0.0, 1.0)
+    width, grip = imgui.calc_item_width(), imgui.get_style().grab_min_size
+    if control.kind == "integer":
+        grip = max(grip, width / (high - low + 1))
+    share = share_of(value, low, high, control.is_logarithmic)
+    text, space = (imgui.calc_text_size(part).x for part in (form % value, " "))
+    return beside_grip(form, Slider(width, grip, share), text, space)
 
 
 def _free_number(control: Control, label: str, value: Any) -> tuple[bool, Any]:

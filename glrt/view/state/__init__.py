@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - idle_compile: a kernel compiled ahead by another process
 - idle_kernel: when the faster kernel takes over
 - session: the scene, its settings and the renderer that follows them
+- costs: what an edit costs at present
 - reference_image: the picture kept to compare with
 - error_history: how the error falls, and when it is small enough
 """

@@ -39,6 +39,7 @@ class Control:
     high: float | None
     slider: tuple[float, float] | None
     choices: tuple[str, ...] = ()
+    reach: tuple[float, Cost] | None = None  # up to which an edit has this cost; and that beyond
 
     @property
     def label(self) -> str:
@@ -49,9 +50,16 @@ class Control:
         """The same control under another name."""
         return replace(self, name=name)
 
-    def costing(self, cost: Cost) -> "Control":
+    def costing(self, cost: Cost, reach: tuple[float, Cost] | None = None) -> "Control":
         """The same control where an edit costs something else at present."""
-        return replace(self, cost=cost)
+        return replace(self, cost=cost, reach=reach)
+
+    @property
+    def costs(self) -> tuple[tuple[Cost, str], ...]:
+        """What an edit costs, and which edit: where that depends on the value."""
+        if not self.reach or (self.high is not None and self.high <= self.reach[0]):
+            return ((self.cost, ""),)
+        return (self.cost, f"up to {self.reach[0]:g}"), (self.reach[1], "above")
 
     @property
     def is_logarithmic(self) -> bool:
@@ -75,6 +83,11 @@ def control_of_items(model: type[BaseModel], field: str) -> Control:
     control = _control(field, item)
     assert control
     return control
+
+
+def switch(name: str, help_text: str, cost: Cost) -> Control:
+    """A control for what is on or off, and is no field of a model."""
+    return Control(name, "switch", help_text, cost, "", None, None, None)
 
 
 def replaced(value: Model, **changes: Any) -> Model:

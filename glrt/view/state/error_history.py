@@ -10,6 +10,7 @@ from glrt.error.estimate import Band, error_band
 from glrt.methods.light_layers import Weights
 from glrt.rendering.film import Film
 from glrt.rendering.weighting import mixed
+from glrt.view.state.session import Session
 
 GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
 PAUSE = 0.5  # seconds between two looks, at least
@@ -43,22 +44,46 @@ def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
 
 
 class Progress:
-    """Looks at one picture, from its first sample on."""
+    """Looks at one picture, from its first sample on; those under another light stay apart."""
 
     def __init__(self) -> None:
         """No look yet."""
         self.looks: list[Look] = []
+        self._relit: list[Look] = []  # under another light
         self._picture: Hashable = None
+        self._light: Hashable = None
         self._looked = 0.0
 
-    def is_due(self, picture: Hashable, samples: int, now: float, is_done: bool = False) -> bool:
-        """Whether to look at the error now; another picture forgets the looks at the one before.
+    def follow(self, session: Session, now: float) -> Look | None:
+        """A frame: forget another picture, and look at this one where that is due."""
+        renderer = session.renderer
+        if not renderer:
+            return None
+        self.begin(session.restarts, session.weights)
+        if session.is_preview or session.samples < session.known_from:
+            return None  # of fewer samples no error is known, and reading them takes time
+        if not self.is_due(session.samples, now, session.is_done):
+            return None
+        look = look_at(renderer.film, session.weights, session.rendering)
+        self.record(look, now)
+        return look
 
-        `picture` tells pictures apart: it changes with each restart, and each change of light. One
-        that `is_done` is looked at once more: its error is that of all its samples.
+    def begin(self, picture: Hashable, light: Hashable) -> None:
+        """Forget the looks at another picture; put those under another light aside.
+
+        `picture` tells pictures apart: it changes with each restart.
         """
         if picture != self._picture:
-            self._picture, self.looks = picture, []
+            self.looks, self._relit = [], []
+        elif light != self._light:
+            self.looks, self._relit = [], [*self._relit, *self.looks]
+        self._picture, self._light = picture, light
+
+    def is_due(self, samples: int, now: float, is_done: bool = False) -> bool:
+        """Whether to look at the error now.
+
+        A picture that `is_done` is looked at once more: its error is that of all its samples.
+        """
         least = GROWTH * self.looks[-1].samples if self.looks else 2
         if is_done and self.looks:
             least = self.looks[-1].samples + 1
@@ -77,7 +102,12 @@ class Progress:
     @property
     def drawn(self) -> list[Look]:
         """The looks that logarithmic axes have a place for: a black picture has no error."""
-        return [look for look in self.looks if 0 < look.error < math.inf and look.seconds > 0]
+        return _placed(self.looks)
+
+    @property
+    def relit(self) -> list[Look]:
+        """Those under another light."""
+        return _placed(self._relit)
 
     def remaining(self, target: float) -> float | None:
         """Seconds of rendering to an error, which falls with the root of time; None if unknown."""
@@ -99,10 +129,12 @@ class Progress:
 
         However near the looks lie to each other, a tick of 1, 2 or 5 is between the limits.
         """
-        if len(self.drawn) < 2:
+        looks = [*self.relit, *self.drawn]
+        if len(looks) < 2:
             return EMPTY
-        (seconds, errors), known = self.slope(), [look.error for look in self.drawn]
-        ends = min(seconds), max(seconds), min(*errors, *known), max(*errors, *known)
+        seconds, errors = [look.seconds for look in looks], [look.error for look in looks]
+        errors += self.slope()[1] if self.drawn else []
+        ends = min(seconds), max(seconds), min(errors), max(errors)
         least, most = 1 / MARGIN, MARGIN
         return ends[0] * least, ends[1] * most, ends[2] * least, ends[3] * most
 
@@ -111,3 +143,7 @@ class Progress:
         first, last = self.drawn[0], self.drawn[-1]
         seconds = [first.seconds, last.seconds]
         return seconds, [last.error * (last.seconds / max(s, 1e-9)) ** 0.5 for s in seconds]
+
+
+def _placed(looks: list[Look]) -> list[Look]:
+    return [look for look in looks if 0 < look.error < math.inf and look.seconds > 0]

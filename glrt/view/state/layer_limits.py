@@ -16,19 +16,19 @@ class LayerLimits:
 
     def fits(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
         """Whether a film of these layers can be had; one without layers always fits here."""
-        layers = self._layers(scene, settings, layering)
+        layers = self.layers(scene, settings, layering)
         is_narrow = layers * settings.width <= self.largest and 2 * settings.height <= self.largest
         is_small = layers * settings.width * settings.height < self._refused
         return not layers or (is_narrow and is_small)
 
     def refuse(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
         """The driver would not; returns whether a film without layers is worth a trial."""
-        layers = self._layers(scene, settings, layering)
+        layers = self.layers(scene, settings, layering)
         if layers:
             self._refused = layers * settings.width * settings.height
         return layers > 0
 
-    def _layers(self, scene: Scene, settings: Settings, layering: Layering) -> int:
+    def layers(self, scene: Scene, settings: Settings, layering: Layering) -> int:
         """How many; kept, since a frame asks several times, and a scene may have many objects."""
         known = self._known
         if not (known and known[0] is scene and known[1] is settings and known[2] == layering):

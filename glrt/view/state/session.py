@@ -5,20 +5,17 @@ Edits are gathered and reach the renderer once a frame. It knows no window.
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from glrt.errors import GlrtError, RenderError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
-from glrt.methods.features import needs_of
-from glrt.methods.light_layers import Layering, Weights, emitters, layer_of_group, plan_for
+from glrt.methods.light_layers import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
-from glrt.scene.scene import SKY_GROUP, Scene
-from glrt.scene.values import Radiance
+from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost, Settings, settings_for
-from glrt.view.memo import kept_for_the_same
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
@@ -35,6 +32,7 @@ class State:
 
     scene: Scene
     settings: Settings
+    by_length: bool = False  # layers by the length of paths, so that bounces are weighed
 
 
 class Session:
@@ -57,7 +55,6 @@ class Session:
         self.renderer: Renderer | None = None
         self.paused = False
         self.waits = False  # for another picture, which is to get as many samples
-        self.by_length = False  # layers by the length of paths, so that bounces are weighed
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
         self.busy = ""  # what the next frame will wait for
@@ -83,9 +80,23 @@ class Session:
         return self.state.settings
 
     @property
+    def by_length(self) -> bool:
+        """Whether the film is to keep the light of each bounce apart."""
+        return self.state.by_length
+
+    @by_length.setter
+    def by_length(self, wanted: bool) -> None:
+        self._take(replace(self.state, by_length=wanted))
+
+    @property
     def samples(self) -> int:
         """Samples of each pixel of the picture."""
         return self.renderer.samples if self.renderer else 0
+
+    @property
+    def known_from(self) -> int:
+        """The samples from which on an error is known: of two observations."""
+        return 2 * (self.renderer or self).settings.block
 
     @property
     def layering(self) -> Layering:
@@ -112,38 +123,36 @@ class Session:
         is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
         return plan.alone(self.alone or 0) if is_alone else plan.weights
 
-    def cost_of_light(self, group: str, is_tint: bool = False) -> Cost:
-        """What another intensity of a light group costs now, or another colour of one lamp."""
-        layers, lamps = _lamps(self.scene)
-        shares = [other for other in layers if layers[other] == layers.get(group)]
-        is_weighed = len(shares) == 1 and not (is_tint and len(lamps.get(group, [])) > 1)
-        if is_weighed and self.layering == "groups":
-            return Cost.RELIGHT
-        return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
-
-    def cost_of_fewer_bounces(self) -> Cost:
-        """What a lower bounce limit costs now."""
-        return Cost.RELIGHT if self.layering == "lengths" else Cost.RESTART
-
     @property
     def is_preview(self) -> bool:
         """Whether the renderer is at less than full size."""
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
 
     @property
+    def is_behind(self) -> bool:
+        """Whether the renderer lacks an edit."""
+        if self.renderer is None:
+            return True
+        given = State(self.renderer.scene, self.renderer.settings)
+        return given != self._wanted() or self.renderer.plan.layering != self.layering
+
+    @property
     def is_done(self) -> bool:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
         is_short = self.renderer is None or self.renderer.lacks(self.settings.samples)
-        return not self._is_behind and (waits or not is_short)
+        return not self.is_behind and (waits or not is_short)
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
         try:
-            after = State(scene or self.scene, settings_for(self.settings, **changes))
+            settings = settings_for(self.settings, **changes)
         except GlrtError as error:
             self.problem = str(error)
             return
+        self._take(replace(self.state, scene=scene or self.scene, settings=settings), gesture)
+
+    def _take(self, after: State, gesture: str = "") -> None:
         if after != self.state:
             self.history.record(self.state, gesture)
             self._set_state(after)
@@ -213,17 +222,9 @@ class Session:
             width, height = renderer.size
             self._preview.record(spent / (done * width * height))
 
-    @property
-    def _is_behind(self) -> bool:
-        """Whether the renderer lacks an edit."""
-        if self.renderer is None:
-            return True
-        given = State(self.renderer.scene, self.renderer.settings)
-        return given != self._wanted() or self.renderer.plan.layering != self.layering
-
     def _apply_pending(self) -> bool:
         """Whether the renderer has all edits; what compiles is announced first."""
-        is_behind = self._is_behind
+        is_behind = self.is_behind
         if is_behind and self._compiles() and self._announced < ANNOUNCED:
             self.busy = "Compiling a kernel for this scene"
             self._announced += 1
@@ -265,7 +266,8 @@ class Session:
         self.problem = str(error)
         if not self.renderer:
             raise error
-        self.state = State(self.renderer.scene, self.settings_of(self.renderer))
+        given = self.renderer.scene, self.settings_of(self.renderer)
+        self.state = State(*given, self.renderer.plan.layering == "lengths")
 
     def settings_of(self, renderer: Renderer) -> Settings:
         """The renderer's settings at full size."""
@@ -275,15 +277,12 @@ class Session:
     def _compiles(self) -> bool:
         if not self.renderer:
             return True
-        plan = self.renderer.plan
-        if plan.relit(self.scene, self._wanted().settings, self.layering):
-            return False
-        after = plan_for(self.scene, self.settings, self.layering)
-        is_other = needs_of(after.scene, after.settings) != needs_of(plan.scene, plan.settings)
-        return is_other or after.constants() != plan.constants()
+        wanted = self._wanted()
+        cost = self.renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
+        return cost is Cost.RECOMPILE
 
     def _wanted(self) -> State:
-        """What the renderer is to have: while the camera moves, a size that keeps up."""
+        """What the renderer is to show: while the camera moves, at a size that keeps up."""
         shown = (self.aov,) if self.aov else ()
         settings = settings_for(self.settings, aov=(*self.settings.aov, *shown))
         factor = self._preview.factor
@@ -291,9 +290,3 @@ class Session:
             size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
             settings = settings_for(settings, **size)
         return State(self.scene, settings)
-
-
-@kept_for_the_same
-def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
-    """The layer of each light group, and what its lamps emit."""
-    return layer_of_group(scene), emitters(scene)

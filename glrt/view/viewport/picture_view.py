@@ -26,7 +26,9 @@ class PictureView:
     kept: ReferenceImage | None = None
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
+    is_old: bool = False  # what is on the screen: it lacks the last edit, which has no sample yet
     _content: object = None  # what the picture was drawn from
+    _restarts: int = 0  # of the session, when it was drawn
 
     @property
     def scale(self) -> Scale:
@@ -56,6 +58,11 @@ class PictureView:
 
     def draw(self, session: Session) -> None:
         """Bring the newest samples to the screen; without any the old picture stays."""
+        self._draw_newest(session)
+        is_before = session.is_behind or self._restarts != session.restarts
+        self.is_old = bool(self.picture.name) and is_before
+
+    def _draw_newest(self, session: Session) -> None:
         renderer, kept = session.renderer, self._compared(session)
         if not renderer or not session.samples:
             return
@@ -75,7 +82,7 @@ class PictureView:
         )
         if content != self._content:
             self._draw(session, renderer, view, other)
-            self._content, self.drawn = content, view
+            self._content, self.drawn, self._restarts = content, view, session.restarts
 
     def keep(self, session: Session) -> None:
         """Keep the picture, whatever the view, to compare it with what comes."""

@@ -1,0 +1,33 @@
+"""How much of the window its parts have."""
+
+from imgui_bundle import ImVec2, imgui
+
+
+class Shares:
+    """Keeps them where the window gets another size: else the picture alone pays for it."""
+
+    def __init__(self) -> None:
+        """No size is known yet."""
+        self._size = (0.0, 0.0)
+
+    def keep(self, names: tuple[str, ...]) -> None:
+        """Once a frame, for the parts of these names."""
+        size = imgui.get_io().display_size.x, imgui.get_io().display_size.y
+        before, self._size = self._size, size
+        if size == before or not all((*size, *before)):
+            return
+        scale = ImVec2(size[0] / before[0], size[1] / before[1])
+        for node in _nodes(names):
+            imgui.internal.dock_builder_set_node_size(node.id_, node.size_ref * scale)
+
+
+def _nodes(names: tuple[str, ...]) -> list[imgui.internal.DockNode]:
+    """Where these parts are docked, and all splits around them, but not the whole."""
+    found: dict[int, imgui.internal.DockNode] = {}
+    for name in names:
+        part = imgui.internal.find_window_by_name(name)
+        node = part.dock_node if part else None
+        while node and node.parent_node:
+            found[node.id_] = node
+            node = node.parent_node
+    return list(found.values())

@@ -1,0 +1,63 @@
+"""What an edit costs at present: by what the film keeps apart."""
+
+from typing import Literal
+
+from glrt.methods.light_layers import MOST_LAYERS, emitters, layer_of_group
+from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.values import Radiance
+from glrt.settings import Cost
+from glrt.view.memo import kept_for_the_same
+from glrt.view.state.session import Session
+
+Reach = tuple[int, Cost]  # the largest value with the cost that is told, and the cost beyond
+
+
+def cost_of_light(session: Session, group: str, is_tint: bool = False) -> Cost:
+    """Of another intensity of a light group, or of another colour of one lamp."""
+    layers, lamps = _lamps(session.scene)
+    shares = [other for other in layers if layers[other] == layers.get(group)]
+    is_weighed = len(shares) == 1 and not (is_tint and not _is_one_tint(session, group, lamps))
+    if is_weighed and session.layering == "groups":
+        return Cost.RELIGHT
+    return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
+
+
+def reach_of_bounces(session: Session) -> Reach | None:
+    """Up to which limit the layers weigh it, and what one beyond costs; None without layers.
+
+    The last layer holds the light of all longer paths together.
+    """
+    if session.layering != "lengths":
+        return None
+    plan = session.renderer.plan if session.renderer else None
+    is_traced = plan and plan.layering == "lengths"
+    traced = plan.settings.bounces if plan and is_traced else session.settings.bounces
+    beyond = Cost.RECOMPILE if traced + 1 < MOST_LAYERS else Cost.RESTART
+    return traced if traced < MOST_LAYERS else MOST_LAYERS - 2, beyond
+
+
+def reach_of_size(session: Session, side: Literal["width", "height"]) -> Reach | None:
+    """Up to which size there is room for layers; beyond is another kernel. None without layers."""
+    layers = session.room.layers(session.scene, session.settings, session.layering)
+    if not layers:
+        return None
+    most = session.room.largest // (layers if side == "width" else 2)
+    return most, Cost.RECOMPILE
+
+
+def _is_one_tint(session: Session, group: str, lamps: dict[str, list[Radiance]]) -> bool:
+    """Whether any colour of a lamp is a factor of what was traced: it has the group for itself."""
+    plan = session.renderer.plan if session.renderer else None
+    traced = _lamps_traced(plan.scene).get(group, []) if plan else []
+    return len(lamps.get(group, [])) <= 1 and all(all(light) for light in traced)
+
+
+@kept_for_the_same
+def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
+    """The layer of each light group, and what its lamps emit."""
+    return layer_of_group(scene), emitters(scene)
+
+
+@kept_for_the_same
+def _lamps_traced(scene: Scene) -> dict[str, list[Radiance]]:
+    return emitters(scene)

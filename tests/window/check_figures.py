@@ -1,0 +1,96 @@
+"""Figures and marks belong to the picture beside them."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from imgui_bundle import imgui
+
+from glrt.rendering.renderer import Renderer
+from glrt.view.panels import viewport
+from glrt.view.panels.plots import figures
+from tests.window.gestures import replaced_fov
+from tests.window.hand import Hand, check
+
+ENOUGH = 32  # samples: two observations
+
+
+@contextmanager
+def told_in_the_picture() -> Iterator[list[str]]:
+    """What is written over the picture."""
+    told: list[str] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(viewport, "_notice", lambda text, corner: told.append(text))
+        yield told
+
+
+@check
+def figures_belong_to_the_picture_beside_them(hand: Hand) -> None:
+    """After a restart nothing of the picture before is told."""
+    app, session = hand.window.app, hand.session
+    hand.until(lambda: len(app.progress.looks) > 1)
+    session.paused = True
+    hand.ctx.yield_(2)
+    assert "%" in figures(app)[2]
+    hand.ctx.item_click("//Controls/restart")
+    hand.until(lambda: session.samples == 1)
+    hand.ctx.yield_()
+    assert figures(app)[2] == f"error unknown, known from {ENOUGH} samples on"
+    assert app.progress.drawn == []
+    hand.there(lambda: session.edit(samples=9, seed=5))
+    session.paused = False
+    hand.until(lambda: session.samples == 9 and session.is_done)
+    hand.ctx.yield_()
+    more = f"raise samples to {ENOUGH}"
+    assert figures(app)[2] == f"error unknown, known from {ENOUGH} samples on: {more}"
+    hand.there(lambda: session.edit(samples=7))
+    hand.ctx.yield_(2)
+    assert figures(app)[0] == "9 samples, 7 are wanted"
+
+
+@check
+def an_old_picture_and_a_pause_are_marked_in_the_picture(hand: Hand) -> None:
+    session = hand.session
+    hand.until(lambda: session.samples > 3)
+    hand.ctx.yield_()
+    with told_in_the_picture() as told:
+        hand.ctx.yield_(2)
+        assert told == []
+        session.paused = True
+        hand.ctx.yield_(2)
+        assert told[-1].startswith("paused")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Renderer, "advance", lambda *_: False)
+            hand.there(lambda: session.edit(seed=8))
+            hand.until(lambda: session.samples == 0)
+            told.clear()
+            hand.ctx.yield_(2)
+            assert any(text.startswith("old picture") for text in told)
+        hand.until(lambda: session.samples == 1)
+        hand.ctx.yield_(2)
+        told.clear()
+        hand.ctx.yield_(2)
+        assert not any(text.startswith("old picture") for text in told)
+        hand.there(lambda: session.edit(method="naive"))
+        hand.until(lambda: bool(session.busy), frames=3)
+        assert any(text.startswith("old picture") for text in told)
+
+
+@check
+def cautions_of_the_scene_stand_in_the_panel(hand: Hand) -> None:
+    told: list[str] = []
+    inner = imgui.text_wrapped
+
+    def seen(text: str) -> None:
+        told.append(text)
+        inner(text)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(imgui, "text_wrapped", seen)
+        hand.ctx.yield_(2)
+        assert not any("Caution" in text for text in told)
+        hand.there(lambda: hand.session.edit(replaced_fov(hand, 1e-5)))
+        hand.settle()
+        told.clear()
+        hand.ctx.yield_(2)
+    assert any(text.startswith("Caution: camera.fov 1e-05") for text in told), told
