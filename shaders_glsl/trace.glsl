@@ -22,6 +22,7 @@
 #include "bsdfs/dielectric.glsl"
 #include "bsdfs/material.glsl"
 #include "lights/quad_solid_angle.glsl"
+#include "lights/sky.glsl"
 #include "lights/choice.glsl"
 #include "lights/sampling.glsl"
 #include "film/most_layers.glsl"

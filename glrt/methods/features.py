@@ -73,6 +73,7 @@ class Needs:
     has_rough_metal: bool
     has_lens: bool
     has_background: bool
+    has_horizon: bool  # a background of two gradients
     sample_lights: bool
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
@@ -132,6 +133,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
+        has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
         sample_lights=is_lit and traits.samples_lights,
         weight_both=is_lit and traits.weights_both,
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
@@ -188,6 +190,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         ),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         Feature("background", needs.has_background, _background(scene)),
+        Feature("horizon", needs.has_horizon, _horizon(scene)),
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
         *(
             Feature(f"{kind} lamps", kind in needs.lamps, f"method {method}, {lamps}")
@@ -218,6 +221,11 @@ def _made_of(names: Iterable[str], kind: str) -> str:
 
 def _background(scene: Scene) -> str:
     return "its light is not black" if any(map(any, scene.background_colors)) else "black"
+
+
+def _horizon(scene: Scene) -> str:
+    is_given = scene.background.horizon is not None
+    return f"background.horizon is {'given' if is_given else 'not given'}"
 
 
 def _model(settings: Settings) -> str:

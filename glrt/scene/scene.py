@@ -75,11 +75,10 @@ class Scene(Contents):
         return {group: self._intensity(group) for group in [*self._lamp_groups(), SKY_GROUP]}
 
     @property
-    def background_colors(self) -> tuple[Radiance, Radiance]:
-        """Radiance from straight below and from straight above, intensity included."""
-        bottom, top = self.background.gradient
+    def background_colors(self) -> tuple[Radiance, ...]:
+        """The gradient of the background, intensity included."""
         intensity = self._intensity(SKY_GROUP)
-        return (_scaled(bottom, intensity), _scaled(top, intensity))
+        return tuple(_scaled(color, intensity) for color in self.background.gradient)
 
     def emission(self, material_name: str) -> Radiance:
         """Radiance of a material, intensity of its group included; black for one without light."""

@@ -59,7 +59,7 @@ SETTINGS = tables(
 SKIES: st.SearchStrategy[Table] = st.one_of(
     st.just({}),
     tables(color=triples(RADIANCES)),
-    tables(bottom=triples(RADIANCES), top=triples(RADIANCES)),
+    tables({"horizon": triples(RADIANCES)}, bottom=triples(RADIANCES), top=triples(RADIANCES)),
 )
 MATERIALS = st.one_of(
     tables(type=st.just("lambertian"), color=COLORS),

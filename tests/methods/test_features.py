@@ -33,9 +33,10 @@ PROBES = {
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
         "integrators/path.glsl",
-        "0.5 * (direction.y + 1.0)",
-        "{} * (direction.y + 1.0)",
+        "path.throughput * background(",
+        "{} * path.throughput * background(",
     ),
+    "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
     "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
     "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "length(to_point)", "length({} * to_point)"),
     "SAMPLE_LIGHTS": (
@@ -51,6 +52,7 @@ PROBES = {
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
     "HAS_TREE": {"HAS_SPHERE"},
+    "HAS_HORIZON": {"HAS_BACKGROUND"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
@@ -61,6 +63,7 @@ NEEDED_TOO = {
 
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
+    "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "WEIGHT_BOTH": {"QUADS_BY_AREA"},
@@ -94,6 +97,14 @@ MATERIALS: dict[str, dict[str, Any]] = {
 }
 
 
+def sky_with(flags: set[str]) -> dict[str, list[float]]:
+    """The background that asks for these features."""
+    color = [1.0 if "HAS_BACKGROUND" in flags else 0.0] * 3
+    return dict.fromkeys(
+        ("bottom", "horizon", "top") if "HAS_HORIZON" in flags else ("color",), color
+    )
+
+
 def needs_with(flags: set[str]) -> Needs:
     """What a scene and settings need that ask for these features."""
 
@@ -116,7 +127,7 @@ def needs_with(flags: set[str]) -> Needs:
         objects,
         MATERIALS,
         {"defocus_angle": 2.0 if "HAS_LENS" in flags else 0.0},
-        background={"color": [1, 1, 1] if "HAS_BACKGROUND" in flags else [0, 0, 0]},
+        background=sky_with(flags),
     )
     method = "mis" if "WEIGHT_BOTH" in flags else "nee" if "SAMPLE_LIGHTS" in flags else "naive"
     settings = settings_for(scene.render, method=method, roulette="ROULETTE" in flags)

@@ -31,6 +31,7 @@ UNUSED: dict[str, tuple[str, dict[str, Any]]] = {
     "bsdfs/metal.glsl": ("lamps", {}),
     "shapes/sphere_tree.glsl": ("cornell", {}),
     "shapes/quad.glsl": ("weekend", {}),
+    "lights/sky.glsl": ("cornell", {}),
     "lights/quad_solid_angle.glsl": ("methods/open", {}),
     "lights/choice.glsl": ("weekend", {}),
     "lights/sampling.glsl": ("cornell", {"method": "naive"}),

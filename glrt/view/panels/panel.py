@@ -10,6 +10,7 @@ from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
+from glrt.scene.values import Radiance
 from glrt.settings import Settings
 from glrt.view.app import App
 from glrt.view.panels.compare import draw_compare, draw_view
@@ -167,20 +168,31 @@ def _display(app: App) -> None:
 
 
 def _background(app: App) -> None:
-    """One colour, or a gradient from bottom to top."""
+    """One colour, or a gradient from bottom to top, with or without a horizon."""
     background = app.session.scene.background
-    bottom, top = background.gradient
-    is_gradient = background.top is not None
-    names = ("bottom", "top") if is_gradient else ("color",)
-    values: dict[str, Any] = {"color": bottom, "bottom": bottom, "top": top}
-    changes = edited_fields(tuple(BACKGROUND[name] for name in names), values, "background")
+    bottom, *_, top = background.gradient
+    values: dict[str, Any] = {n: color for n, color in background if color is not None}
+    values = values or {"color": bottom}
+    changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
     if changes:
-        kept = {name: values[name] for name in names}
-        app.edit_scene("background", partial(_with_background, **{**kept, **changes}))
-    pressed, wanted = imgui.checkbox("gradient", is_gradient)
+        app.edit_scene("background", partial(_with_background, **{**values, **changes}))
+    ends: dict[str, Any] = {"bottom": bottom, "top": top}
+    pressed, wanted = imgui.checkbox("gradient", background.top is not None)
     if pressed:
-        other: dict[str, Any] = {"color": top} if not wanted else {"bottom": bottom, "top": top}
+        other: dict[str, Any] = ends if wanted else {"color": top}
         app.edit_scene("", partial(_with_background, **other))
+    if background.top is None:
+        return
+    pressed, wanted = imgui.checkbox("horizon", background.horizon is not None)
+    if pressed:
+        other = {**ends, "horizon": _between(bottom, top)} if wanted else ends
+        app.edit_scene("", partial(_with_background, **other))
+
+
+def _between(bottom: Radiance, top: Radiance) -> Radiance:
+    """The middle of a gradient: as a horizon it changes nothing."""
+    red, green, blue = (0.5 * (low + high) for low, high in zip(bottom, top, strict=True))
+    return (red, green, blue)
 
 
 def _frame(app: App) -> None:
