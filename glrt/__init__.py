@@ -44,14 +44,17 @@ if TYPE_CHECKING:
     from glrt.scene.camera import Camera
     from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
     from glrt.scene.scene import Scene
-    from glrt.scene.shapes import Plane, Quad, Sphere
+    from glrt.scene.shapes import Disk, Plane, Quad, Sphere
+    from glrt.scene.solids import Box
     from glrt.settings import Settings
 
 __all__ = [
     "Background",
+    "Box",
     "Camera",
     "Comparison",
     "Dielectric",
+    "Disk",
     "Image",
     "Lambertian",
     "Light",
@@ -73,9 +76,11 @@ __version__ = VERSION
 
 _HOMES = {
     "Background": "scene.background",
+    "Box": "scene.solids",
     "Camera": "scene.camera",
     "Comparison": "comparison.result",
     "Dielectric": "scene.materials",
+    "Disk": "scene.shapes",
     "Image": "image.image",
     "Lambertian": "scene.materials",
     "Light": "scene.materials",

@@ -15,6 +15,8 @@
 #include "shapes/sphere_tree.glsl"
 #include "shapes/plane.glsl"
 #include "shapes/quad.glsl"
+#include "shapes/disk.glsl"
+#include "shapes/box.glsl"
 #include "shapes/find_hit.glsl"
 #include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"

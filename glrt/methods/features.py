@@ -9,11 +9,15 @@ from glrt.scene.materials import TYPES, Material, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
-from glrt.text import counted
+from glrt.text import counted, plural
 
 TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/results/speed.md)
 MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
-SAMPLED = ("sphere", "quad")  # the kinds of lamps that are sampled; others are found by scattering
+SAMPLED = (
+    "sphere",
+    "quad",
+    "disk",
+)  # the kinds of lamps that are sampled; others are found by scattering
 NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0}
 
 
@@ -179,7 +183,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
     mirrors, rough = made_of("metal", rough=False), made_of("metal", rough=True)
     lamps = _lamps(found)
     return [
-        *(Feature(f"{kind}s", kind in needs.shapes, shapes(kind)) for kind in KINDS),
+        *(Feature(plural(kind), kind in needs.shapes, shapes(kind)) for kind in KINDS),
         Feature("tree", needs.has_tree, f"{shapes('sphere')}; it pays from {TREE_FROM} on"),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
@@ -240,5 +244,9 @@ def _roulette(settings: Settings) -> str:
 
 
 def _lamps(found: Contents) -> str:
-    named = (counted(count, f"{kind} lamp") for kind, count in found.lamps.items() if count)
+    named = (
+        counted(count, f"{kind} lamp") + ("" if kind in SAMPLED else " (by scattering alone)")
+        for kind, count in found.lamps.items()
+        if count
+    )
     return ", ".join(named) or "no lamp"

@@ -136,7 +136,7 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             missing.add(item.material)  # named once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
-        if isinstance(material, Dielectric) and not item.has_inside:
+        if isinstance(material, Dielectric) and not item.encloses:
             yield ("objects", index), _GLASS_ADVICE.format(item.shape)
 
 
@@ -157,7 +157,7 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
-_GLASS_ADVICE = "a {} encloses nothing, so it cannot be dielectric; use a sphere or a plane"
+_GLASS_ADVICE = "a {} encloses nothing, so it cannot be dielectric; use a sphere, a plane or a box"
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "
     "that each can be dimmed on its own"

@@ -75,7 +75,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
         precise vec3 sky = unhidden_sky(vertex.frame[2]);
         gather(path, weight * vertex.material.color * sky, BACKGROUND_LAYER, path.depth + 1);
     }
-    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
+    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT)) return;
     if (MODEL == COOK) {
         precise LightSample light = sample_light(from, total_weight(from), rng);
         precise vec3 direct = weight * direct_light(vertex, light);

@@ -46,6 +46,30 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         }
         note_end(i, quad_count());
     }
+    if (HAS_DISK) {
+        int i = 0;
+        for (; i < disk_count(); ++i) {
+            int shape = first_disk() + i;
+            precise float t = disk_distance(ray, disk_at(i));
+            if (t > 0.0 && t < hit.distance && shape != ray.origin_shape && shape != ignored) {
+                hit = Hit(t, shape);
+                if (any) return hit;
+            }
+        }
+        note_end(i, disk_count());
+    }
+    if (HAS_BOX) {
+        int i = 0;
+        for (; i < box_count(); ++i) {
+            int shape = first_box() + i;
+            precise float t = box_distance(ray, box_at(i), shape);
+            if (t > 0.0 && t < hit.distance) {
+                hit = Hit(t, shape);
+                if (any) return hit;
+            }
+        }
+        note_end(i, box_count());
+    }
     return hit;  // the nearest
 }
 
@@ -68,5 +92,7 @@ Surface surface_at(Ray ray, Hit hit) {
     if (HAS_SPHERE && up_to_sphere(hit.shape)) return sphere_surface(p, hit.shape);
     if (HAS_PLANE && up_to_plane(hit.shape)) return plane_surface(p, hit.shape);
     if (HAS_QUAD && up_to_quad(hit.shape)) return quad_surface(p, hit.shape);
+    if (HAS_DISK && up_to_disk(hit.shape)) return disk_surface(p, hit.shape);
+    if (HAS_BOX && up_to_box(hit.shape)) return box_surface(ray, p, hit.shape);
     return no_surface();
 }

@@ -25,6 +25,8 @@ struct Frame {
     int sphere_count;
     int plane_count;
     int quad_count;
+    int disk_count;
+    int box_count;
     int light_count;
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;

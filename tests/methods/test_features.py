@@ -17,7 +17,18 @@ from glrt.gpu.program import Kernel
 from glrt.methods.features import MOST_NEAR, TREE_FROM, Needs, needs_of
 from glrt.resources import folder
 from glrt.settings import settings_for
-from tests.support.builders import EVERYTHING, MATTE, glass, lamp, plane, quad, scene_of, sphere
+from tests.support.builders import (
+    EVERYTHING,
+    MATTE,
+    box,
+    disk,
+    glass,
+    lamp,
+    plane,
+    quad,
+    scene_of,
+    sphere,
+)
 from tests.support.kernel_text import written_for
 
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
@@ -26,6 +37,8 @@ PROBES = {
     "HAS_SPHERE": ("shapes/sphere.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
     "HAS_PLANE": ("shapes/plane.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
     "HAS_QUAD": ("shapes/quad.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
+    "HAS_DISK": ("shapes/disk.glsl", "dot(p, p)", "dot({} * p, p)"),
+    "HAS_BOX": ("shapes/box.glsl", "- face.w)", "- {} * face.w)"),
     "HAS_TREE": ("shapes/sphere_tree.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
@@ -39,6 +52,7 @@ PROBES = {
     "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
     "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
     "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "length(to_point)", "length({} * to_point)"),
+    "HAS_DISK_LIGHT": ("lights/sampling.glsl", "length(to_place)", "length({} * to_place)"),
     "SAMPLE_LIGHTS": (
         "integrators/path.glsl",
         "weight * light.radiance",
@@ -55,6 +69,7 @@ NEEDED_TOO = {
     "HAS_HORIZON": {"HAS_BACKGROUND"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
+    "HAS_DISK_LIGHT": {"HAS_DISK", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
@@ -66,10 +81,11 @@ GONE_TOO = {
     "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
+    "HAS_DISK": {"HAS_DISK_LIGHT"},
     "WEIGHT_BOTH": {"QUADS_BY_AREA"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
-    | {"QUADS_BY_AREA"},
+    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT"},
 }
 
 
@@ -119,9 +135,12 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [sphere([9, 9, 9], 1, "matte")] * (TREE_FROM if "HAS_TREE" in flags else 0)
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
+    objects += [disk([0, 0, 0], [1, 0, 0], 1, "matte")] if "HAS_DISK" in flags else []
+    objects += [box([0, 0, 0], [1, 1, 1], "matte")] if "HAS_BOX" in flags else []
     lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
     lit = "HAS_QUAD_LIGHT" in flags
     lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
+    lamps += [disk([0, 3, 0], [0, 1, 0], 1, "lamp")] if "HAS_DISK_LIGHT" in flags else []
     objects += lamps + lamps[-1:] * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
     scene = scene_of(
         objects,

@@ -113,6 +113,8 @@ def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> 
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
         grid = _grid(item, at, CELL if liberties.finite else GRID)
         yield _mesh(mi, _surface(scene, item.material), *grid)
+    elif not isinstance(item, Quad):
+        raise SceneError(f"shape '{item.shape}': the converter to Mitsuba does not know it.")
     elif any(scene.emission(item.material)):
         for side in (1,) if liberties.one_sided else (1, -1):
             yield _quad(mi, _surface(scene, item.material), item, at, side * GAP / 2)

@@ -31,6 +31,21 @@ SHAPES = [
         "shaders/test_shape.py::test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits",
     ),
     Mutant(
+        "a ray that starts on an edge of a box gets out past the next face",
+        edit("shapes/box.glsl", "larger(crossing.leaves, NO_WAY)", "crossing.leaves"),
+        "shaders/test_box.py::test_a_ray_into_a_box_ends_on_another_face_seen_from_inside",
+    ),
+    Mutant(
+        "a ray meets the box that it leaves outwards",
+        edit("shapes/box.glsl", "if (shape == ray.origin_shape) return", "if (ray.inward) return"),
+        "shaders/test_box.py::test_a_ray_that_leaves_a_box_outwards_never_meets_it_again",
+    ),
+    Mutant(
+        "from inside a box, the face behind is met",
+        edit("shapes/box.glsl", "inside ? crossing.last : crossing.first", "crossing.first"),
+        "shaders/test_box.py::test_the_point_hit_lies_on_a_face_and_faces_the_ray",
+    ),
+    Mutant(
         "boxes of the tree leave no room for rounding",
         (
             Edit(

@@ -30,6 +30,8 @@ UNUSED: dict[str, tuple[str, dict[str, Any]]] = {
     "bsdfs/dielectric.glsl": ("lens", {}),
     "bsdfs/metal.glsl": ("lamps", {}),
     "shapes/sphere_tree.glsl": ("cornell", {}),
+    "shapes/disk.glsl": ("cornell", {}),
+    "shapes/box.glsl": ("cornell", {}),
     "shapes/quad.glsl": ("weekend", {}),
     "lights/sky.glsl": ("cornell", {}),
     "lights/quad_solid_angle.glsl": ("methods/open", {}),
