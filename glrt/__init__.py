@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from glrt.rendering.renderer import Renderer
     from glrt.scene.background import Background
     from glrt.scene.camera import Camera
+    from glrt.scene.cylinder import Cylinder
     from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
     from glrt.scene.scene import Scene
     from glrt.scene.shapes import Disk, Plane, Quad, Sphere
@@ -53,6 +54,7 @@ __all__ = [
     "Box",
     "Camera",
     "Comparison",
+    "Cylinder",
     "Dielectric",
     "Disk",
     "Image",
@@ -79,6 +81,7 @@ _HOMES = {
     "Box": "scene.solids",
     "Camera": "scene.camera",
     "Comparison": "comparison.result",
+    "Cylinder": "scene.cylinder",
     "Dielectric": "scene.materials",
     "Disk": "scene.shapes",
     "Image": "image.image",

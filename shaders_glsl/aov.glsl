@@ -16,6 +16,7 @@
 #include "shapes/quad.glsl"
 #include "shapes/disk.glsl"
 #include "shapes/box.glsl"
+#include "shapes/cylinder.glsl"
 #include "shapes/find_hit.glsl"
 #include "integrators/camera.glsl"
 #include "film/pixel.glsl"

@@ -17,6 +17,7 @@
 #include "shapes/quad.glsl"
 #include "shapes/disk.glsl"
 #include "shapes/box.glsl"
+#include "shapes/cylinder.glsl"
 #include "shapes/find_hit.glsl"
 #include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
+from glrt.scene.cylinder import Cylinder
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
 from glrt.scene.solids import Box
@@ -86,6 +87,18 @@ def pack_boxes(rows: Array, boxes: Sequence[Box], placing: Placing, first: int) 
         row["material"] = placing.materials[box.material]
 
 
+def pack_cylinders(
+    rows: Array, cylinders: Sequence[Cylinder], placing: Placing, first: int
+) -> None:
+    """Fill rows of the struct Cylinder."""
+    del first  # cylinders are no sampled lamps
+    for row, cylinder in zip(rows, cylinders, strict=True):
+        row["center"] = np.array(cylinder.middle, np.float64) - placing.eye
+        row["axis"], row["radius"] = cylinder.axis, cylinder.radius
+        row["half_height"], row["is_capped"] = cylinder.half, cylinder.capped
+        row["material"] = placing.materials[cylinder.material]
+
+
 def unit(value: Array) -> Array:
     """A vector of length 1 along another."""
     along: Array = value / np.linalg.norm(value)
@@ -99,6 +112,7 @@ PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
     Quad: pack_quads,
     Disk: pack_disks,
     Box: pack_boxes,
+    Cylinder: pack_cylinders,
 }
 NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
 

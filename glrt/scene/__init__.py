@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - materials: what surfaces are made of
 - objects: what every shape has
 - solids: shapes with faces that enclose a volume
+- cylinder: the round one of them, with ends or without
 - shapes: what there is to see
 - contents: the fields of a scene
 - tables: the parts of a scene as plain tables, and tables as TOML

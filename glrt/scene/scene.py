@@ -157,7 +157,10 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
-_GLASS_ADVICE = "a {} encloses nothing, so it cannot be dielectric; use a sphere, a plane or a box"
+_GLASS_ADVICE = (
+    "this {} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box or a "
+    "cylinder with caps"
+)
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "
     "that each can be dimmed on its own"

@@ -1,9 +1,9 @@
 // Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad or a disk, or a direction
 // in the cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
 //
-// The density is 0, and scattering alone finds the light, for planes (infinite area), for boxes, for the
-// background, for the lamp just left, for a sphere that contains the point, and for a quad or a disk
-// whose plane does.
+// The density is 0, and scattering alone finds the light, for planes (infinite area), boxes and cylinders,
+// for the background, for the lamp just left, for a sphere that contains the point, and for a quad or a
+// disk whose plane does.
 
 struct LightSample {
     Ray ray;

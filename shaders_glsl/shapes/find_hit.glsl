@@ -70,6 +70,18 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         }
         note_end(i, box_count());
     }
+    if (HAS_CYLINDER) {
+        int i = 0;
+        for (; i < cylinder_count(); ++i) {
+            int shape = first_cylinder() + i;
+            precise float t = cylinder_distance(ray, cylinder_at(i), shape);
+            if (t > 0.0 && t < hit.distance) {
+                hit = Hit(t, shape);
+                if (any) return hit;
+            }
+        }
+        note_end(i, cylinder_count());
+    }
     return hit;  // the nearest
 }
 
@@ -94,5 +106,6 @@ Surface surface_at(Ray ray, Hit hit) {
     if (HAS_QUAD && up_to_quad(hit.shape)) return quad_surface(p, hit.shape);
     if (HAS_DISK && up_to_disk(hit.shape)) return disk_surface(p, hit.shape);
     if (HAS_BOX && up_to_box(hit.shape)) return box_surface(ray, p, hit.shape);
+    if (HAS_CYLINDER && up_to_cylinder(hit.shape)) return cylinder_surface(ray, p, hit.shape);
     return no_surface();
 }

@@ -27,6 +27,7 @@ struct Frame {
     int quad_count;
     int disk_count;
     int box_count;
+    int cylinder_count;
     int light_count;
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;

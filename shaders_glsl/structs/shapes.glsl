@@ -49,6 +49,15 @@ struct Box {
     float half_z;
 };
 
+struct Cylinder {
+    vec3 center;  // halfway between its ends
+    int material;
+    vec3 axis;    // unit
+    float radius;
+    float half_height;
+    int is_capped;
+};
+
 // Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
 // node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
 struct Node {

@@ -72,6 +72,12 @@ SHAPES = st.one_of(
     tables(shape=st.just("plane"), point=POINTS, normal=POINTS),
     tables(shape=st.just("disk"), center=POINTS, normal=POINTS, radius=LENGTHS),
     tables({"rotate": POINTS}, shape=st.just("box"), min=POINTS, max=POINTS),
+    tables(
+        {"capped": st.booleans(), "from": POINTS},
+        shape=st.just("cylinder"),
+        to=POINTS,
+        radius=LENGTHS,
+    ),
     tables(shape=st.just("quad"), corner=POINTS, edge_u=POINTS, edge_v=POINTS),
 )
 

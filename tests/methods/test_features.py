@@ -21,6 +21,7 @@ from tests.support.builders import (
     EVERYTHING,
     MATTE,
     box,
+    cylinder,
     disk,
     glass,
     lamp,
@@ -39,6 +40,7 @@ PROBES = {
     "HAS_QUAD": ("shapes/quad.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
     "HAS_DISK": ("shapes/disk.glsl", "dot(p, p)", "dot({} * p, p)"),
     "HAS_BOX": ("shapes/box.glsl", "- face.w)", "- {} * face.w)"),
+    "HAS_CYLINDER": ("shapes/cylinder.glsl", "height * cylinder.axis", "{} * cylinder.axis"),
     "HAS_TREE": ("shapes/sphere_tree.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
@@ -137,6 +139,8 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
     objects += [disk([0, 0, 0], [1, 0, 0], 1, "matte")] if "HAS_DISK" in flags else []
     objects += [box([0, 0, 0], [1, 1, 1], "matte")] if "HAS_BOX" in flags else []
+    tube = cylinder([0, 0, 0], [1, 1, 1], 1, "matte")
+    objects += [tube] if "HAS_CYLINDER" in flags else []
     lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
     lit = "HAS_QUAD_LIGHT" in flags
     lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []

@@ -46,6 +46,21 @@ SHAPES = [
         "shaders/test_box.py::test_the_point_hit_lies_on_a_face_and_faces_the_ray",
     ),
     Mutant(
+        "the inside of an open end of a cylinder is met",
+        edit("shapes/cylinder.glsl", "abs(height) <= half_height ? t : 0.0", "t"),
+        "shaders/test_cylinder.py::test_cylinders_are_hit_where_float64_says",
+    ),
+    Mutant(
+        "a ray that starts on the rim of a cylinder gets out past it",
+        edit("shapes/cylinder.glsl", "return larger(leaves, NO_WAY)", "return leaves"),
+        "shaders/test_cylinder.py::test_a_ray_into_a_closed_cylinder_ends_on_it_seen_from_inside",
+    ),
+    Mutant(
+        "from a cap of a cylinder the wall is met as if from the wall",
+        edit("shapes/cylinder.glsl", "|| to_wall <= to_end", "|| to_wall >= 0.0"),
+        "shaders/test_cylinder.py::test_a_ray_into_a_closed_cylinder_ends_on_it_seen_from_inside",
+    ),
+    Mutant(
         "boxes of the tree leave no room for rounding",
         (
             Edit(

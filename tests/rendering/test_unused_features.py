@@ -32,6 +32,7 @@ UNUSED: dict[str, tuple[str, dict[str, Any]]] = {
     "shapes/sphere_tree.glsl": ("cornell", {}),
     "shapes/disk.glsl": ("cornell", {}),
     "shapes/box.glsl": ("cornell", {}),
+    "shapes/cylinder.glsl": ("cornell", {}),
     "shapes/quad.glsl": ("weekend", {}),
     "lights/sky.glsl": ("cornell", {}),
     "lights/quad_solid_angle.glsl": ("methods/open", {}),

@@ -58,6 +58,14 @@ def box(low: Any, high: Any, material: str, rotate: Any = (0, 0, 0)) -> dict[str
     return {"shape": "box", "material": material, **corners}
 
 
+def cylinder(
+    start: Any, end: Any, radius: float, material: str, capped: bool = True
+) -> dict[str, Any]:
+    """A cylinder."""
+    ends = {"from": list(start), "to": list(end), "radius": radius, "capped": capped}
+    return {"shape": "cylinder", "material": material, **ends}
+
+
 def room_of_planes(material: str, half: float = 1.0) -> list[dict[str, Any]]:
     """Six planes that face inwards, around the origin."""
     normals = [[s if i == axis else 0 for i in range(3)] for axis in range(3) for s in (-1, 1)]

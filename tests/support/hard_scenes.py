@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 from glrt.scene.scene import Scene
 from tests.support.builders import (
     box,
+    cylinder,
     disk,
     glass,
     lamp,
@@ -108,6 +109,16 @@ HARD: dict[str, tuple[list[Table], Samples]] = {
             box([-1, -1, -3.6], [-0.3, -0.2, -2.9], "white", [0, 25, 0]),
             box([0.1, -0.9, -3], [0.6, 0.1, -2.6], "glass", [10, 40, 5]),
             box([0.9, -0.8, -4], [1.2, -0.5, -3.7], "cold"),
+        ],
+        Samples(),
+    ),
+    "cylinders of matte, glass and light": (
+        [
+            FLOOR,
+            CEILING,
+            cylinder([-0.8, -1, -3.4], [-0.6, 0.2, -3], 0.3, "white", capped=False),
+            cylinder([0.3, -0.9, -2.8], [0.3, -0.2, -2.8], 0.3, "glass"),
+            cylinder([0.9, -0.8, -4], [1.2, -0.5, -3.7], 0.2, "cold"),
         ],
         Samples(),
     ),
