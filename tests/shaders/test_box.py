@@ -44,7 +44,7 @@ def aimed(n: int, seed: int, far: float = 4.0) -> dict[str, Array]:
     random = np.random.default_rng(seed)
     target = np.array([0.1, 0.05, -2.3]) + random.uniform(-0.9, 0.9, (n, 3))
     direction = directions(n, seed)[:n]
-    origin = target - direction * random.uniform(0, far, (n, 1))
+    origin = target - direction * far * random.uniform(0, 1, (n, 1)) ** 4
     return {"origin": origin.astype(np.float32), "direction": direction}
 
 

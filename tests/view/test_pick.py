@@ -41,7 +41,7 @@ LAMPS = {
     "g": lamp(1e6),
 }
 DRUM = cylinder([-2, 1.2, -6], [-1.2, 1.9, -5], 0.5, "f")
-TUBE = cylinder([1.7, 1.4, -5], [2.8, 1.6, -4.8], 0.45, "g", capped=False)
+TUBE = cylinder([1.0, -0.5, -2.8], [1.7, -0.3, -2.4], 0.3, "g", capped=False)
 CRATE = box([-0.2, 0.9, -5], [0.6, 1.5, -4], "e", [20, 30, 40])
 PLATE = disk([2, 0.5, -6], [0.2, 0.3, 1], 0.8, "d")
 BRIGHTNESSES = [10**n for n in range(7)]
