@@ -77,7 +77,7 @@ PointLamp point_lamp(int shape) {
         precise float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
     }
-    if (HAS_DISK_LIGHT && (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT) || !up_to_quad(shape))) {
+    if (HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(shape))) {
         precise Disk round = disk_at(shape - first_disk());
         precise vec3 across = PI * round.radius * round.radius * round.normal;
         return PointLamp(round.center, 0.0, across, round.material);

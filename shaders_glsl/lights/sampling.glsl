@@ -28,7 +28,8 @@ bool is_of_sphere(Light light) {
 }
 
 bool is_of_disk(Light light) {
-    return HAS_DISK_LIGHT && (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT) || !up_to_quad(light.shape));
+    if (HAS_SPHERE_LIGHT && up_to_sphere(light.shape)) return false;
+    return HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(light.shape));
 }
 
 Quad quad_of(Light light) {
