@@ -2,6 +2,7 @@
 
 from typing import Any, get_args
 
+import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
@@ -87,3 +88,32 @@ def test_models_see_the_same_surfaces(context: Context, method: str) -> None:
     size: dict[str, Any] = {"width": 24, "height": 24, "bounces": 0}
     seen, truth = (rendered(sharp, context, 2, method=m, **size) for m in (method, "mis"))
     assert (seen.radiance == truth.radiance).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("material", ["white", "mirror", "glass"])
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("shape", ["box", "cylinder"])
+def test_nothing_leaks_out_of_tens_of_millions_of_segments(
+    context: Context, shape: str, seed: int, material: str
+) -> None:
+    """A room around the camera; from a room of glass, light comes as from all around."""
+    draw = np.random.default_rng(seed)
+    high = draw.uniform(0.3, 3, 3)
+    low = -0.9 * high
+    room = box(low, high, material, draw.uniform(-180, 180, 3))
+    if shape == "cylinder":
+        room = cylinder(0.1 * low, 0.1 * low + high, 4.0, material)
+        room["from"] = list(0.1 * low - high)
+    materials = {
+        "white": {"type": "lambertian", "color": [1, 1, 1]},
+        "mirror": {"type": "metal", "color": [1, 1, 1]},
+        "glass": glass(),
+    }
+    sky = {"color": [1e6] * 3}
+    scene = scene_of([room], materials, {"fov": 120}, background=sky)
+    image = rendered(scene, context, 64, bounces=100, roulette=False, width=64, height=64)
+    if material == "glass":
+        assert image.radiance.max() <= 2.25e6 * (1 + 1e-4)
+    else:
+        assert image.radiance.max() == 0
