@@ -137,7 +137,8 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
         if isinstance(material, Dielectric) and not item.encloses:
-            yield ("objects", index), _GLASS_ADVICE.format(item.shape)
+            article = "an open" if item.has_inside else "a"
+            yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
 
 
 def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
@@ -158,7 +159,7 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
 
 
 _GLASS_ADVICE = (
-    "this {} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box or a "
+    "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box or a "
     "cylinder with caps"
 )
 _SKY_ADVICE = (

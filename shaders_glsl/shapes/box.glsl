@@ -52,7 +52,7 @@ Surface box_surface(Ray ray, vec3 p, int shape) {
     precise BoxCrossing crossing = cross_box(ray, box);
     bool inside = shape == ray.origin_shape || crossing.enters <= 0.0;
     precise vec3 times = inside ? crossing.last : crossing.first;
-    float time = inside ? crossing.leaves : crossing.enters;
+    precise float time = inside ? crossing.leaves : crossing.enters;
     precise vec4 face = vec4(box.axis_z, box.half_z);
     precise float along = crossing.direction.z;
     if (times.y == time) {

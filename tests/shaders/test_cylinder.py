@@ -264,7 +264,10 @@ def test_a_cylinder_is_made_in_python_and_in_files() -> None:
     ("thing", "message"),
     [
         (cylinder([0, 0, 0], [0, 0, 0], 1, "m"), "from and to are the same point"),
-        (cylinder([0, 0, 0], [0, 1, 0], 1, "glass", capped=False), "this cylinder encloses noth"),
+        (
+            cylinder([0, 0, 0], [0, 1, 0], 1, "glass", capped=False),
+            "an open cylinder encloses nothing",
+        ),
         ({"shape": "cylinder", "to": [0, 1, 0], "radius": 1, "material": "m"}, "from is missing"),
     ],
 )
