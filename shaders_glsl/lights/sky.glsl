@@ -15,15 +15,17 @@ vec3 background(vec3 direction) {
 // From 0 to PI, of a sine that is not below 0.
 float angle_of(float sine, float cosine) {
     precise float size = abs(cosine);
-    precise float angle = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
-    return cosine < 0.0 ? PI - angle : angle;
+    precise float acute = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
+    precise float angle = cosine < 0.0 ? PI - acute : acute;
+    return angle;
 }
 
 // Irradiance over PI of a surface that sees all of its half of the sky. Of one gradient that is the
 // radiance two thirds of the way up along the normal. Of two, each half of the sky adds what two
 // clamped cosines at an angle a have in common: 2/3 (sin a + (PI - a) cos a).
 vec3 unhidden_sky(vec3 normal) {
-    if (!HAS_HORIZON) return background(2.0 / 3.0 * normal);
+    precise vec3 two_thirds_up = 2.0 / 3.0 * normal;
+    if (!HAS_HORIZON) return background(two_thirds_up);
     precise float sine = sqrt(normal.x * normal.x + normal.z * normal.z);
     precise float angle = angle_of(sine, normal.y);
     precise float above = 2.0 / (3.0 * PI) * (sine + (PI - angle) * normal.y);

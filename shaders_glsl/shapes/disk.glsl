@@ -4,7 +4,8 @@ float disk_distance(Ray ray, Disk disk) {
     precise float t = plane_distance(ray, disk.center, disk.normal);
     precise vec3 p = ray.origin + t * ray.direction - disk.center;
     precise float r2 = dot(p, p);
-    return r2 <= disk.radius * disk.radius ? t : 0.0;
+    precise float most = disk.radius * disk.radius;
+    return r2 <= most ? t : 0.0;
 }
 
 Surface disk_surface(vec3 p, int shape) {
