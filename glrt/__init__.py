@@ -44,16 +44,21 @@ if TYPE_CHECKING:
     from glrt.rendering.renderer import Renderer
     from glrt.scene.background import Background
     from glrt.scene.camera import Camera
+    from glrt.scene.cylinder import Cylinder
     from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
     from glrt.scene.scene import Scene
-    from glrt.scene.shapes import Plane, Quad, Sphere
+    from glrt.scene.shapes import Disk, Plane, Quad, Sphere
+    from glrt.scene.solids import Box
     from glrt.settings import Settings
 
 __all__ = [
     "Background",
+    "Box",
     "Camera",
     "Comparison",
+    "Cylinder",
     "Dielectric",
+    "Disk",
     "Image",
     "Lambertian",
     "Light",
@@ -75,9 +80,12 @@ __version__ = VERSION
 
 _HOMES = {
     "Background": "scene.background",
+    "Box": "scene.solids",
     "Camera": "scene.camera",
     "Comparison": "comparison.result",
+    "Cylinder": "scene.cylinder",
     "Dielectric": "scene.materials",
+    "Disk": "scene.shapes",
     "Image": "image.image",
     "Lambertian": "scene.materials",
     "Light": "scene.materials",

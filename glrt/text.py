@@ -60,4 +60,9 @@ def unknown(
 
 def counted(number: int, noun: str) -> str:
     """A number of things in words: no lamps, 1 lamp, 2 lamps."""
-    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+    return f"{number or 'no'} {noun if number == 1 else plural(noun)}"
+
+
+def plural(noun: str) -> str:
+    """Lamps, boxes."""
+    return f"{noun}{'es' if noun.endswith('x') else 's'}"

@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
-from glrt.scene import background, camera, materials, scene, shapes
+from glrt.scene import background, camera, cylinder, materials, scene, shapes, solids
 from glrt.settings import RenderSettings, editable_of
 
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
@@ -21,6 +21,9 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[[objects]] of shape sphere", "", shapes.Sphere),
     ("[[objects]] of shape plane", "", shapes.Plane),
     ("[[objects]] of shape quad", "", shapes.Quad),
+    ("[[objects]] of shape disk", "", shapes.Disk),
+    ("[[objects]] of shape box", "", solids.Box),
+    ("[[objects]] of shape cylinder", "", cylinder.Cylinder),
 ]
 
 

@@ -123,9 +123,9 @@ def closed_form(scene: Scene) -> float | None:
     L (white furnace). Glass and rough metal are excluded: radiance is scaled inside glass, and
     rough metal loses the light of multiple scattering between microfacets.
     """
-    low, high = scene.background_colors
-    level = low[0]
-    if level == 0 or len({*low, *high}) > 1:
+    levels = {level for color in scene.background_colors for level in color}
+    level = min(levels)
+    if level == 0 or len(levels) > 1:
         return None
     parts = [(scene.materials[shape.material], shape.material) for shape in scene.objects]
     hidden = all(_is_invisible(material, scene.emission(name), level) for material, name in parts)

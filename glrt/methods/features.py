@@ -9,11 +9,15 @@ from glrt.scene.materials import TYPES, Material, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
-from glrt.text import counted
+from glrt.text import counted, plural
 
 TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/results/speed.md)
 MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
-SAMPLED = ("sphere", "quad")  # the kinds of lamps that are sampled; others are found by scattering
+SAMPLED = (
+    "sphere",
+    "quad",
+    "disk",
+)  # the kinds of lamps that are sampled; others are found by scattering
 NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0}
 
 
@@ -73,6 +77,7 @@ class Needs:
     has_rough_metal: bool
     has_lens: bool
     has_background: bool
+    has_horizon: bool  # a background of two gradients
     sample_lights: bool
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
@@ -132,6 +137,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
+        has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
         sample_lights=is_lit and traits.samples_lights,
         weight_both=is_lit and traits.weights_both,
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
@@ -177,7 +183,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
     mirrors, rough = made_of("metal", rough=False), made_of("metal", rough=True)
     lamps = _lamps(found)
     return [
-        *(Feature(f"{kind}s", kind in needs.shapes, shapes(kind)) for kind in KINDS),
+        *(Feature(plural(kind), kind in needs.shapes, shapes(kind)) for kind in KINDS),
         Feature("tree", needs.has_tree, f"{shapes('sphere')}; it pays from {TREE_FROM} on"),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
@@ -188,6 +194,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         ),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         Feature("background", needs.has_background, _background(scene)),
+        Feature("horizon", needs.has_horizon, _horizon(scene)),
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
         *(
             Feature(f"{kind} lamps", kind in needs.lamps, f"method {method}, {lamps}")
@@ -220,6 +227,11 @@ def _background(scene: Scene) -> str:
     return "its light is not black" if any(map(any, scene.background_colors)) else "black"
 
 
+def _horizon(scene: Scene) -> str:
+    is_given = scene.background.horizon is not None
+    return f"background.horizon is {'given' if is_given else 'not given'}"
+
+
 def _model(settings: Settings) -> str:
     traces = settings.method not in CLASSIC
     return f"method {settings.method}{' traces paths' if traces else ', which leaves light out'}"
@@ -232,5 +244,9 @@ def _roulette(settings: Settings) -> str:
 
 
 def _lamps(found: Contents) -> str:
-    named = (counted(count, f"{kind} lamp") for kind, count in found.lamps.items() if count)
+    named = (
+        counted(count, f"{kind} lamp") + ("" if kind in SAMPLED else " (by scattering alone)")
+        for kind, count in found.lamps.items()
+        if count
+    )
     return ", ".join(named) or "no lamp"

@@ -177,10 +177,6 @@ def _unlit(scene: Scene) -> Scene:
         name: m.model_copy(update={"emission": NONE}) if isinstance(m, Light) else m
         for name, m in scene.materials.items()
     }
-    shape = (
-        Background(color=None)
-        if scene.background.top is None
-        else Background(bottom=NONE, top=NONE)
-    )
-    update = {"materials": materials, "lights": {}, "background": shape}
+    given = {n: NONE for n, color in scene.background if n != "color" and color is not None}
+    update = {"materials": materials, "lights": {}, "background": Background(**given)}
     return scene.model_copy(update=update)

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 
-from glrt.methods.features import is_light, used_materials
+from glrt.methods.features import SAMPLED, is_light, used_materials
 from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.scene import Scene
+from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
 
 
@@ -42,8 +43,9 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "rough metal is a mirror"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
-    if "plane" in lamps:
-        yield "plane lamps light nothing"
+    for kind in KINDS:
+        if kind in lamps and kind not in SAMPLED:
+            yield f"{kind} lamps light nothing"
     if any(map(any, scene.background_colors)) and len(scene.objects) > 1:
         yield "nothing hides the sky"
     if not traits.has_lens and scene.camera.defocus_angle > 0:

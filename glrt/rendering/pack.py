@@ -16,6 +16,7 @@ from glrt.rendering.pack_materials import pack_materials
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
+from glrt.scene.values import BLACK
 from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
@@ -78,11 +79,12 @@ def pack_frame(
     `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
     film is not read.
     """
-    bottom, top = scene.background_colors
+    bottom, *horizon, top = scene.background_colors
     frame = {
         "camera": pack_camera(scene.camera, settings.width / settings.height),
         "background_bottom": bottom,
         "bounces": settings.bounces,
+        "background_horizon": horizon[0] if horizon else BLACK,
         "background_top": top,
         "seed": settings.seed,
         "size": (settings.width, settings.height),

@@ -15,7 +15,7 @@ from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
 from glrt.methods.features import MOST_NEAR, SAMPLED, is_light
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import KINDS, Quad, Shape, Sphere
+from glrt.scene.shapes import KINDS, Disk, Quad, Shape, Sphere
 
 Array = np.ndarray[Any, Any]
 
@@ -42,8 +42,18 @@ def quad_body(lamp: Quad) -> Body:
     return Body(2 * float(np.linalg.norm(np.cross(u, v))), center, float(u @ u + v @ v) / 12)
 
 
+def disk_body(lamp: Disk) -> Body:
+    """It shines on both sides."""
+    area = 2 * math.pi * lamp.radius**2
+    return Body(area, np.array(lamp.center, np.float64), lamp.radius**2 / 2)
+
+
 # The kinds of lamps that are sampled; others are found by scattering alone.
-LAMPS: dict[type, Callable[[Any], Body]] = {Sphere: sphere_body, Quad: quad_body}
+LAMPS: dict[type, Callable[[Any], Body]] = {
+    Sphere: sphere_body,
+    Quad: quad_body,
+    Disk: disk_body,
+}
 
 if {KINDS[kind] for kind in SAMPLED} != set(LAMPS):
     raise TypeError(f"lamps of kinds {SAMPLED} are sampled, and {list(LAMPS)} have a body")

@@ -10,8 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
+from glrt.scene.cylinder import Cylinder
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import KINDS, Plane, Quad, Shape, Sphere
+from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
+from glrt.scene.solids import Box
 
 Array = np.ndarray[Any, Any]
 
@@ -65,6 +67,38 @@ def pack_quads(rows: Array, quads: Sequence[Quad], placing: Placing, first: int)
         row["light"] = placing.light(first + index)
 
 
+def pack_disks(rows: Array, disks: Sequence[Disk], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Disk."""
+    for index, (row, disk) in enumerate(zip(rows, disks, strict=True)):
+        row["center"] = np.array(disk.center, np.float64) - placing.eye
+        row["normal"] = unit(np.array(disk.normal, np.float64))
+        row["radius"] = disk.radius
+        row["material"] = placing.materials[disk.material]
+        row["light"] = placing.light(first + index)
+
+
+def pack_boxes(rows: Array, boxes: Sequence[Box], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Box."""
+    del first  # boxes are no sampled lamps
+    for row, box in zip(rows, boxes, strict=True):
+        row["center"] = np.array(box.middle, np.float64) - placing.eye
+        for name, axis, half in zip("xyz", box.axes, box.halves, strict=True):
+            row[f"axis_{name}"], row[f"half_{name}"] = axis, half
+        row["material"] = placing.materials[box.material]
+
+
+def pack_cylinders(
+    rows: Array, cylinders: Sequence[Cylinder], placing: Placing, first: int
+) -> None:
+    """Fill rows of the struct Cylinder."""
+    del first  # cylinders are no sampled lamps
+    for row, cylinder in zip(rows, cylinders, strict=True):
+        row["center"] = np.array(cylinder.middle, np.float64) - placing.eye
+        row["axis"], row["radius"] = cylinder.axis, cylinder.radius
+        row["half_height"], row["is_capped"] = cylinder.half, cylinder.capped
+        row["material"] = placing.materials[cylinder.material]
+
+
 def unit(value: Array) -> Array:
     """A vector of length 1 along another."""
     along: Array = value / np.linalg.norm(value)
@@ -76,6 +110,9 @@ PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
     Sphere: pack_spheres,
     Plane: pack_planes,
     Quad: pack_quads,
+    Disk: pack_disks,
+    Box: pack_boxes,
+    Cylinder: pack_cylinders,
 }
 NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
 

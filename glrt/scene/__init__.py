@@ -9,6 +9,9 @@ Modules, each importing only what stands above it:
 - camera: where a scene is seen from
 - background: light from infinity
 - materials: what surfaces are made of
+- objects: what every shape has
+- solids: shapes with faces that enclose a volume
+- cylinder: the round one of them, with ends or without
 - shapes: what there is to see
 - contents: the fields of a scene
 - tables: the parts of a scene as plain tables, and tables as TOML

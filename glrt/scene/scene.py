@@ -75,11 +75,10 @@ class Scene(Contents):
         return {group: self._intensity(group) for group in [*self._lamp_groups(), SKY_GROUP]}
 
     @property
-    def background_colors(self) -> tuple[Radiance, Radiance]:
-        """Radiance from straight below and from straight above, intensity included."""
-        bottom, top = self.background.gradient
+    def background_colors(self) -> tuple[Radiance, ...]:
+        """The gradient of the background, intensity included."""
         intensity = self._intensity(SKY_GROUP)
-        return (_scaled(bottom, intensity), _scaled(top, intensity))
+        return tuple(_scaled(color, intensity) for color in self.background.gradient)
 
     def emission(self, material_name: str) -> Radiance:
         """Radiance of a material, intensity of its group included; black for one without light."""
@@ -137,8 +136,9 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             missing.add(item.material)  # named once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
-        if isinstance(material, Dielectric) and not item.has_inside:
-            yield ("objects", index), _GLASS_ADVICE.format(item.shape)
+        if isinstance(material, Dielectric) and not item.encloses:
+            article = "an open" if item.has_inside else "a"
+            yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
 
 
 def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
@@ -158,7 +158,10 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
-_GLASS_ADVICE = "a {} encloses nothing, so it cannot be dielectric; use a sphere or a plane"
+_GLASS_ADVICE = (
+    "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box or a "
+    "cylinder with caps"
+)
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "
     "that each can be dimmed on its own"

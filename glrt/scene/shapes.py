@@ -5,56 +5,15 @@ docs/extending.md says how a kind is added.
 """
 
 import math
-from abc import abstractmethod
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from glrt.scene.values import (
-    Direction,
-    Length,
-    Name,
-    Number,
-    Tagged,
-    Triple,
-    Vector,
-    are_parallel,
-)
-
-Array = NDArray[np.float64]
-
-
-class Object(Tagged):
-    """What every shape has: a name, a material, and answers about its geometry."""
-
-    name: Name | None = Field(None, description="name of the object in messages and the window")
-    material: Name = Field(description="name of one of the materials")
-
-    has_inside: ClassVar[bool]  # whether it can be of glass
-    anchor: ClassVar[str]  # the field that holds a point of it: moving the shape moves that
-    extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
-
-    @property
-    @abstractmethod
-    def middle(self) -> Vector:
-        """The point that it is moved by and scaled about."""
-
-    @property
-    @abstractmethod
-    def reach(self) -> float:
-        """The radius of a ball about the middle that holds it; infinite where none does."""
-
-    @property
-    @abstractmethod
-    def row(self) -> list[float]:
-        """Its numbers, as `distances` takes them."""
-
-    @staticmethod
-    @abstractmethod
-    def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
+from glrt.scene.cylinder import Cylinder
+from glrt.scene.objects import Array, Object, to_planes
+from glrt.scene.solids import Box
+from glrt.scene.values import Direction, Length, Number, Triple, Vector, are_parallel
 
 
 class Sphere(Object):
@@ -202,13 +161,54 @@ class Quad(Object):
         return np.where((a >= 0) & (a <= 1) & (b >= 0) & (b <= 1), distance, math.inf)
 
 
-def to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
-    """(n,): how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
-    distances: Array = ((points - origin) * normals).sum(axis=1) / (normals @ direction)
-    return np.where(distances > 0, distances, math.inf)
+class Disk(Object):
+    """A flat disk about its normal."""
+
+    shape: Literal["disk"] = Field("disk", description="the kind of shape")
+    center: Vector = Field(description="centre, x y z in scene units")
+    normal: Direction = Field(description="normal of the disk, of any length above 0")
+    radius: Length = Field(description="radius in scene units")
+
+    has_inside = False
+    anchor = "center"
+    extents = ("radius",)
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            center: Triple,
+            normal: Triple,
+            radius: Number,
+            material: str,
+            name: str | None = None,
+        ) -> None: ...
+
+    @property
+    def middle(self) -> Vector:
+        """Its centre."""
+        return self.center
+
+    @property
+    def reach(self) -> float:
+        """Its radius."""
+        return self.radius
+
+    @property
+    def row(self) -> list[float]:
+        """Centre, normal and radius."""
+        return [*self.center, *self.normal, self.radius]
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """From either side."""
+        distance = to_planes(rows[:, :3], rows[:, 3:6], origin, direction)
+        offset = origin + distance[:, None] * direction - rows[:, :3]
+        return np.where(np.linalg.norm(offset, axis=1) <= rows[:, 6], distance, math.inf)
 
 
-Shape = Annotated[Sphere | Plane | Quad, Field(discriminator="shape")]
+Shape = Annotated[Sphere | Plane | Quad | Disk | Box | Cylinder, Field(discriminator="shape")]
 
 KINDS: dict[str, Any] = {  # the model of each kind, in the order of the kernel's numbering
     kind.model_fields["shape"].default: kind for kind in get_args(get_args(Shape)[0])

@@ -66,16 +66,21 @@ vec3 eval_local(Vertex vertex, vec3 wi) {
 
 struct PointLamp {
     vec3 center;
-    float disk;    // area that a sphere shows; 0 for a quad
-    vec3 facing;   // normal times area of a quad; 0 for a sphere
+    float disk;    // area that a sphere shows; 0 for what is flat
+    vec3 facing;   // normal times area of what is flat; 0 for a sphere
     int material;
 };
 
 PointLamp point_lamp(int shape) {
-    if (HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || up_to_sphere(shape))) {
+    if (HAS_SPHERE_LIGHT && (!(HAS_QUAD_LIGHT || HAS_DISK_LIGHT) || up_to_sphere(shape))) {
         precise Sphere sphere = sphere_at(shape);
         precise float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
+    }
+    if (HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(shape))) {
+        precise Disk round = disk_at(shape - first_disk());
+        precise vec3 across = PI * round.radius * round.radius * round.normal;
+        return PointLamp(round.center, 0.0, across, round.material);
     }
     precise Quad quad = quad_at(shape - first_quad());
     precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);

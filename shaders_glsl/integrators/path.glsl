@@ -5,12 +5,6 @@
 // weighted by the power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not
 // followed (integrators/classic.glsl).
 
-vec3 background(vec3 direction) {
-    precise float t = 0.5 * (direction.y + 1.0);
-    precise vec3 radiance = frame.background_bottom + t * (frame.background_top - frame.background_bottom);
-    return radiance;
-}
-
 // p_a^2 / (p_a^2 + p_b^2), written so that no square overflows to NaN; p_a is above 0.
 float power_heuristic(float p_a, float p_b) {
     precise float ratio = p_b / p_a;
@@ -74,15 +68,14 @@ void gather(precise inout Path path, vec3 light, int group, int length) {
     if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
 }
 
-// Where a model of the classic models ends: the light of the lamps and of an unhidden sky, whose irradiance
-// over PI is its radiance two thirds of the way up along the normal.
+// Where a model of the classic models ends: the light of the lamps and of an unhidden sky.
 void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampler rng) {
     precise vec3 weight = path.scale * path.throughput;
     if (HAS_BACKGROUND) {
-        precise vec3 sky = background(2.0 / 3.0 * vertex.frame[2]);
+        precise vec3 sky = unhidden_sky(vertex.frame[2]);
         gather(path, weight * vertex.material.color * sky, BACKGROUND_LAYER, path.depth + 1);
     }
-    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT)) return;
+    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT)) return;
     if (MODEL == COOK) {
         precise LightSample light = sample_light(from, total_weight(from), rng);
         precise vec3 direct = weight * direct_light(vertex, light);

@@ -1,9 +1,9 @@
-// Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad, or a direction in the
-// cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
+// Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad or a disk, or a direction
+// in the cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
 //
-// The density is 0, and scattering alone finds the light, for planes (infinite area), for the
-// background, for the lamp just left, for a sphere that contains the point, and for a quad whose
-// plane does.
+// The density is 0, and scattering alone finds the light, for planes (infinite area), boxes and cylinders,
+// for the background, for the lamp just left, for a sphere that contains the point, and for a quad or a
+// disk whose plane does.
 
 struct LightSample {
     Ray ray;
@@ -24,11 +24,26 @@ float cone_of_sphere(vec3 to_center, float radius) {
 }
 
 bool is_of_sphere(Light light) {
-    return HAS_SPHERE_LIGHT && (!HAS_QUAD_LIGHT || up_to_sphere(light.shape));
+    return HAS_SPHERE_LIGHT && (!(HAS_QUAD_LIGHT || HAS_DISK_LIGHT) || up_to_sphere(light.shape));
+}
+
+bool is_of_disk(Light light) {
+    if (HAS_SPHERE_LIGHT && up_to_sphere(light.shape)) return false;
+    return HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(light.shape));
 }
 
 Quad quad_of(Light light) {
     return quad_at(light.shape - first_quad());
+}
+
+Disk disk_of(Light light) {
+    return disk_at(light.shape - first_disk());
+}
+
+// Whether a point lies off the disk's plane.
+bool is_beside(Disk disk, vec3 origin) {
+    precise float z = dot(disk.center - origin, disk.normal);
+    return z * z > 0.0;
 }
 
 // Whether sampling may find this lamp from the ray's origin.
@@ -39,6 +54,7 @@ bool is_sampled(int index, Ray ray) {
         precise Sphere sphere = sphere_at(light.shape);
         return cone_of_sphere(sphere.center - ray.origin, sphere.radius) > 0.0;
     }
+    if (is_of_disk(light)) return is_beside(disk_of(light), ray.origin);
     return is_beside(quad_of(light), ray.origin);
 }
 
@@ -57,6 +73,14 @@ float pdf_quad(Quad quad, Ray ray, float distance) {
     return pdf_strips(quad, view, clamp(share, 0.0, 1.0));
 }
 
+// Points even in area, in every method.
+float pdf_disk(Disk disk, Ray ray, float distance) {
+    precise float cos_light = abs(dot(ray.direction, disk.normal));
+    if (cos_light == 0.0) return 0.0;
+    precise float pdf = distance / (PI * disk.radius * disk.radius) * distance / cos_light;
+    return pdf;
+}
+
 // The density of choosing this lamp and sampling this ray, which meets it at this distance; `lamps`
 // is the total_weight at its origin.
 float pdf_light(int index, Ray ray, float distance, float lamps) {
@@ -66,6 +90,10 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
         precise Sphere sphere = sphere_at(light.shape);
         precise float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
         precise float pdf = choice_pdf(index, ray, lamps) / (2.0 * PI * one_minus_cos);
+        return pdf;
+    }
+    if (is_of_disk(light)) {
+        precise float pdf = choice_pdf(index, ray, lamps) * pdf_disk(disk_of(light), ray, distance);
         return pdf;
     }
     precise float pdf = choice_pdf(index, ray, lamps) * pdf_quad(quad_of(light), ray, distance);
@@ -105,6 +133,19 @@ LightSample sample_quad(Ray ray, int index, int shape, vec2 u, float lamps) {
     return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
 }
 
+LightSample sample_flat_disk(Ray ray, int index, int shape, vec2 u, float lamps) {
+    precise Disk disk = disk_at(shape - first_disk());
+    precise vec2 place = disk.radius * sample_disk(u);
+    precise vec3 to_place = disk.center - ray.origin + frame_around(disk.normal) * vec3(place, 0.0);
+    precise float away = length(to_place);
+    if (away == 0.0) return no_light_sample(ray);
+    precise vec3 direction = to_place / away;
+    ray.direction = direction;
+    precise Material lamp = material_at(disk.material);
+    precise float pdf = pdf_light(index, ray, away, lamps);
+    return LightSample(ray, away, pdf, lamp.emission, shape, lamp.layer);
+}
+
 // From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.
 LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     precise vec3 choice = vec3(0.0);
@@ -114,5 +155,6 @@ LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     int index = choose_light(ray, lamps, choice);
     precise Light light = light_at(index);
     if (is_of_sphere(light)) return sample_sphere(ray, index, light.shape, u, lamps);
+    if (is_of_disk(light)) return sample_flat_disk(ray, index, light.shape, u, lamps);
     return sample_quad(ray, index, light.shape, u, lamps);
 }

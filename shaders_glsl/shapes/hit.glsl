@@ -9,7 +9,7 @@ struct Hit {
 
 struct Surface {
     vec3 position;
-    vec3 normal;   // unit; outward on a sphere, else the shape's own
+    vec3 normal;   // unit; outward on what has an inside, else the shape's own
     int shape;
     int material;
     int light;

@@ -4,5 +4,5 @@ struct Ray {
     vec3 origin;
     vec3 direction;  // unit
     int origin_shape;  // the shape that it starts on, or NO_SHAPE
-    bool inward;     // whether it runs into the sphere that it starts on
+    bool inward;     // whether it runs into the sphere, box or cylinder that it starts on
 };

@@ -12,8 +12,10 @@ struct Camera {
 
 struct Frame {
     Camera camera;
-    vec3 background_bottom;  // radiance from below and from above
+    vec3 background_bottom;  // radiance from below, from the horizon and from above
     int bounces;             // scattering events on a path
+    vec3 background_horizon;  // where HAS_HORIZON
+    int is_empty;            // 1: the film holds nothing yet, whatever its textures hold
     vec3 background_top;
     uint seed;
     ivec2 size;              // of the full frame, pixels
@@ -23,9 +25,11 @@ struct Frame {
     int sphere_count;
     int plane_count;
     int quad_count;
+    int disk_count;
+    int box_count;
+    int cylinder_count;
     int light_count;
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;
     int node_count;
-    int is_empty;            // 1: the film holds nothing yet, whatever its textures hold
 };

@@ -30,6 +30,34 @@ struct Quad {
     vec3 dual_v;
 };
 
+struct Disk {
+    vec3 center;
+    int material;
+    vec3 normal;  // unit
+    float radius;
+    int light;
+};
+
+struct Box {
+    vec3 center;
+    int material;
+    vec3 axis_x;  // unit
+    float half_x;
+    vec3 axis_y;
+    float half_y;
+    vec3 axis_z;
+    float half_z;
+};
+
+struct Cylinder {
+    vec3 center;  // halfway between its ends
+    int material;
+    vec3 axis;    // unit
+    float radius;
+    float half_height;
+    int is_capped;
+};
+
 // Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
 // node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
 struct Node {

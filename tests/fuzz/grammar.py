@@ -59,7 +59,7 @@ SETTINGS = tables(
 SKIES: st.SearchStrategy[Table] = st.one_of(
     st.just({}),
     tables(color=triples(RADIANCES)),
-    tables(bottom=triples(RADIANCES), top=triples(RADIANCES)),
+    tables({"horizon": triples(RADIANCES)}, bottom=triples(RADIANCES), top=triples(RADIANCES)),
 )
 MATERIALS = st.one_of(
     tables(type=st.just("lambertian"), color=COLORS),
@@ -70,6 +70,14 @@ MATERIALS = st.one_of(
 SHAPES = st.one_of(
     tables(shape=st.just("sphere"), center=POINTS, radius=LENGTHS),
     tables(shape=st.just("plane"), point=POINTS, normal=POINTS),
+    tables(shape=st.just("disk"), center=POINTS, normal=POINTS, radius=LENGTHS),
+    tables({"rotate": POINTS}, shape=st.just("box"), min=POINTS, max=POINTS),
+    tables(
+        {"capped": st.booleans(), "from": POINTS},
+        shape=st.just("cylinder"),
+        to=POINTS,
+        radius=LENGTHS,
+    ),
     tables(shape=st.just("quad"), corner=POINTS, edge_u=POINTS, edge_v=POINTS),
 )
 

@@ -16,7 +16,7 @@ from glrt.rendering.pipelines import Tier
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.conftest import CallGlsl
-from tests.support.builders import box_of_quads, glass, lamp, plane, quad, scene_of, sphere
+from tests.support.builders import box_of_quads, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.renders import assert_agree, rendered
 
@@ -32,6 +32,7 @@ FLOOR = plane([0, 0, 0], [0, 1, 0], "matte")
 LAMPS = {
     "sphere": sphere([0.5, 2.0, 0.3], 0.2, "lamp"),
     "quad": quad([0.2, 2.0, 0.1], [0.6, 0, 0], [0, 0.3, 0.4], "lamp"),
+    "disk": disk([0.4, 2.0, 0.2], [0.3, 1, 0.2], 0.3, "lamp"),
 }
 DOWN = {"position": [0, 1, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "fov": 0.01}
 MODELS = tuple(CLASSIC)
@@ -76,6 +77,10 @@ def test_a_lamp_lights_from_its_center_with_all_its_power(
     if kind == "sphere":
         to_lamp = np.array([0.5, 2.0, 0.3])
         across = math.pi * 0.2**2
+    elif kind == "disk":
+        to_lamp = np.array([0.4, 2.0, 0.2])
+        facing = np.array([0.3, 1, 0.2]) / np.linalg.norm([0.3, 1, 0.2])
+        across = math.pi * 0.3**2 * abs(facing @ to_lamp) / np.linalg.norm(to_lamp)
     else:
         to_lamp = np.array([0.5, 2.15, 0.3])
         across = abs(np.cross([0.6, 0, 0], [0, 0.3, 0.4]) @ to_lamp) / np.linalg.norm(to_lamp)

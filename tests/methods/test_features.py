@@ -17,7 +17,19 @@ from glrt.gpu.program import Kernel
 from glrt.methods.features import MOST_NEAR, TREE_FROM, Needs, needs_of
 from glrt.resources import folder
 from glrt.settings import settings_for
-from tests.support.builders import EVERYTHING, MATTE, glass, lamp, plane, quad, scene_of, sphere
+from tests.support.builders import (
+    EVERYTHING,
+    MATTE,
+    box,
+    cylinder,
+    disk,
+    glass,
+    lamp,
+    plane,
+    quad,
+    scene_of,
+    sphere,
+)
 from tests.support.kernel_text import written_for
 
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
@@ -26,6 +38,9 @@ PROBES = {
     "HAS_SPHERE": ("shapes/sphere.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
     "HAS_PLANE": ("shapes/plane.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
     "HAS_QUAD": ("shapes/quad.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
+    "HAS_DISK": ("shapes/disk.glsl", "dot(p, p)", "dot({} * p, p)"),
+    "HAS_BOX": ("shapes/box.glsl", "- face.w)", "- {} * face.w)"),
+    "HAS_CYLINDER": ("shapes/cylinder.glsl", "height * cylinder.axis", "{} * cylinder.axis"),
     "HAS_TREE": ("shapes/sphere_tree.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
@@ -33,11 +48,13 @@ PROBES = {
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
         "integrators/path.glsl",
-        "0.5 * (direction.y + 1.0)",
-        "{} * (direction.y + 1.0)",
+        "path.throughput * background(",
+        "{} * path.throughput * background(",
     ),
+    "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
     "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
     "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "length(to_point)", "length({} * to_point)"),
+    "HAS_DISK_LIGHT": ("lights/sampling.glsl", "length(to_place)", "length({} * to_place)"),
     "SAMPLE_LIGHTS": (
         "integrators/path.glsl",
         "weight * light.radiance",
@@ -48,11 +65,14 @@ PROBES = {
     "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
     "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
 }
+LAST_KIND = "table"  # a scene with the last kind of the numbering: nothing ends before it
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
     "HAS_TREE": {"HAS_SPHERE"},
+    "HAS_HORIZON": {"HAS_BACKGROUND"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
+    "HAS_DISK_LIGHT": {"HAS_DISK", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
@@ -61,12 +81,14 @@ NEEDED_TOO = {
 
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
+    "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
+    "HAS_DISK": {"HAS_DISK_LIGHT"},
     "WEIGHT_BOTH": {"QUADS_BY_AREA"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
-    | {"QUADS_BY_AREA"},
+    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT"},
 }
 
 
@@ -94,6 +116,14 @@ MATERIALS: dict[str, dict[str, Any]] = {
 }
 
 
+def sky_with(flags: set[str]) -> dict[str, list[float]]:
+    """The background that asks for these features."""
+    color = [1.0 if "HAS_BACKGROUND" in flags else 0.0] * 3
+    return dict.fromkeys(
+        ("bottom", "horizon", "top") if "HAS_HORIZON" in flags else ("color",), color
+    )
+
+
 def needs_with(flags: set[str]) -> Needs:
     """What a scene and settings need that ask for these features."""
 
@@ -108,15 +138,20 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [sphere([9, 9, 9], 1, "matte")] * (TREE_FROM if "HAS_TREE" in flags else 0)
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
+    objects += [disk([0, 0, 0], [1, 0, 0], 1, "matte")] if "HAS_DISK" in flags else []
+    objects += [box([0, 0, 0], [1, 1, 1], "matte")] if "HAS_BOX" in flags else []
+    tube = cylinder([0, 0, 0], [1, 1, 1], 1, "matte")
+    objects += [tube] if "HAS_CYLINDER" in flags else []
     lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
     lit = "HAS_QUAD_LIGHT" in flags
     lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
+    lamps += [disk([0, 3, 0], [0, 1, 0], 1, "lamp")] if "HAS_DISK_LIGHT" in flags else []
     objects += lamps + lamps[-1:] * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
     scene = scene_of(
         objects,
         MATERIALS,
         {"defocus_angle": 2.0 if "HAS_LENS" in flags else 0.0},
-        background={"color": [1, 1, 1] if "HAS_BACKGROUND" in flags else [0, 0, 0]},
+        background=sky_with(flags),
     )
     method = "mis" if "WEIGHT_BOTH" in flags else "nee" if "SAMPLE_LIGHTS" in flags else "naive"
     settings = settings_for(scene.render, method=method, roulette="ROULETTE" in flags)
@@ -154,7 +189,7 @@ def test_a_feature_is_compiled_in_exactly_if_the_scene_uses_it(
     ctx: moderngl.Context, name: str
 ) -> None:
     kernel = Kernel(
-        ctx, Source("trace.comp", needs_with(SETS[name]).constants(), texts=written_for())
+        ctx, Source("trace.comp", needs_with(SETS[name]).constants(), texts=written_for(LAST_KIND))
     )
     found = {member for member in kernel.names if member.startswith("probe_")}
     kernel.release()

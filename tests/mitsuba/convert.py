@@ -91,13 +91,15 @@ def _camera(mi: Any, scene: Scene, settings: Settings, at: Near) -> Words:
     }
 
 
-def _background(mi: Any, bottom: Radiance, top: Radiance) -> Words:
-    if bottom == top:
+def _background(mi: Any, bottom: Radiance, *rest: Radiance) -> Words:
+    *horizon, top = rest
+    if {bottom, *rest} == {bottom}:
         return {"type": "constant", "radiance": _color(top)}
     # Rows run from the upper pole to the lower one, both included, and are interpolated.
     cosine = np.cos(np.pi * np.arange(SKY_ROWS) / (SKY_ROWS - 1))
-    share = 0.5 * (cosine[:, None] + 1)
-    rows = (1 - share) * np.array(bottom) + share * np.array(top)
+    knots = np.linspace(-1, 1, 2 + len(horizon))
+    colors = np.array([bottom, *horizon, top])
+    rows = np.stack([np.interp(cosine, knots, channel) for channel in colors.T], axis=-1)
     pixels = np.repeat(rows[:, None].astype(np.float32), 2, axis=1)
     return {"type": "envmap", "bitmap": mi.Bitmap(pixels)}
 
@@ -111,6 +113,8 @@ def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> 
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
         grid = _grid(item, at, CELL if liberties.finite else GRID)
         yield _mesh(mi, _surface(scene, item.material), *grid)
+    elif not isinstance(item, Quad):
+        raise SceneError(f"shape '{item.shape}': the converter to Mitsuba does not know it.")
     elif any(scene.emission(item.material)):
         for side in (1,) if liberties.one_sided else (1, -1):
             yield _quad(mi, _surface(scene, item.material), item, at, side * GAP / 2)

@@ -21,18 +21,17 @@ def is_seen_from_inside(ball: Sphere, scene: Scene) -> bool:
 
 
 def _reach(item: Shape, point: Vector) -> float:
-    """The distance of a point to a shape's surface; of a quad, at most."""
+    """The distance of a point to a shape's surface; of what is bounded, at most."""
     if isinstance(item, Sphere):
         return abs(length(point - item.center) - item.radius)
     if isinstance(item, Plane):
         return abs(float(np.dot(normal_of(item), point - item.point)))
-    middle = np.mean(corners(item), axis=0)
-    return length(point - middle) - max(length(corner - middle) for corner in corners(item))
+    return length(point - item.middle) - item.reach
 
 
 def refuse_coincident(scene: Scene) -> None:
     """Raise SceneError if two flat shapes overlap in one plane."""
-    flat = [(i, o) for i, o in enumerate(scene.objects) if not isinstance(o, Sphere)]
+    flat = [(i, o) for i, o in enumerate(scene.objects) if isinstance(o, Plane | Quad)]
     for number, (i, first) in enumerate(flat):
         for j, second in flat[number + 1 :]:
             if _coincide(first, second):

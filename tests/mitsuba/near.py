@@ -57,6 +57,8 @@ def _reaches(scene: Scene, origin: Vector) -> Iterator[float]:
             yield length(origin - item.center) + item.radius
         elif isinstance(item, Quad):
             yield max(length(corner - origin) for corner in corners(item))
+        elif not isinstance(item, Plane):
+            yield length(origin - item.middle) + item.reach
         else:
             yield abs(float(np.dot(unit(item.normal), origin - item.point)))
 

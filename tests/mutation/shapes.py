@@ -31,6 +31,36 @@ SHAPES = [
         "shaders/test_shape.py::test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits",
     ),
     Mutant(
+        "a ray that starts on an edge of a box gets out past the next face",
+        edit("shapes/box.glsl", "larger(crossing.leaves, NO_WAY)", "crossing.leaves"),
+        "shaders/test_box.py::test_a_ray_into_a_box_ends_on_another_face_seen_from_inside",
+    ),
+    Mutant(
+        "a ray meets the box that it leaves outwards",
+        edit("shapes/box.glsl", "if (shape == ray.origin_shape) return", "if (ray.inward) return"),
+        "shaders/test_box.py::test_a_ray_that_leaves_a_box_outwards_never_meets_it_again",
+    ),
+    Mutant(
+        "from inside a box, the face behind is met",
+        edit("shapes/box.glsl", "inside ? crossing.last : crossing.first", "crossing.first"),
+        "shaders/test_box.py::test_the_point_hit_lies_on_a_face_and_faces_the_ray",
+    ),
+    Mutant(
+        "the inside of an open end of a cylinder is met",
+        edit("shapes/cylinder.glsl", "abs(height) <= half_height ? t : 0.0", "t"),
+        "shaders/test_cylinder.py::test_cylinders_are_hit_where_float64_says",
+    ),
+    Mutant(
+        "a ray that starts on the rim of a cylinder gets out past it",
+        edit("shapes/cylinder.glsl", "return larger(leaves, NO_WAY)", "return leaves"),
+        "shaders/test_cylinder.py::test_a_ray_into_a_closed_cylinder_ends_on_it_seen_from_inside",
+    ),
+    Mutant(
+        "from a cap of a cylinder the wall is met as if from the wall",
+        edit("shapes/cylinder.glsl", "|| to_wall <= to_end", "|| to_wall >= 0.0"),
+        "shaders/test_cylinder.py::test_a_ray_into_a_closed_cylinder_ends_on_it_seen_from_inside",
+    ),
+    Mutant(
         "boxes of the tree leave no room for rounding",
         (
             Edit(

@@ -103,6 +103,20 @@ TRANSPORT = [
         "truths/test_direct_light.py::test_rectangle_lights_the_point_below_its_corner",
     ),
     Mutant(
+        "the cosine of a round lamp is missing",
+        edit("lights/sampling.glsl", "* distance / cos_light", "* distance"),
+        "shaders/test_disk.py::test_a_round_lamp_lights_the_floor_by_its_form_factor",
+    ),
+    Mutant(
+        "points of a round lamp crowd in its middle",
+        edit(
+            "lights/sampling.glsl",
+            "disk.radius * sample_disk(u)",
+            "disk.radius * u.x * sample_disk(u)",
+        ),
+        "shaders/test_disk.py::test_the_density_is_that_of_even_points_in_solid_angle",
+    ),
+    Mutant(
         "lamps are never in the shade",
         edit(
             "integrators/path.glsl",

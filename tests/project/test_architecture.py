@@ -30,6 +30,7 @@ ENTRIES = {
 NOT_OF_A_PATH = {*ENTRIES, "passes/tonemap.glsl", "trace.glsl", "aov.glsl", "structs/scene.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
+    "1.17549435e-38",  # the smallest normal float: a way of no length, which changes no digit
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
     "65536.0",  # 2^16: the chances of roulette

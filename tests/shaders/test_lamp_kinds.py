@@ -1,6 +1,6 @@
 """Every kind of lamp that is sampled has its branch wherever the shaders tell kinds apart.
 
-The last branch of such a function takes what is left: without this test a third kind of lamp would
+The last branch of such a function takes what is left: without this test another kind of lamp would
 be sampled as a quad.
 """
 
@@ -10,7 +10,12 @@ from glrt.gpu.glsl import read
 from glrt.methods.features import SAMPLED
 
 FILES = ("lights/sampling.glsl", "integrators/classic.glsl", "integrators/path.glsl")
-TELLING = {"is_of_sphere", "point_lamp", "shade"}  # functions that tell kinds of lamps apart
+TELLING = {
+    "is_of_sphere",
+    "is_of_disk",
+    "point_lamp",
+    "shade",
+}  # functions that tell kinds of lamps apart
 
 
 def functions() -> dict[str, str]:
@@ -30,5 +35,5 @@ def test_every_kind_of_lamp_is_named_where_kinds_are_told_apart() -> None:
     assert unnamed(SAMPLED) == set()
 
 
-def test_a_third_kind_of_lamp_is_missed_everywhere() -> None:
+def test_a_kind_of_lamp_that_is_not_there_is_missed_everywhere() -> None:
     assert unnamed((*SAMPLED, "annulus")) == TELLING

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from glrt.rendering.pack import pack_scene
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
-from tests.support.builders import MATTE, plane, quad, scene_of, sphere
+from tests.support.builders import MATTE, disk, plane, quad, scene_of, sphere
 from tests.support.numerics import ULP, Array, directions, dot, float32, length, roots64
 
 FREE = "Ray(origin, direction, NO_SHAPE, false)"
@@ -222,8 +222,9 @@ def test_a_point_that_was_hit_lies_on_its_shape(call_glsl: CallGlsl) -> None:
         sphere([0, 0, 0], 1, "m"),
         plane([0, 0.1, 0], [3, 5, -2], "m"),
         quad([-0.7, -0.3, 0.1], [1, 0.2, 0.3], [-0.1, 0.9, 0.2], "m"),
+        disk([-0.2, 0.1, 0.1], [0.2, 0.3, -1], 0.7, "m"),
     ],
-    ids=["sphere", "plane", "quad"],
+    ids=["sphere", "plane", "quad", "disk"],
 )
 def test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits(
     call_glsl: CallGlsl, thing: dict[str, Any]
@@ -245,6 +246,6 @@ def test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits(
     if thing["shape"] == "sphere":
         assert np.abs(length(p) - 1).max() < 2 * ULP
     else:
-        row = pack_scene(scene)["Plane" if thing["shape"] == "plane" else "Quad"][0]
-        point = row["point" if thing["shape"] == "plane" else "corner"].astype(np.float64)
+        row = pack_scene(scene)[thing["shape"].capitalize()][0]
+        point = row[row.dtype.names[0]].astype(np.float64)
         assert np.abs(dot(p - point, row["normal"].astype(np.float64))).max() < 40 * ULP

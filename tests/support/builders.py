@@ -46,6 +46,26 @@ def quad(corner: Any, edge_u: Any, edge_v: Any, material: str) -> dict[str, Any]
     return {"shape": "quad", "material": material, **edges}
 
 
+def disk(center: Any, normal: Any, radius: float, material: str) -> dict[str, Any]:
+    """A flat disk."""
+    place = {"center": list(center), "normal": list(normal), "radius": radius}
+    return {"shape": "disk", "material": material, **place}
+
+
+def box(low: Any, high: Any, material: str, rotate: Any = (0, 0, 0)) -> dict[str, Any]:
+    """A box, turned about its centre."""
+    corners = {"min": list(low), "max": list(high), "rotate": list(rotate)}
+    return {"shape": "box", "material": material, **corners}
+
+
+def cylinder(
+    start: Any, end: Any, radius: float, material: str, capped: bool = True
+) -> dict[str, Any]:
+    """A cylinder."""
+    ends = {"from": list(start), "to": list(end), "radius": radius, "capped": capped}
+    return {"shape": "cylinder", "material": material, **ends}
+
+
 def room_of_planes(material: str, half: float = 1.0) -> list[dict[str, Any]]:
     """Six planes that face inwards, around the origin."""
     normals = [[s if i == axis else 0 for i in range(3)] for axis in range(3) for s in (-1, 1)]

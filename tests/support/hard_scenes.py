@@ -3,7 +3,18 @@
 from typing import Any, NamedTuple
 
 from glrt.scene.scene import Scene
-from tests.support.builders import glass, lamp, plane, quad, room_of_planes, scene_of, sphere
+from tests.support.builders import (
+    box,
+    cylinder,
+    disk,
+    glass,
+    lamp,
+    plane,
+    quad,
+    room_of_planes,
+    scene_of,
+    sphere,
+)
 
 Table = dict[str, Any]
 
@@ -81,6 +92,34 @@ HARD: dict[str, tuple[list[Table], Samples]] = {
     ),
     "a lamp on its edge": (
         [FLOOR, BALL, quad([-0.8, -1, -4], [1.5, 0, 0], [0, 1.5, 0.2], "cold")],
+        Samples(),
+    ),
+    "a round lamp over a ball": (
+        [FLOOR, BALL, disk([-0.2, 1.2, -3], [0.2, 1, 0.1], 0.6, "warm")],
+        Samples(),
+    ),
+    "round lamps among others": (
+        [FLOOR, BULB, CEILING, BALL, disk([-1, -0.4, -3.5], [1, 0.5, 0], 0.4, "shining")],
+        Samples(),
+    ),
+    "boxes of matte, glass and light": (
+        [
+            FLOOR,
+            CEILING,
+            box([-1, -1, -3.6], [-0.3, -0.2, -2.9], "white", [0, 25, 0]),
+            box([0.1, -0.9, -3], [0.6, 0.1, -2.6], "glass", [10, 40, 5]),
+            box([0.9, -0.8, -4], [1.2, -0.5, -3.7], "cold"),
+        ],
+        Samples(),
+    ),
+    "cylinders of matte, glass and light": (
+        [
+            FLOOR,
+            CEILING,
+            cylinder([-0.8, -1, -3.4], [-0.6, 0.2, -3], 0.3, "white", capped=False),
+            cylinder([0.3, -0.9, -2.8], [0.3, -0.2, -2.8], 0.3, "glass"),
+            cylinder([0.9, -0.8, -4], [1.2, -0.5, -3.7], 0.2, "cold"),
+        ],
         Samples(),
     ),
     "forty lamps of many powers": ([FLOOR, BALL, *MANY], Samples(2048, 512, 512)),

@@ -9,7 +9,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.methods.table import CLASSIC
 from glrt.scene.scene import Scene, with_lights
-from tests.support.builders import lamp, plane, quad, scene_of, sphere
+from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.mixed_scene import MATERIALS, SKY
 from tests.support.renders import METHODS, rendered, same
@@ -33,6 +33,11 @@ def mixture(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) 
         sphere(at(0.75, -0.5, 0.25), scale * 0.5, "brass"),
         sphere(at(0.25, 0.875, 0.25), scale * 0.1875, "lamp"),
         quad(at(-2, 2, -2), along(4, 0, 0), along(0, 0.25, 2), "lamp"),
+        disk(at(1.25, 0.5, -0.5), [0.5, 0.25, 1], scale * 0.375, "lamp"),
+        box(at(-1.5, -0.875, -1.5), at(-1, 0.5, -0.75), "glass", [0, 30, 10]),
+        box(at(1, -0.875, -2), at(1.5, 0.25, -1.5), "brass"),
+        cylinder(at(-0.25, -0.875, 0.75), at(0, -0.5, 1), scale * 0.25, "glass"),
+        cylinder(at(1.5, 0, 0), at(1.75, 1, 0), scale * 0.25, "red", capped=False),
     ]
     eye = {"position": at(0.125, 0.25, 3.0), "look_at": at(0, 0, 0.125)}
     lens = {"defocus_angle": 3.0, "focus_distance": scale * 2.5}

@@ -26,18 +26,33 @@ from glrt.view.viewport.transform import (
     view_matrix,
     with_object,
 )
-from tests.support.builders import lamp, plane, quad, scene_of, sphere
+from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
 
 BALL = sphere([0.5, 0.2, -4], 0.7, "a")
 FLOOR = plane([0, -1, 0], [0, 2, 0], "b")
 PANE = quad([-3, -0.5, -5], [1.5, 0, 0], [0, 1, 0], "c")
-LAMPS = {"a": lamp(1.0), "b": lamp(10.0), "c": lamp(100.0)}
-SHAPES: list[Shape] = list(scene_of([BALL, FLOOR, PANE], LAMPS).objects)
+LAMPS = {
+    "a": lamp(1.0),
+    "b": lamp(10.0),
+    "c": lamp(100.0),
+    "d": lamp(1000.0),
+    "e": lamp(1e4),
+    "f": lamp(1e5),
+    "g": lamp(1e6),
+}
+DRUM = cylinder([-2, 1.2, -6], [-1.2, 1.9, -5], 0.5, "f")
+TUBE = cylinder([1.0, -0.5, -2.8], [1.7, -0.3, -2.4], 0.3, "g", capped=False)
+CRATE = box([-0.2, 0.9, -5], [0.6, 1.5, -4], "e", [20, 30, 40])
+PLATE = disk([2, 0.5, -6], [0.2, 0.3, 1], 0.8, "d")
+BRIGHTNESSES = [10**n for n in range(7)]
+SHAPES: list[Shape] = list(scene_of([BALL, FLOOR, PANE, PLATE, CRATE, DRUM, TUBE], LAMPS).objects)
 
 
 def test_every_pixel_shows_what_is_picked_there(context: Context) -> None:
     """Lamps of three brightnesses, no light but theirs: a pixel's names its object."""
-    scene = scene_of([BALL, FLOOR, PANE], LAMPS, {"position": [0.1, 0.3, 0.2]})
+    scene = scene_of(
+        [BALL, FLOOR, PANE, PLATE, CRATE, DRUM, TUBE], LAMPS, {"position": [0.1, 0.3, 0.2]}
+    )
     renderer = Renderer(scene, context=context, width=48, height=32, bounces=0)
     seen = renderer.render(16).image().radiance[..., 0]
     renderer.release()
@@ -45,12 +60,12 @@ def test_every_pixel_shows_what_is_picked_there(context: Context) -> None:
     for row in range(32):
         for column in range(48):
             brightness = float(seen[row, column])
-            if brightness in (0, 1, 10, 100):  # all samples agree: no edge lies in the pixel
+            if brightness in (0, *BRIGHTNESSES):  # all samples agree: no edge lies in the pixel
                 picked = pick(scene, 1.5, (column + 0.5) / 48, (row + 0.5) / 32)
                 expected = 10**picked.number if picked else 0
                 assert brightness == expected, (row, column)
                 found.add(brightness)
-    assert found == {0, 1, 10, 100}
+    assert found == {0, *BRIGHTNESSES}
 
 
 def test_the_point_picked_lies_on_the_object() -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from glrt.errors import SceneError
 from glrt.gpu.structs import read_constants, record
 from glrt.rendering.pack import pack_camera, pack_scene
 from glrt.scene.scene import Scene
@@ -41,8 +42,10 @@ def material_buffer(scene: Scene) -> bytes:
 
 def settings_buffer(scene: Scene, settings: Settings) -> bytes:
     """What stays the same from frame to frame."""
-    bottom, top = scene.background_colors
     kinds = [shape.shape for shape in scene.objects]
+    if scene.background.horizon or not {"sphere", "plane", "quad"}.issuperset(kinds):
+        raise SceneError("a horizon, or a shape: WGSL has spheres, planes and quads alone.")
+    bottom, top = scene.background_colors
     values = {
         "background_bottom": bottom,
         "bounces": settings.bounces,

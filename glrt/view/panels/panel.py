@@ -12,6 +12,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.limits import cautions
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
+from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
@@ -46,6 +47,7 @@ LIVE = switch("bounces_live", _LIVE, Cost.RECOMPILE)
 _SHOWN = "the light of all paths, or of those of one length alone"
 SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGHT)
 GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
+HORIZON = switch("horizon", "a colour of its own between below and above", Cost.RECOMPILE)
 _NO_ROOM = (
     "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
     "of light restarts the picture. A smaller picture has room."
@@ -193,20 +195,31 @@ def _display(app: App) -> None:
 
 
 def _background(app: App) -> None:
-    """One colour, or a gradient from bottom to top."""
+    """One colour, or a gradient from bottom to top, with or without a horizon."""
     background = app.session.scene.background
-    bottom, top = background.gradient
-    is_gradient = background.top is not None
-    names = ("bottom", "top") if is_gradient else ("color",)
-    values: dict[str, Any] = {"color": bottom, "bottom": bottom, "top": top}
-    changes = edited_fields(tuple(BACKGROUND[name] for name in names), values, "background")
+    bottom, *_, top = background.gradient
+    values: dict[str, Any] = {n: color for n, color in background if color is not None}
+    values = values or {"color": bottom}
+    changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
     if changes:
-        kept = {name: values[name] for name in names}
-        app.edit_scene("background", partial(_with_background, **{**kept, **changes}))
-    wanted = edited(GRADIENT, is_gradient)
+        app.edit_scene("background", partial(_with_background, **{**values, **changes}))
+    ends: dict[str, Any] = {"bottom": bottom, "top": top}
+    wanted = edited(GRADIENT, background.top is not None)
     if wanted is not None:
-        other: dict[str, Any] = {"color": top} if not wanted else {"bottom": bottom, "top": top}
+        other: dict[str, Any] = ends if wanted else {"color": top}
         app.edit_scene("", partial(_with_background, **other))
+    if background.top is None:
+        return
+    wanted = edited(HORIZON, background.horizon is not None)
+    if wanted is not None:
+        other = {**ends, "horizon": _between(bottom, top)} if wanted else ends
+        app.edit_scene("", partial(_with_background, **other))
+
+
+def _between(bottom: Radiance, top: Radiance) -> Radiance:
+    """The middle of a gradient: as a horizon it changes nothing."""
+    red, green, blue = (0.5 * (low + high) for low, high in zip(bottom, top, strict=True))
+    return (red, green, blue)
 
 
 def _frame(app: App) -> None:

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from glrt.rendering.pack import pack_camera
 from glrt.scene.camera import Camera
+from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Object, Shape
+from glrt.scene.shapes import Shape
 from glrt.scene.values import Vector
 from glrt.view.memo import kept_for_the_same
 

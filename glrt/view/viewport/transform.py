@@ -47,17 +47,27 @@ def moved_to(shape: Shape, matrix: NDArray[np.float32]) -> Shape:
 
 def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
     """The shape moved by a vector."""
-    return replaced(shape, **{shape.anchor: _short(np.add(getattr(shape, shape.anchor), step))})
+    return replaced(
+        shape, **{name: _short(np.add(getattr(shape, name), step)) for name in _points(shape)}
+    )
 
 
 def scaled(shape: Shape, factor: float) -> Shape:
     """The shape made larger about its middle; what has no size stays as it is."""
-    if factor == 1 or not shape.extents:
+    if factor == 1 or not (shape.extents or shape.points):
         return shape
-    larger: Shape = replaced(
-        shape, **{name: _short(factor * np.array(getattr(shape, name))) for name in shape.extents}
-    )
-    return shifted(larger, np.subtract(shape.middle, larger.middle))
+    middle = np.array(shape.middle)
+    lengths = {name: factor * np.array(getattr(shape, name)) for name in shape.extents}
+    points = {
+        name: middle + factor * (np.array(getattr(shape, name)) - middle) for name in _points(shape)
+    }
+    changes = {name: _short(value) for name, value in {**lengths, **points}.items()}
+    return replaced(shape, **changes)
+
+
+def _points(shape: Shape) -> tuple[str, ...]:
+    """The fields that hold points of it."""
+    return (shape.anchor, *shape.points)
 
 
 def with_object(scene: Scene, index: int, shape: Shape) -> Scene:

@@ -1,0 +1,56 @@
+"""What every shape has, and arithmetic that several share."""
+
+import math
+from abc import abstractmethod
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from glrt.scene.values import Name, Tagged, Vector
+
+Array = NDArray[np.float64]
+
+
+class Object(Tagged):
+    """What every shape has: a name, a material, and answers about its geometry."""
+
+    name: Name | None = Field(None, description="name of the object in messages and the window")
+    material: Name = Field(description="name of one of the materials")
+
+    has_inside: ClassVar[bool]  # whether it can be of glass
+    anchor: ClassVar[str]  # the field that holds a point of it: moving the shape moves that
+    points: ClassVar[tuple[str, ...]] = ()  # fields with further points, which move along
+    extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
+
+    @property
+    def encloses(self) -> bool:
+        """Whether this one can be of glass."""
+        return self.has_inside
+
+    @property
+    @abstractmethod
+    def middle(self) -> Vector:
+        """The point that it is moved by and scaled about."""
+
+    @property
+    @abstractmethod
+    def reach(self) -> float:
+        """The radius of a ball about the middle that holds it; infinite where none does."""
+
+    @property
+    @abstractmethod
+    def row(self) -> list[float]:
+        """Its numbers, as `distances` takes them."""
+
+    @staticmethod
+    @abstractmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
+
+
+def to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
+    """(n,): how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
+    distances: Array = ((points - origin) * normals).sum(axis=1) / (normals @ direction)
+    return np.where(distances > 0, distances, math.inf)
