@@ -16,7 +16,6 @@ from glrt.gpu.glsl import files_anew
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
 from glrt.scene.camera import Camera
-from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.scene.toml_writer import scene_with, write_scene
@@ -145,7 +144,7 @@ class App:
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
         self.session.opened = State(scene, settings_for(settings, crop=None))
-        self.session.problem = " ".join(cautions(scene, self.session.opened.settings))
+        self.session.problem = ""
         self.session.edit(scene, **dict(self.session.opened.settings))
         self.pivot, self.selected = scene.camera.look_at, None
 

@@ -11,7 +11,6 @@ from glrt.gpu.glsl import shader_files
 from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors
 from glrt.rendering.stopping import Interruption
-from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.view.app import App
@@ -130,7 +129,7 @@ class Window:
             pivot=scene.camera.look_at,
             shaders=Watch(shader_files()),
         )
-        self.app.complain(" ".join(filter(None, [problem, *cautions(scene, settings)])))
+        self.app.complain(problem)
 
     def _render(self) -> None:
         """Before a frame is drawn: keys, edits, samples, and the picture of them."""

@@ -49,17 +49,6 @@ def a_recipe_is_copied_and_pasted(hand: Hand) -> None:
 
 
 @check
-def a_scene_without_light_is_opened_with_a_caution(hand: Hand) -> None:
-    dark = load("cornell").model_copy(update={"lights": {"lamp": 0.0}})
-    dark.save(Path.cwd() / "dark.toml")
-    hand.there(partial(hand.window.app.open, str(Path.cwd() / "dark.toml")))
-    hand.settle()
-    assert "there is no light in this scene" in hand.session.problem
-    reopen(hand)
-    assert not hand.session.problem
-
-
-@check
 def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
     """A program that stands in for zenity: it answers what a file says."""
     app, folder, path = hand.window.app, Path.cwd() / "dialogs", os.environ["PATH"]
