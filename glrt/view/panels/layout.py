@@ -11,14 +11,19 @@ class Shares:
         self._size = (0.0, 0.0)
 
     def keep(self, names: tuple[str, ...]) -> None:
-        """Once a frame, for the parts of these names."""
+        """Once a frame, for the parts of these names; what has no size yet is left alone.
+
+        A layout that was saved has none before its first frame.
+        """
         size = imgui.get_io().display_size.x, imgui.get_io().display_size.y
         before, self._size = self._size, size
         if size == before or not all((*size, *before)):
             return
         scale = ImVec2(size[0] / before[0], size[1] / before[1])
         for node in _nodes(names):
-            imgui.internal.dock_builder_set_node_size(node.id_, node.size_ref * scale)
+            wanted = node.size_ref * scale
+            if wanted.x > 0 and wanted.y > 0:
+                imgui.internal.dock_builder_set_node_size(node.id_, wanted)
 
 
 def _nodes(names: tuple[str, ...]) -> list[imgui.internal.DockNode]:
