@@ -227,10 +227,10 @@ def _share(found: list[Comparison]) -> float:
 
 
 def _tally(samples: tuple[int, int], found: list[Comparison]) -> list[str]:
-    """Samples, false alarms with their 95 % interval, and median of the detectable difference."""
+    """Samples, false alarms with their 95 % interval, median of the change of all light found."""
     alarms = sum(not comparison for comparison in found)
     low, high = wilson(alarms, len(found))
-    shown = float(np.median([comparison.shown for comparison in found]))
+    shown = float(np.median([comparison.sensitivity.light for comparison in found]))
     return [
         f"{samples[0]} / {samples[1]}",
         f"{alarms} of {len(found)}",
@@ -247,14 +247,15 @@ def wilson(hits: int, trials: int, z: float = 1.96) -> tuple[float, float]:
     return max(middle - half, 0), min(middle + half, 1)
 
 
-def _markdown(head: list[str], rows: list[list[str]]) -> str:
+def markdown(head: list[str], rows: list[list[str]]) -> str:
+    """A table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 ALARMS = [
     *("scene", "methods", "samples", "called different", "95 % interval"),
-    "detectable difference",
+    "change found",
 ]
 TABLES = {
     "equal": (ALARMS, Experiment.equal),
@@ -281,7 +282,7 @@ def _print(names: Sequence[str], pairs: int) -> None:
     print(f"{machine(context.renderer)}, {SIZE} x {SIZE} pixels, {pairs} pairs")
     for name in names:
         head, rows_of = TABLES[name]
-        print("\n" + _markdown(head, rows_of(experiment)), flush=True)
+        print("\n" + markdown(head, rows_of(experiment)), flush=True)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import argparse
 import json
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=0.01,
         help='the relative difference that "same" must exclude (default: %(default)s)',
     )
+    parser.add_argument(
+        "--groups",
+        action="store_true",
+        help="render each light group of IMAGE alone, to say what change of it would have been "
+        "found; needs OpenGL",
+    )
     parser.add_argument("--strict", action="store_true", help="exit with 1 if undecided, too")
     parser.add_argument(
         "--picture", metavar="FILE", help="a .png file that shows where they differ"
@@ -53,6 +59,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 DIFFERENT = 1
+GROUP_SAMPLES = 64  # of the light of a group alone: its noise hardly matters
+GROUP_SETTINGS = {"width", "height", "bounces", "method", "crop", "sampler", "roulette", "seed"}
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -61,7 +69,8 @@ def run(arguments: argparse.Namespace) -> int:
     reference = read(arguments.reference, arguments.reference_samples, "--reference-samples")
     if arguments.picture:
         _check_picture(arguments.picture)
-    comparison = compare(image, reference, arguments.alpha, arguments.bias)
+    groups = light_groups(image, arguments.image) if arguments.groups else {}
+    comparison = compare(image, reference, arguments.alpha, arguments.bias, groups=groups)
     if arguments.picture:
         from glrt.comparison.heatmap import save_picture
 
@@ -81,6 +90,22 @@ def read(path: str, samples: int | None, option: str) -> Image:
             f"{path}: this file does not say how many samples a pixel it has. Give {option} N."
         )
     return replace(image, samples=image.samples or samples or 0)
+
+
+def light_groups(image: Image, path: str) -> dict[str, Image]:
+    """For each light group of the picture's scene, what it lights alone; UsageError if unknown."""
+    if image.recipe is None:
+        raise UsageError(f"{path}: --groups needs the recipe of a picture that glrt rendered.")
+    from glrt.api import render
+    from glrt.methods.light_layers import emitters
+    from glrt.scene.scene import with_lights
+
+    scene, settings = image.recipe.scene, image.recipe.settings
+    own = {name: scene.lights.get(name, 1.0) for name in emitters(scene)}
+    kept: Any = settings.model_dump(include=GROUP_SETTINGS, exclude_none=True)
+    samples = min(image.recipe.samples, GROUP_SAMPLES)
+    lit = {name: dict.fromkeys(own, 0.0) | {name: value} for name, value in own.items() if value}
+    return {n: render(with_lights(scene, lights), samples, **kept) for n, lights in lit.items()}
 
 
 def figures(comparison: Comparison) -> dict[str, Any]:
@@ -104,7 +129,8 @@ def figures(comparison: Comparison) -> dict[str, Any]:
         "limit": c.limit,
         "block": c.worst._asdict(),
         "pixel": c.pixel._asdict(),
-        "shown": c.shown,
+        "sensitivity": asdict(c.sensitivity),
+        "heavy_tails": c.heavy_tails and c.heavy_tails._asdict(),
         "needs": c.needs,
         "alike": c.alike,
     }

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt import files
-from glrt.comparison.noise import Array, spread_out
+from glrt.comparison.regions import Array, spread_out
 from glrt.comparison.result import Comparison
 
 Colors = NDArray[np.uint8]

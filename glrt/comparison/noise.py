@@ -11,22 +11,21 @@ one picture saw counts for both. The tail is Bernstein's inequality with the ste
 and a pixel's steps are taken as one.
 
 *Own*: pictures of different methods have the noise that they claim, and the darker one may have
-missed hits of the size that it saw. Where all its noise stands in a few pixels, that says nothing,
-and the place has no vote. Both judges must agree on a difference.
+missed hits of the size that it saw. Rare light that it met anywhere (rare_light.py), it may have
+missed here: each place has its share of that at least. Where all its noise stands in a few pixels,
+that says nothing, and the place has no vote. Both judges must agree on a difference.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Add = Callable[[Array], Array]  # sums pixels, (H, W, 3), over regions
+from glrt.comparison.rare_light import rare_variance
+from glrt.comparison.regions import Add, Array, blocks, ratio_of, spread_out
 
-BLOCK = 8  # pixels on a side
 ROUNDING = 1e-5  # of the radiance: two programs may differ by that and be the same
 FEWEST_PIXELS = 16  # that must carry the noise of a place before its own variance may judge it
 
@@ -74,6 +73,16 @@ class Pair:
         """Samples of the image for one of the reference."""
         return self.image_samples / self.reference_samples
 
+    @cached_property
+    def image_rare(self) -> Array:
+        """The image's variance in pixels that met rare light; 0 elsewhere."""
+        return rare_variance(self.image_variance, self.reference_variance / self.ratio)
+
+    @cached_property
+    def reference_rare(self) -> Array:
+        """The reference's."""
+        return rare_variance(self.reference_variance, self.image_variance * self.ratio)
+
     @property
     def shuffled_variance(self) -> Array:
         """Of the difference, if all observations of a pixel were dealt out anew."""
@@ -94,7 +103,7 @@ class Judge(NamedTuple):
 
     def score(self, difference: Array) -> Array:
         """Standard errors of a normal distribution that are as unlikely; 0 where there is none."""
-        z = _ratio(difference, self.stderr)
+        z = ratio_of(difference, self.stderr)
         skew = np.where(z > 0, self.up, self.down)
         heavy = np.multiply(skew, np.abs(z), where=z != 0, out=np.zeros_like(z))
         return np.asarray(z / np.sqrt(1 + heavy))
@@ -106,29 +115,6 @@ class Judge(NamedTuple):
         return np.asarray(np.multiply(z, self.stderr, where=self.stderr > 0, out=np.zeros_like(z)))
 
 
-def whole(pixels: Array) -> Array:
-    """Sum of all pixels, (3,)."""
-    return np.asarray(pixels.sum(axis=(0, 1)))
-
-
-def edges(length: int) -> NDArray[np.intp]:
-    """Where the blocks of a side begin, and its end; a remainder joins the last block."""
-    starts = np.arange(max(length // BLOCK, 1), dtype=np.intp) * BLOCK
-    return np.append(starts, length)
-
-
-def blocks(pixels: Array) -> Array:
-    """Sums of blocks of 8 x 8 pixels, (rows, columns, 3)."""
-    rows, columns = (edges(length)[:-1] for length in pixels.shape[:2])
-    return np.asarray(np.add.reduceat(np.add.reduceat(pixels, rows, axis=0), columns, axis=1))
-
-
-def spread_out(values: Array, shape: tuple[int, ...]) -> Array:
-    """The value of each pixel's block, for pictures of `shape`."""
-    rows, columns = (np.diff(edges(length)) for length in shape[:2])
-    return np.repeat(np.repeat(values, rows, axis=0), columns, axis=1)
-
-
 class Sums:
     """Weighted sums of pixels over regions, against what chance does to them.
 
@@ -137,6 +123,7 @@ class Sums:
     """
 
     def __init__(self, pair: Pair, add: Add, weight: Array | float = 1.0) -> None:
+        self._add, self._weight = add, weight
         self.difference = add(pair.difference * weight)
         self.reference = add(pair.reference * weight)
         self.rounding = ROUNDING * add(pair.size * weight)
@@ -151,14 +138,16 @@ class Sums:
         """The difference that the strictest judge scores so high, on its heavier side."""
         return np.asarray(np.max([judge.reach(score) for judge in self._judges], axis=0))
 
-    def shown(self, score: float, power: float) -> float:
-        """The smallest relative difference that exceeds a score with probability `power`."""
+    def factor_found(self, change: Array, score: float, power: float) -> Array:
+        """The share of `change`, (H, W, 3), that each region finds with probability `power`.
+
+        That is, the sum exceeds the score on its heavier side. Infinite where `change` is 0.
+        """
         noise = np.max([judge.stderr for judge in self._judges], axis=0)
         seen = self.reach(score) + NormalDist().inv_cdf(power) * noise + self.rounding
-        lit = self.reference > 0
-        return float(
-            np.divide(seen, self.reference, where=lit, out=np.full_like(seen, np.inf)).min()
-        )
+        signal = np.abs(self._add(change * self._weight))
+        none = np.full_like(seen, np.inf)
+        return np.asarray(np.divide(seen, signal, where=signal > 0, out=none))
 
 
 def even_weights(pair: Pair) -> Array:
@@ -169,7 +158,7 @@ def even_weights(pair: Pair) -> Array:
     """
     variance = blocks(pair.shuffled_variance)
     level = np.maximum(blocks(pair.level), 0)
-    weights = _ratio(level, variance + np.square(ROUNDING * level))
+    weights = ratio_of(level, variance + np.square(ROUNDING * level))
     return spread_out(weights / np.maximum(weights.max(axis=(0, 1)), 1e-300), pair.image.shape)
 
 
@@ -177,24 +166,32 @@ def _shuffled(pair: Pair, add: Add, weight: Array | float) -> Judge:
     """Its heavy side is that of the picture of fewer samples, whose hits take larger steps."""
     variance = pair.shuffled_variance * np.square(weight)
     total = add(variance)
-    skew = _ratio(add(variance**1.5), total**1.5) * abs(pair.ratio**-0.5 - pair.ratio**0.5) / 3
+    skew = ratio_of(add(variance**1.5), total**1.5) * abs(pair.ratio**-0.5 - pair.ratio**0.5) / 3
     calm = np.zeros_like(skew)
     return Judge(np.sqrt(total), *((skew, calm) if pair.ratio < 1 else (calm, skew)))
 
 
 def _own(pair: Pair, add: Add, weight: Array | float) -> Judge:
-    image = pair.image_variance * np.square(weight)
-    reference = pair.reference_variance * np.square(weight)
-    total = add(image + reference)
-    return Judge(np.sqrt(total), _missed(reference, total, add), _missed(image, total, add))
+    image = _Claim(pair.image_variance, pair.image_rare, add, weight)
+    reference = _Claim(pair.reference_variance, pair.reference_rare, add, weight)
+    total = image.second + reference.second
+    return Judge(np.sqrt(total), reference.missed(total), image.missed(total))
 
 
-def _missed(variance: Array, total: Array, add: Add) -> Array:
-    """The skew of a picture that may have missed hits of the size that it saw."""
-    second, third = add(variance), add(variance**1.5)
-    pixels = _ratio(second**3, third**2)  # as many, equally noisy, would do the same
-    return np.where(pixels >= FEWEST_PIXELS, 2 / 3 * _ratio(third, total**1.5), np.inf)
+class _Claim:
+    """The noise of a picture's regions: the variance of their sums, and what it may have missed."""
 
+    def __init__(self, variance: Array, rare: Array, add: Add, weight: Array | float) -> None:
+        variance, rare = variance * np.square(weight), rare * np.square(weight)
+        share = add(np.ones_like(rare)) / rare[..., 0].size  # of all pixels
+        second, third = add(variance), add(variance**1.5)
+        self.pixels = ratio_of(second**3, third**2)  # as many, equally noisy, would do the same
+        self.second, self.third = (
+            own + np.maximum(share * rare_power.sum(axis=(0, 1)) - add(rare_power), 0)
+            for own, rare_power in ((second, rare), (third, rare**1.5))
+        )
 
-def _ratio(above: Array, below: Array) -> Array:
-    return np.divide(above, below, where=below > 0, out=np.zeros_like(above))
+    def missed(self, total: Array) -> Array:
+        """The skew of a picture that may have missed hits of the size that it saw."""
+        skew = 2 / 3 * ratio_of(self.third, total**1.5)
+        return np.where(self.pixels >= FEWEST_PIXELS, skew, np.inf)

@@ -1,12 +1,17 @@
 """The result of a comparison of two pictures."""
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from glrt.comparison.noise import BLOCK, Array
+from glrt.comparison.regions import BLOCK, Array
+from glrt.comparison.sensitivity import Sensitivity
+from glrt.text import escaped
 
 Verdict = Literal["same", "different", "undecided"]
 
+UNSEEN = 10.0  # times the light: a picture that misses a change so large shows nothing
 CHANNELS = ("red", "green", "blue")
 
 
@@ -39,6 +44,20 @@ class Place(NamedTuple):
         return f"{self.channel} at x {self.x} to {right}, y {self.y} to {bottom}"
 
 
+class HeavyTails(NamedTuple):
+    """Rare light in one of two pictures: its errors are too small where it has not met any."""
+
+    picture: str  # "image" or "reference"
+    pixels: int  # that have met it
+    share: float  # of the noise, which stands in these pixels
+
+    def __str__(self) -> str:
+        return (
+            f"{self.pixels} pixels of the {self.picture} carry {percent(self.share)} of its noise: "
+            "rare light, which other pixels may have missed"
+        )
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """The result of `compare`; false in a condition if the pictures differ.
@@ -61,7 +80,8 @@ class Comparison:
     largest: float  # score of the worst block
     worst: Place  # that block
     pixel: Place  # in it, the pixel that differs most
-    shown: float  # the smallest relative difference of a whole picture that is found
+    sensitivity: Sensitivity  # the smallest relative changes that are found
+    heavy_tails: HeavyTails | None  # why the noise that a picture claims is not believed
     needs: int | None  # samples a pixel of both that would find `bias`; None: unknown
     alike: bool  # both draw their samples in the same way
     block_scores: Array  # (rows, columns, 3)
@@ -76,10 +96,13 @@ class Comparison:
     def __str__(self) -> str:
         if self.verdict == "different":
             return f"different: {'; '.join(self.reasons)}"
+        change = f"a change of {'each' if self.sensitivity.groups else 'all'} light"
         if self.verdict == "same":
-            return f"same: a difference of {percent(self.bias)} would have shown"
+            return f"same: {change} by {percent(self.bias)} would have been found"
+        if self.heavy_tails:
+            return f"undecided: heavy tails: {self.heavy_tails}"
         missing = f"{self.needs} samples in both" if self.needs else "more samples"
-        return f"undecided: needs {missing} to show a difference of {percent(self.bias)}"
+        return f"undecided: needs {missing} to find {change} by {percent(self.bias)}"
 
 
 def _report(c: Comparison) -> str:
@@ -99,9 +122,24 @@ def _report(c: Comparison) -> str:
         f"{BLOCK} x {BLOCK} blocks: spread {c.spread:.2f} of 1 expected; largest "
         f"{c.largest:+.2f} of {c.limit:.2f} allowed, {c.worst}",
         f"its worst pixel: {c.pixel}",
-        f"smallest difference that would have been found: {percent(c.shown)} of the picture",
+        "",
+        "smallest change that would have been found, 19 times in 20:",
+        *_changes(c.sensitivity),
     ]
     return "\n".join(lines)
+
+
+def _changes(found: Sensitivity) -> Iterator[str]:
+    """A row for each kind of change."""
+    yield f"  all light on surfaces  {_known(found.light)}"
+    for name, size in found.groups.items():
+        yield f"  light group {escaped(name)}  {_known(size)}"
+    yield f"  one {BLOCK} x {BLOCK} block, in 19 of 20 places  {_known(found.block)}"
+
+
+def _known(size: float) -> str:
+    """A relative change beyond which nothing is left to find is said in words."""
+    return percent(size) if size < UNSEEN else "none: too much noise"
 
 
 def _row(*cells: str) -> str:
@@ -109,5 +147,8 @@ def _row(*cells: str) -> str:
 
 
 def _percent(interval: Interval) -> tuple[str, str]:
-    difference, low, high = (percent(value, digits=3, sign="+") for value in interval)
-    return difference, f"{low} to {high}"
+    difference, low, high = (
+        percent(value, digits=3, sign="+") if math.isfinite(value) else "unknown"
+        for value in interval
+    )
+    return difference, f"{low} to {high}" if low != high else low

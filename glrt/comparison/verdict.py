@@ -1,21 +1,32 @@
 """Whether two renders show the same picture up to their noise."""
 
 import math
+from collections.abc import Mapping
 from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.comparison.noise import ROUNDING, Array, Pair, Sums, blocks, edges, even_weights, whole
-from glrt.comparison.result import CHANNELS, Comparison, Interval, Place, Verdict, percent
+from glrt.comparison.noise import ROUNDING, Pair, Sums, even_weights
+from glrt.comparison.regions import Array, blocks, edges, whole
+from glrt.comparison.result import (
+    CHANNELS,
+    Comparison,
+    HeavyTails,
+    Interval,
+    Place,
+    Verdict,
+    percent,
+)
+from glrt.comparison.sensitivity import sensitivity
 from glrt.error.estimate import sidak_threshold
 from glrt.errors import UsageError
 from glrt.image.image import Image
 
 Flags = NDArray[np.bool_]
 
-POWER = 0.95  # a bias "would have shown" if it is found so often
 LEAST = 1e-9  # of alpha and bias
+HEAVY = 0.5  # of the noise in pixels that met rare light: a picture's errors are not believed
 SLACK = 1.1  # the standard errors of another renderer may be a tenth off: the spread allows it
 
 
@@ -25,21 +36,25 @@ def compare(
     alpha: float = 0.01,
     bias: float = 0.01,
     alike: bool | None = None,
+    groups: Mapping[str, Image] | None = None,
 ) -> Comparison:
     """Whether two renders of one size are the same picture up to their noise.
 
     Equal pictures are called different with probability `alpha` at most. "same" means that a
-    relative difference of `bias` in the whole picture would have been found; otherwise the
+    change of all light by `bias` would have been found, and of each light group's; otherwise the
     verdict is "undecided". Each needs its number of samples, and one of them its standard errors.
-    `alike`: both draw their samples in the same way; by default, the recipes say so. Raises
-    `UsageError` for pictures that cannot be compared.
+    `alike`: both draw their samples in the same way; by default, the recipes say so. `groups`:
+    for each light group, a picture of the same size by its light alone; without them, nothing is
+    said of groups. Raises `UsageError` for pictures that cannot be compared.
     """
     for name, value in (("alpha", alpha), ("bias", bias)):
         if not LEAST <= value < 1:
             raise UsageError(f"{name} must lie between {LEAST:g} and 1, got {value:g}.")
     _check(image, reference)
     broken = _is_broken(image) | _is_broken(reference)
-    return _compared(_pair(image, reference, broken, alike), broken, alpha, bias)
+    lights = {name: _light(image, name, picture) for name, picture in (groups or {}).items()}
+    pair = _pair(image, reference, broken, alike)
+    return _compared(pair, broken, lights, alpha, bias)
 
 
 def _is_broken(image: Image) -> Flags:
@@ -59,6 +74,12 @@ def _check(image: Image, reference: Image) -> None:
                 f"the {name} does not say how many samples a pixel it has: give them by --samples "
                 "for the image and --reference-samples for the reference."
             )
+
+
+def _light(image: Image, group: str, picture: Image) -> Array:
+    if picture.radiance.shape != image.radiance.shape:
+        raise UsageError(f"the picture of light group {group!r} has another size.")
+    return np.where(np.isfinite(picture.radiance), picture.radiance.astype(np.float64), 0)
 
 
 def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> Pair:
@@ -94,7 +115,9 @@ def _same_method(image: Image, reference: Image) -> bool:
     return (a.method, a.roulette, a.sampler) == (b.method, b.roulette, b.sampler)
 
 
-def _compared(pair: Pair, broken: Flags, alpha: float, bias: float) -> Comparison:
+def _compared(
+    pair: Pair, broken: Flags, groups: Mapping[str, Array], alpha: float, bias: float
+) -> Comparison:
     """A third of alpha each is for the whole picture, for blocks, for pixels without noise."""
     means, local = Sums(pair, whole), Sums(pair, blocks)
     factors = Sums(pair, whole, even_weights(pair)) if pair.alike else None
@@ -109,8 +132,10 @@ def _compared(pair: Pair, broken: Flags, alpha: float, bias: float) -> Compariso
         _blocks(local.score, limit),
     ]
     found = tuple(reason for reason in reasons if reason)
-    shown = min(local.shown(limit, POWER), *(t.shown(wide, POWER) for t in (means, factors) if t))
-    agree: Verdict = "same" if shown <= bias else "undecided"
+    whole_tests = [(sums, wide) for sums in (means, factors) if sums]
+    found_at = sensitivity(pair, [*whole_tests, (local, limit)], groups)
+    rare = _heavy_tails(pair)
+    agree: Verdict = "same" if found_at.worst <= bias and not rare else "undecided"
     pixel_scores = _pixel_scores(pair)
     worst = _worst_block(local.score, pair.image.shape)
     return Comparison(
@@ -126,12 +151,31 @@ def _compared(pair: Pair, broken: Flags, alpha: float, bias: float) -> Compariso
         largest=float(local.score.flat[np.abs(local.score).argmax()]),
         worst=worst,
         pixel=_worst_pixel(pixel_scores, worst),
-        shown=shown,
-        needs=_needs(pair, shown / bias),
+        sensitivity=found_at,
+        heavy_tails=rare,
+        needs=None if rare else _needs(pair, found_at.worst / bias),
         alike=pair.alike,
         block_scores=local.score,
         pixel_scores=pixel_scores,
     )
+
+
+def _heavy_tails(pair: Pair) -> HeavyTails | None:
+    """Of the picture in which rare light makes more of the noise; the methods may differ."""
+    if pair.alike:
+        return None
+    found = [
+        _rare_share("image", pair.image_variance, pair.image_rare),
+        _rare_share("reference", pair.reference_variance, pair.reference_rare),
+    ]
+    worse = max(found, key=lambda tails: tails.share)
+    return worse if worse.share > HEAVY else None
+
+
+def _rare_share(name: str, variance: Array, rare: Array) -> HeavyTails:
+    totals = np.maximum(variance.sum(axis=(0, 1)), 1e-300)
+    share = float((rare.sum(axis=(0, 1)) / totals).max())
+    return HeavyTails(name, int((rare > 0).any(axis=-1).sum()), share)
 
 
 def _limit(alpha: float, tests: int) -> float:

@@ -16,12 +16,14 @@ from glrt.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
+from glrt.scene.scene import with_lights
+from tests.support.noisy_images import noisy
 from tests.support.processes import glrt
 from tests.support.renders import rendered
 
 KEYS = [
     *("verdict", "reasons", "alpha", "bias", "means", "factors", "spread", "largest", "limit"),
-    *("block", "pixel", "shown", "needs", "alike"),
+    *("block", "pixel", "sensitivity", "heavy_tails", "needs", "alike"),
 ]
 
 
@@ -72,7 +74,8 @@ def test_report_tells_the_figures(folder: Path, capsys: pytest.CaptureFixture[st
     assert f"needs {comparison.needs} samples" in text
     assert str(comparison.worst) in text
     assert str(comparison.pixel) in text
-    assert f"{percent(comparison.shown)} of the picture" in text
+    for size in (comparison.sensitivity.light, comparison.sensitivity.block):
+        assert percent(size) in text
     for interval in (*comparison.differences, *comparison.factors):
         low, high = (percent(value, 3, "+") for value in (interval.low, interval.high))
         assert f"{low} to {high}" in text
@@ -119,7 +122,8 @@ def test_json_has_null_for_what_cannot_be_told(
     Image(black, black, 0).save(tmp_path / "black.exr")
     line = "black.exr black.exr --samples 4 --reference-samples 4 --json"
     figures = json.loads(run(tmp_path, line, capsys)[1], parse_constant=pytest.fail)
-    assert (figures["shown"], figures["needs"], figures["factors"]) == (None, None, None)
+    assert figures["sensitivity"] == {"light": None, "block": None, "groups": {}}
+    assert (figures["needs"], figures["factors"]) == (None, None)
     assert figures["means"]["red"]["difference"] is None
 
 
@@ -180,3 +184,54 @@ def test_how_many_samples_know_their_noise_is_told_as_it_is(
     with pytest.raises(UsageError, match="at least 32 samples, or 2 with --sampler independent"):
         compare(few, few)
     assert compare(enough, enough)
+
+
+def test_groups_are_rendered_to_say_what_change_of_them_is_found(
+    context: Context, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A fainter lamp needs a larger change; one that is off is left out."""
+    scene = with_lights(load("lamps"), {"blue": 0.0})
+    for name, seed in {"a": 0, "b": 1}.items():
+        rendered(scene, context, 64, width=32, height=24, seed=seed).save(tmp_path / f"{name}.exr")
+    found = json.loads(run(tmp_path, "a.exr b.exr --groups --json", capsys)[1])["sensitivity"]
+    assert list(found["groups"]) == ["amber", "rose"]
+    assert found["groups"]["rose"] > 3 * found["groups"]["amber"] > 0
+    text = run(tmp_path, "a.exr b.exr --groups", capsys)[1]
+    assert f"light group rose  {percent(found['groups']['rose'])}" in text
+    assert "of each light by 1 %" in text
+    assert json.loads(run(tmp_path, "a.exr b.exr --json", capsys)[1])["sensitivity"]["groups"] == {}
+
+
+def test_groups_of_a_picture_without_a_recipe_are_unknown(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert (
+        main(
+            [
+                "compare",
+                *(str(folder / n) for n in ("a.npy", "b.exr")),
+                "--samples",
+                "64",
+                "--groups",
+            ]
+        )
+        == 2
+    )
+    assert "--groups needs the recipe" in capsys.readouterr().err
+
+
+def test_heavy_tails_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Five pixels met light that is brighter than all the rest of their samples."""
+    image = noisy("smooth", 256, 1, 64)
+    for pixels in (image.radiance, image.stderr):
+        pixels.reshape(-1, 3)[100:4000:900] += 2
+    image.save(tmp_path / "a.exr")
+    noisy("smooth", 256, 2, 64).save(tmp_path / "b.exr")
+    line = "a.exr b.exr --samples 256 --reference-samples 256"
+    code, text = run(tmp_path, line, capsys)
+    assert code == 0
+    assert text.startswith("undecided: heavy tails: ")
+    assert "5 pixels of the image carry" in text
+    assert "inf" not in text
+    tails = json.loads(run(tmp_path, f"{line} --json", capsys)[1])["heavy_tails"]
+    assert tails["picture"] == "image"

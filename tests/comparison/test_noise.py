@@ -7,7 +7,8 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from glrt.comparison.noise import Judge, Pair, Sums, blocks, edges, even_weights, whole
+from glrt.comparison.noise import Judge, Pair, Sums, even_weights
+from glrt.comparison.regions import blocks, edges, whole
 
 
 def test_variance_is_that_of_all_ways_to_deal_the_samples_out() -> None:
@@ -106,12 +107,35 @@ def test_a_block_whose_noise_stands_in_a_few_pixels_has_no_vote_between_methods(
 
 
 @pytest.mark.parametrize(("variances", "noise"), [((1, 1e-9), 8), ((1e-9, 1), 32)])
-def test_what_would_have_shown_takes_the_larger_noise_of_both_judges(
+def test_what_would_be_found_takes_the_larger_noise_of_both_judges(
     variances: tuple[float, float], noise: float
 ) -> None:
     """4 samples against 64: shuffled, the first variance is a 16th, the second 16 times as much."""
     level = np.ones((8, 8, 3))
     a, b = (np.full(level.shape, variance) for variance in variances)
     sums = Sums(Pair(level, level, a, b, 4, 64, alike=False), whole)
-    wider = sums.shown(4, power=0.95) - sums.shown(4, power=0.5)
-    assert wider == pytest.approx(NormalDist().inv_cdf(0.95) * noise / 64)
+    likely, even = (sums.factor_found(level, 4, power) for power in (0.95, 0.5))
+    assert np.allclose(likely - even, NormalDist().inv_cdf(0.95) * noise / 64)
+
+
+def test_rare_light_that_was_met_anywhere_may_have_been_missed_anywhere() -> None:
+    """One hit in 24 blocks: each of the others may have missed a 24th of its variance."""
+    variance = np.full((32, 48, 3), 1e-8)
+    calm = variance.copy()
+    variance[11, 20] = 0.5
+    level = np.ones_like(variance)
+    dark = Pair(level, level + 1e-3, variance, calm, 256, 256, alike=False)
+    score = Sums(dark, blocks).score
+    assert (np.abs(score) < 1).all()
+    alone = Pair(level, level + 1e-3, calm, calm, 256, 256, alike=False)
+    assert (Sums(alone, blocks).score < -30).all()
+
+
+def test_rare_light_counts_once_for_the_whole_picture() -> None:
+    """All that was met is in the variance of its sum already."""
+    variance = np.full((32, 48, 3), 1e-6)
+    variance[::8, ::8] = 1.0
+    level = np.ones_like(variance)
+    pair = Pair(level, level, variance, np.full_like(variance, 1e-6), 256, 256, alike=False)
+    noise = Sums(pair, whole).factor_found(level, 0.0, 0.5 + 0.3413447)
+    assert np.allclose(noise - 1e-5, math.sqrt(24) / 1536, rtol=1e-3)

@@ -12,7 +12,7 @@ import pytest
 
 import glrt
 from bench.false_alarms import without_errors
-from glrt.comparison.noise import blocks
+from glrt.comparison.regions import blocks
 from glrt.comparison.verdict import compare
 from glrt.errors import UsageError
 from glrt.gpu.context import Context
@@ -92,7 +92,8 @@ def test_one_percent_is_found_where_hits_are_rare(kind: str) -> None:
 
 
 def test_what_would_have_shown_is_found_nineteen_times_in_twenty() -> None:
-    shown = compare(red(noisy("smooth", 64, 1)), red(noisy("smooth", 64, 2)), alike=True).shown
+    pair = red(noisy("smooth", 64, 1)), red(noisy("smooth", 64, 2))
+    shown = compare(*pair, alike=True).sensitivity.light
     found = 0
     for i in range(1000, 1100):
         image = red(noisy("smooth", 64, i, factor=1 + shown))
@@ -230,7 +231,7 @@ def test_scores_do_not_depend_on_the_scale(power: int) -> None:
     for alike in (True, False):
         one, other = compare(a, b, alike=alike), compare(c, d, alike=alike)
         assert np.allclose(one.block_scores, other.block_scores, rtol=1e-6)
-        assert one.shown == pytest.approx(other.shown, rel=1e-6)
+        assert one.sensitivity.light == pytest.approx(other.sensitivity.light, rel=1e-6)
 
 
 # --- What can be compared --------------------------------------------------------------------

@@ -100,7 +100,7 @@ def judged(ours: Image, theirs: Image) -> Comparison:
 def test_everything_looks_the_same_to_mitsuba(context: Context, their_picture: Image) -> None:
     found = judged(ours(context, everything()), their_picture)
     assert found, str(found)
-    assert found.shown < 0.02
+    assert found.sensitivity.light < 0.02
 
 
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
@@ -124,7 +124,7 @@ def test_the_inside_of_balls_looks_the_same_to_mitsuba(context: Context, mitsuba
     )
     found = judged(ours(context, scene), theirs(mitsuba, scene))
     assert found, str(found)
-    assert found.shown < 0.03
+    assert found.sensitivity.light < 0.03
 
 
 @pytest.mark.parametrize(

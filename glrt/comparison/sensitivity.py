@@ -1,0 +1,68 @@
+"""How large a change would have been found, for kinds of change that can be named."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from glrt.comparison.noise import Pair, Sums
+from glrt.comparison.regions import Array, ratio_of
+
+POWER = 0.95  # a change "would have been found" if it is found so often
+LEAST_LIGHT = 0.01  # of all light: less than that stands for nothing
+CALM = 1 / 30  # of the usual relative noise: less is that of a lamp or sky which the camera sees
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """The smallest relative changes that are found 19 times in 20; infinite where none is.
+
+    `light`: of all light that surfaces reflect. `block`: of one block of 8 x 8 pixels, in 19 of 20
+    blocks with light. `groups`: of the light of each group, where that is known.
+    """
+
+    light: float
+    block: float
+    groups: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def worst(self) -> float:
+        """That of all light, or of the group whose change is the hardest to find."""
+        return max(self.light, *self.groups.values()) if self.groups else self.light
+
+
+def sensitivity(
+    pair: Pair, tests: list[tuple[Sums, float]], groups: Mapping[str, Array]
+) -> Sensitivity:
+    """`tests`: sums with the score beyond which they differ, those of blocks last.
+
+    `groups`: the radiance of each light group alone, (H, W, 3). A group without light is left out.
+    """
+    blocks, limit = tests[-1]
+    return Sensitivity(
+        light=_least(tests, noisy_light(pair)),
+        block=_of_most(blocks.factor_found(pair.level, limit, POWER)),
+        groups={name: _least(tests, light) for name, light in groups.items() if light.any()},
+    )
+
+
+def noisy_light(pair: Pair) -> Array:
+    """The mean of both pictures where it has noise, 0 elsewhere; all of it if that is hardly any.
+
+    What the camera sees of lamps and sky itself comes with hardly any noise: it would show the
+    smallest change, which says nothing of the light on surfaces.
+    """
+    noise = ratio_of(np.sqrt(pair.shuffled_variance), np.abs(pair.level))
+    usual = np.quantile(noise[noise > 0], 0.9) if noise.any() else 0.0
+    light = np.where(noise > CALM * usual, pair.level, 0.0)
+    return light if light.sum() > LEAST_LIGHT * pair.level.sum() else pair.level
+
+
+def _least(tests: list[tuple[Sums, float]], change: Array) -> float:
+    return min(float(sums.factor_found(change, limit, POWER).min()) for sums, limit in tests)
+
+
+def _of_most(factors: Array) -> float:
+    """That of 19 in 20 blocks, each by the channel that shows it best."""
+    best = factors.min(axis=-1).ravel()
+    return float(np.quantile(best, POWER, method="higher"))
