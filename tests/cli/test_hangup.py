@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -15,10 +16,20 @@ from tests.cli.test_signals import SAYS, interrupted_in
 from tests.support.processes import start_render
 from tests.support.system_packages import needs
 
+pytestmark = pytest.mark.usefixtures("as_in_a_terminal")
+
 OWN_TERMINAL = (
     "import fcntl, sys, termios; fcntl.ioctl(2, termios.TIOCSCTTY, 0); "
     "from glrt.cli.main import main; sys.exit(main())"
 )
+
+
+@pytest.fixture
+def as_in_a_terminal() -> Iterator[None]:
+    """Under `nohup`, processes ignore SIGHUP, and so do those that they start."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, before)
 
 
 def test_a_terminal_that_is_closed_costs_no_picture(tmp_path: Path) -> None:

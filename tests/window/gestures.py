@@ -10,7 +10,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.view.state.controls import replaced
 from glrt.view.viewport.orbit import axes
-from tests.window.hand import SMALL, Hand
+from tests.window.hand import SMALL, WAIT, Hand
 
 
 def move(hand: Hand, reference: str, value: Any) -> None:
@@ -41,14 +41,23 @@ def press(hand: Hand, key: imgui.Key, modifiers: int = 0) -> None:
     hand.ctx.yield_(3)
 
 
-def click(hand: Hand, point: Any, times: int = 1) -> None:
+def click(hand: Hand, point: Any) -> None:
     hand.ctx.mouse_move_to_pos(place_of(hand, point))
     hand.ctx.yield_()
-    if times == 1:
-        hand.ctx.mouse_click(0)
-    else:
-        hand.ctx.mouse_double_click(0)
+    hand.ctx.mouse_click(0)
     hand.ctx.yield_(2)
+
+
+def double_click(hand: Hand, point: Any) -> None:
+    """However long the frames of a busy machine take."""
+    io = imgui.get_io()
+    before = io.mouse_double_click_time, io.mouse_single_click_delay
+    io.mouse_double_click_time, io.mouse_single_click_delay = WAIT, WAIT + 1
+    hand.ctx.mouse_move_to_pos(place_of(hand, point))
+    hand.ctx.yield_()
+    hand.ctx.mouse_double_click(0)
+    hand.ctx.yield_(2)
+    io.mouse_double_click_time, io.mouse_single_click_delay = before
 
 
 def place_of(hand: Hand, point: Any) -> tuple[float, float]:

@@ -5,12 +5,13 @@ import math
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import NamedTuple
 
 from glrt.analysis.chart.words import number, percent
 from glrt.analysis.method_choice.search import Verdict, what_suffices
-from glrt.analysis.method_choice.trial import LEADER, Candidate, OutOfTimeError
+from glrt.analysis.method_choice.trial import LEADER, Candidate, OutOfTimeError, Tell
 from glrt.errors import UsageError
 from glrt.gpu.context import open_context
 from glrt.methods.omissions import omissions
@@ -59,10 +60,10 @@ def choose(
         settings = settings_for(settings, method=LEADER)
         _tell(arguments, _undecided(settings))
         return Choice(settings, limits, {"method": FOR_LACK_OF_TIME})
-    _tell(arguments, conclusion(verdict))
     chosen = verdict.best or verdict.candidates[-1]
     noise = math.sqrt(max(limits.error**2 - chosen.bias.most**2, 0.0)) or limits.error
     first_look = max(limits.first_look, chosen.samples_to(limits.error) or 0)
+    _tell(arguments, conclusion(verdict, least_samples=first_look))
     limits = replace(limits, error=noise, first_look=first_look)
     decided = BY_WORK if limits.deadline is None else BY_WORK_IN_TIME
     names = ["method"] if _bounces_given(arguments) is not None else ["method", "bounces"]
@@ -76,12 +77,33 @@ def _verdict(
     error: float,
     seconds: float = math.inf,
 ) -> Verdict:
-    _tell(arguments, "Measuring which method suffices ...")
     context = open_context(arguments.context)
     try:
-        return what_suffices(scene, settings, error, context, _bounces_given(arguments), seconds)
+        with _steps(arguments) as tell:
+            fixed = _bounces_given(arguments)
+            return what_suffices(scene, settings, error, context, fixed, seconds, tell)
     finally:
         context.gl.release()
+
+
+@contextmanager
+def _steps(arguments: argparse.Namespace) -> Iterator[Tell]:
+    """Shows the steps of the measurement on stderr: one line on a terminal, else the first."""
+    title = "Measuring which method suffices ..."
+    if getattr(arguments, "quiet", False):
+        yield lambda _step: None
+        return
+    if not sys.stderr.isatty():
+        print(title, file=sys.stderr, flush=True)
+        yield lambda _step: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=None)
+        yield lambda step: bar.update(task, description=f"{title} {step}")
 
 
 def _bounces_given(arguments: argparse.Namespace) -> int | None:
@@ -112,9 +134,11 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
     )
     yield ""
     yield "bounces  bias from longer paths"
+    chosen = verdict.leader.settings.bounces
     for limit, bias in verdict.beyond.items():
-        mark = "  the fewest below the error" if limit == verdict.least_bounces else ""
-        yield f"{limit:>7}  {percent(bias.value):<8}{mark}".rstrip()
+        marks = ["the fewest below the error"] if limit == verdict.least_bounces else []
+        marks += ["least work: what is left for noise takes fewer samples"] * (limit == chosen)
+        yield f"{limit:>7}  {percent(bias.value):<8}  {'; '.join(marks)}".rstrip()
     yield ""
     width = max(len(candidate.name) for candidate in verdict.candidates)
     yield f"{'method':<{width}} bounces  bias     work"
@@ -125,16 +149,19 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
     yield conclusion(verdict)
 
 
-def conclusion(verdict: Verdict) -> str:
-    """Which method to use, or why none is known to suffice, and methods that were not tried."""
-    found = _finding(verdict)
+def conclusion(verdict: Verdict, least_samples: int = 1) -> str:
+    """Which method to use, or why none is known to suffice, and methods that were not tried.
+
+    `least_samples` are taken in any case.
+    """
+    found = _finding(verdict, least_samples)
     if not verdict.untried:
         return found
     names = ", ".join(f"`{name}`" for name in verdict.untried)
     return f"{found} Half of --time was too short to try {names}."
 
 
-def _finding(verdict: Verdict) -> str:
+def _finding(verdict: Verdict, least_samples: int) -> str:
     best = verdict.best
     if best is None:
         wanted = verdict.nearest.samples_to(verdict.error)
@@ -157,10 +184,11 @@ def _finding(verdict: Verdict) -> str:
             "seconds, is too noisy to tell. Ask for a larger error."
         )
     settings, (width, height) = best.settings, best.settings.size
+    samples = max(best.samples_to(verdict.error) or 0, least_samples)
     return (
         f"Enough: `{settings.method}` with {_count(settings.bounces, 'bounce')} reaches "
-        f"{percent(verdict.error)} with {_count(best.samples_to(verdict.error) or 0, 'sample')}; "
-        f"about {_seconds(best.seconds_to(verdict.error))} s at {width} x {height}, as timed now."
+        f"{percent(verdict.error)} with {_count(samples, 'sample')}; about "
+        f"{_seconds(samples * best.seconds_per_sample)} s at {width} x {height}, as timed now."
     )
 
 

@@ -4,7 +4,7 @@ import math
 import time
 from dataclasses import dataclass
 
-from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Trial, until
+from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Tell, Trial, until
 from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
 from glrt.analysis.reference import Reference, reference_for, unlimited
 from glrt.analysis.variants import METHODS, variants_of
@@ -46,14 +46,22 @@ class Verdict:
     def nearest(self) -> Candidate:
         """The candidate that would reach the error so without a limit of samples."""
         nearest = min(self.candidates, key=lambda candidate: candidate.work_to(self.error))
-        leader = next(c for c in self.candidates if LEADER in c.name.split(" = "))
-        tied = leader.work_to(self.error) <= _TIE * nearest.work_to(self.error)
-        return leader if tied else nearest
+        tied = self.leader.work_to(self.error) <= _TIE * nearest.work_to(self.error)
+        return self.leader if tied else nearest
+
+    @property
+    def leader(self) -> Candidate:
+        """The candidate of LEADER."""
+        return next(c for c in self.candidates if LEADER in c.name.split(" = "))
 
     @property
     def least_bounces(self) -> int | None:
         """The lowest limit of bounces with a bias known to be below the error, if there is one."""
         return next((b for b, bias in self.beyond.items() if bias.most < self.error), None)
+
+
+def _silent(_step: str) -> None:
+    pass
 
 
 def what_suffices(
@@ -63,8 +71,11 @@ def what_suffices(
     context: Context,
     bounces: int | None = None,
     seconds: float = math.inf,
+    tell: Tell = _silent,
 ) -> Verdict:
     """Measure every method on a small frame; `bounces` is their limit, or None to choose it, too.
+
+    `tell` is called with the name of each step.
 
     What is found is the same on every run of a driver, unless `seconds` end it: then methods that
     are not measured yet are left out. Raises OutOfTimeError if no number of bounces is known to
@@ -76,13 +87,14 @@ def what_suffices(
     leading = settings_for(small, method=LEADER)
     pixels = math.prod(settings.size) / math.prod(small.size)
     with counting(scene, leading, context) as counter:
+        tell("reference")
         longest = unlimited(scene, small, context).bounces
         samples = _reference_samples(work_per_sample(counter, longest, check), small)
         allowed = _reference_seconds(seconds)
         reference = reference_for(
             scene, small, context, 0.25 * error, allowed, check=check, samples=samples
         )
-        trial = Trial(scene, settings, context, reference, error, pixels, check)
+        trial = Trial(scene, settings, context, reference, error, pixels, check, tell)
         limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))

@@ -44,6 +44,7 @@ class OutOfTimeError(Exception):
 
 
 Check = Callable[[Renderer | None], bool]  # called after each dispatch: True, or OutOfTimeError
+Tell = Callable[[str], None]
 BiasOf = Callable[[Sequence["_Picture"]], "Bias"]
 
 
@@ -122,6 +123,7 @@ class Trial:
     error: float
     pixels: float
     check: Check
+    tell: Tell  # called with the name of each step
 
     def limits(self, counter: Renderer, fixed: int | None, most: int) -> dict[int, Candidate]:
         """LEADER by limit of bounces: `fixed`, or up to `most`; `counter` counts its work.
@@ -144,6 +146,7 @@ class Trial:
             whole = [self._picture(renderer, seed, most) for seed in SEEDS]
             enough = 0
             for limit in [fixed] if fixed is not None else [n for n in LIMITS if n <= most]:
+                self.tell(f"{LEADER}, bounces {limit}")
                 pictures = [self._picture(renderer, seed, limit) for seed in SEEDS]
                 cut = [a.radiance - b.radiance for a, b in zip(whole, pictures, strict=True)]
                 bias = self._bias(*cut)
@@ -179,6 +182,7 @@ class Trial:
         name, settings = variant.name, variant.settings
 
         def taken(samples: int) -> list[_Picture]:
+            self.tell(f"{name}, {samples} samples")
             return [self._picture(renderer, seed, samples=samples) for seed in SEEDS]
 
         with self._opened(settings) as renderer:
