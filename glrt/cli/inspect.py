@@ -8,6 +8,7 @@ from glrt.errors import UsageError
 from glrt.image.sources import recipe_of, shown
 from glrt.methods.features import contents_of, explain
 from glrt.methods.omissions import left_out, omissions
+from glrt.methods.slowness import slow_because
 from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
 from glrt.scene.summary import summary
@@ -78,6 +79,8 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")
+    for text in slow_because(scene, settings):
+        print(f"\nslow: {text}")
 
 
 def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> str:

@@ -27,6 +27,7 @@ from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
 from glrt.methods.omissions import left_out, omissions
+from glrt.methods.slowness import slow_because
 from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Ending, Interruption, Limits, render_to_limit
@@ -113,8 +114,8 @@ def _run(arguments: argparse.Namespace) -> int:
     is_kept = any(name.lower().endswith(".exr") for name in arguments.outputs)
     if getattr(arguments, "aov", ()) and not is_kept:
         raise UsageError("--aov needs an .exr output: other files hold the picture alone.")
-    for text in [] if arguments.quiet else cautions(wanted.scene, wanted.settings):
-        print(f"glrt: caution: {text}", file=sys.stderr)
+    if not arguments.quiet:
+        _warn(wanted)
     if is_automatic(arguments):
         from glrt.analysis.method_choice.advice import choose
 
@@ -122,6 +123,13 @@ def _run(arguments: argparse.Namespace) -> int:
         wanted = replace(wanted, **chosen._asdict())
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption)
+
+
+def _warn(wanted: Order) -> None:
+    for text in cautions(wanted.scene, wanted.settings):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    for text in slow_because(wanted.scene, wanted.settings):
+        print(f"glrt: slow: {text}", file=sys.stderr)
 
 
 def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interruption) -> int:

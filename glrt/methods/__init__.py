@@ -7,4 +7,5 @@ Modules, each importing only what stands above it:
 - light_layers: light as a weighted sum of layers
 - combinations: what goes with what
 - omissions: what a method leaves out of a scene
+- slowness: why a scene is slow, where the user can change it
 """

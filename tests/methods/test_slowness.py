@@ -1,0 +1,60 @@
+"""A scene that is slow for a reason that the user can change says which."""
+
+from pathlib import Path
+
+import pytest
+
+from glrt.cli.main import main
+from glrt.image.sources import load
+from glrt.methods.slowness import slow_because
+from glrt.scene.scene import Scene
+from glrt.scene.toml_writer import write_scene
+from glrt.settings import Settings, settings_for
+from tests.support.builders import MATTE, quad, scene_of, sphere
+
+
+def quads(count: int) -> Scene:
+    wall = [quad([0.2 * k, 0, -1], [0.1, 0, 0], [0, 0.1, 0], "white") for k in range(count)]
+    return scene_of(wall, {"white": MATTE}, background={"color": [1, 1, 1]})
+
+
+def settings(**changes: object) -> Settings:
+    return settings_for(Settings(), **changes)
+
+
+def test_shapes_without_a_tree_are_counted() -> None:
+    assert slow_because(quads(32), settings()) == []
+    (text,) = slow_because(quads(600), settings())
+    assert "compared with 600 shapes one by one, most of them 600 quads" in text
+    assert "a box takes the place of six quads" in text
+
+
+def test_spheres_have_a_tree() -> None:
+    row = scene_of([sphere([k, 0, -9], 0.4, "white") for k in range(40)], {"white": MATTE})
+    assert slow_because(row, settings()) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "is_slow"),
+    [
+        ({"roulette": False, "bounces": 200}, True),
+        ({"roulette": False, "bounces": 5}, False),
+        ({"roulette": True, "bounces": 200}, False),
+        ({"roulette": False, "bounces": 200, "method": "whitted"}, False),
+    ],
+)
+def test_paths_without_an_end_are_told(changes: dict[str, object], is_slow: bool) -> None:
+    found = slow_because(load("cornell"), settings(**changes))
+    assert ["--no-roulette" in text for text in found] == [True] * is_slow
+
+
+def test_render_and_inspect_say_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "many.toml"
+    write_scene(quads(33), file)
+    size = ["--width", "8", "--height", "8", "--samples", "1"]
+    assert main(["render", str(file), *size, "-o", str(tmp_path / "a.png")]) == 0
+    assert "glrt: slow: each ray is compared with 33 shapes" in capsys.readouterr().err
+    assert main(["render", str(file), *size, "-o", str(tmp_path / "a.png"), "--quiet"]) == 0
+    assert not capsys.readouterr().err
+    assert main(["inspect", str(file)]) == 0
+    assert "slow: each ray is compared with 33 shapes" in capsys.readouterr().out
