@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.scene.crossing_glass import MOST_COMPARED, first_crossing
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
 from glrt.settings import Settings
@@ -17,7 +18,6 @@ from glrt.text import number, quoted
 ROUNDING = 2.0**-24  # of a float32, as a share of it
 HUGE = 1e4  # heights of the camera over a ball, or radii of one that it touches, in its radius
 FINEST_PIXEL = 4 * ROUNDING  # radians: directions are known to one or two roundings
-MOST_COMPARED = 1000  # balls, the largest or the first, that are looked at with all others
 
 Floats = NDArray[np.float64]
 
@@ -76,26 +76,18 @@ def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
 
 
 def _crossing_glass(scene: Scene) -> str:
-    """A ball within another is fine: `ior` is that of the inside over that of the outside."""
-    glass = [i for i in _balls(scene) if _kind(scene, i) == "dielectric"][:MOST_COMPARED]
-    first, second = next(_crossing(*_places(scene, glass)), (0, 0))
-    if first == second:
+    """A solid within another is fine: `ior` is that of the inside over that of the outside."""
+    glass = [i for i in range(len(scene.objects)) if _kind(scene, i) == "dielectric"]
+    eye = np.array(scene.camera.position, np.float64)
+    found = first_crossing([scene.objects[i] for i in glass], eye)
+    if found is None:
         return ""
+    first, second = (_name(scene, glass[index]) for index in found)
     return (
-        f"{_name(scene, glass[first])} and {_name(scene, glass[second])} are glass and cross: "
-        "light that leaves one inside the other is refracted as if it entered air. Separate them, "
-        "let them touch, or put one inside the other."
+        f"{first} and {second} are glass and cross: light that leaves one inside the other is "
+        "refracted as if it entered air. Separate them, let them touch, or put one inside the "
+        "other."
     )
-
-
-def _crossing(center: Floats, radius: Floats) -> Iterator[tuple[int, int]]:
-    """Pairs of balls whose surfaces meet in a circle, not in a point."""
-    for first in range(len(radius) - 1):
-        apart = np.linalg.norm(center[first + 1 :] - center[first], axis=1)
-        total, rest = radius[first + 1 :] + radius[first], radius[first + 1 :] - radius[first]
-        slack = 1e-6 * total  # for balls that were meant to touch
-        for second in np.flatnonzero((apart < total - slack) & (apart > np.abs(rest) + slack)):
-            yield first, first + 1 + int(second)
 
 
 def _walled_in(scene: Scene) -> str:

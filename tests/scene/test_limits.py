@@ -176,3 +176,39 @@ def test_commands_tell_it_and_go_on(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert capsys.readouterr().err == ""
     assert main(["inspect", str(scene)]) == 0
     assert "\ncaution: objects[0]" in capsys.readouterr().out
+
+
+BOX = {"shape": "box", "min": [-1, -1, -6], "max": [1, 1, -4], "material": "glass"}
+TURNED = {**BOX, "rotate": [0, 45, 0]}
+CAN = {"shape": "cylinder", "from": [0, -1, -5], "to": [0, 1, -5], "radius": 1, "material": "glass"}
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "warns"),
+    [
+        (BOX, sphere([0, 0, -5], 1.2, "glass"), True),
+        (BOX, sphere([0, 0, -5], 0.9, "glass"), False),
+        (BOX, sphere([0, 0, -5], 1.0, "glass"), False),
+        (BOX, sphere([0, 0, -5], 2.0, "glass"), False),
+        (BOX, sphere([2.5, 0, -5], 1.5, "glass"), False),
+        (BOX, sphere([2.4, 0, -5], 1.5, "glass"), True),
+        (TURNED, sphere([2.4, 0, -5], 1.1, "glass"), True),
+        (CAN, {**CAN, "radius": 0.9, "from": [0, -0.9, -5], "to": [0, 0.5, -5]}, False),
+        (CAN, {**CAN, "radius": 1.1, "from": [0, -0.9, -5], "to": [0, 0.5, -5]}, True),
+        (CAN, BOX, False),
+        (CAN, {**BOX, "min": [-1, -1, -4.5], "max": [1, 1, -3]}, True),
+        (plane([0, 0, 0], [0, 1, 0], "glass"), CAN, True),
+        (plane([0, -1, 0], [0, 1, 0], "glass"), CAN, False),
+        (plane([0, 2, 0], [0, 1, 0], "glass"), CAN, False),
+        (plane([0, -2, 0], [0, 1, 0], "glass"), plane([0, 0, 0], [0, 1, 0], "glass"), False),
+        (plane([0, -2, 0], [0, 1, 0], "glass"), plane([0, 0, 0], [1, 1, 0], "glass"), True),
+    ],
+)
+@pytest.mark.parametrize("turned", [False, True])
+def test_solids_of_glass_that_cross_are_told(
+    first: Any, second: Any, warns: bool, turned: bool
+) -> None:
+    """A tumbler and its water, for one: touching, apart and within each other are fine."""
+    objects = [plane([0, -9, 0], [0, 1, 0], "m"), *([second, first] if turned else [first, second])]
+    found = told(scene_of(objects, MATERIALS, background={"color": [1, 1, 1]}))
+    assert ["are glass and cross" in text for text in found] == [True] * warns
