@@ -34,11 +34,13 @@ def test_a_change_of_all_light_is_found_at_its_size(kind: str, alike: bool) -> N
     assert found >= FEWEST
 
 
-@pytest.mark.parametrize("alike", [True, False])
-def test_a_change_of_a_block_is_found_at_its_size(alike: bool) -> None:
+@pytest.mark.parametrize(
+    ("kind", "alike"), [("smooth", True), ("smooth", False), ("caustic", True)]
+)
+def test_a_change_of_a_block_is_found_at_its_size(kind: str, alike: bool) -> None:
     found = 0
     for i in range(TRIALS):
-        image, reference = noisy("smooth", 256, i), noisy("smooth", 256, 1000 + i)
+        image, reference = noisy(kind, 256, i), noisy(kind, 256, 1000 + i)
         size = compare(image, reference, alike=alike).sensitivity.block
         row, column = divmod(i % 16, 4)
         change = np.zeros_like(image.radiance)

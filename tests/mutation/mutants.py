@@ -5,10 +5,11 @@ copy of the tree and runs its test, which must fail.
 """
 
 from tests.mutation.aovs import AOVS
+from tests.mutation.comparing import COMPARING
 from tests.mutation.film import FILM
 from tests.mutation.merging import MERGING
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.transport import TRANSPORT
 
-MUTANTS = [*TRANSPORT, *SHAPES, *SAMPLING, *FILM, *AOVS, *MERGING]
+MUTANTS = [*TRANSPORT, *SHAPES, *SAMPLING, *FILM, *AOVS, *MERGING, *COMPARING]

@@ -192,4 +192,32 @@ TRANSPORT = [
         edit("lights/choice.glsl", "chance * light.share", "chance"),
         "accel/test_clusters.py::test_densities_are_the_chances_of_clusters_and_of_lamps_in_them",
     ),
+    Mutant(
+        "below the horizon the sky goes on to the zenith",
+        edit(
+            "lights/sky.glsl",
+            "direction.y < 0.0 ? frame.background_bottom",
+            "false ? frame.background_bottom",
+        ),
+        "truths/test_horizon.py::test_each_side_is_a_gradient_of_its_own",
+    ),
+    Mutant(
+        "a sky of two gradients goes by the height above the nadir",
+        edit("lights/sky.glsl", "abs(direction.y) * (pole", "0.5 * (direction.y + 1.0) * (pole"),
+        "truths/test_horizon.py::test_each_side_is_a_gradient_of_its_own",
+    ),
+    Mutant(
+        "models see the lower half of a sky from above",
+        edit("lights/sky.glsl", "(sine - angle * normal.y)", "(sine + angle * normal.y)"),
+        "truths/test_horizon.py::test_models_know_what_a_surface_gathers",
+    ),
+    Mutant(
+        "models take the middle of a sky that has a horizon",
+        edit(
+            "lights/sky.glsl",
+            "if (!HAS_HORIZON) return background(two_thirds_up);",
+            "return background(two_thirds_up);",
+        ),
+        "truths/test_horizon.py::test_models_know_what_a_surface_gathers",
+    ),
 ]
