@@ -123,6 +123,8 @@ def closed_form(scene: Scene) -> float | None:
     L (white furnace). Glass and rough metal are excluded: radiance is scaled inside glass, and
     rough metal loses the light of multiple scattering between microfacets.
     """
+    if scene.background.image is not None:
+        return None
     levels = {level for color in scene.background_colors for level in color}
     level = min(levels)
     if level == 0 or len(levels) > 1:

@@ -14,11 +14,11 @@ from glrt import files
 from glrt.analysis.chart.experiment import Plan, Tell, measure_scene
 from glrt.analysis.chart.files import save_chart, save_page
 from glrt.analysis.plot import check_matplotlib
-from glrt.cli.options import SCENE, add_context
+from glrt.cli.options import SCENE, add_context, add_files, file_rules
 from glrt.cli.process import file_names
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, open_context
-from glrt.image.sources import STANDARD_INPUT, load
+from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
 from glrt.rendering.stopping import Interruption
 from glrt.scene.scene import Scene
 from glrt.signals import INTERRUPTED
@@ -47,6 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         note = f"{text} (default: {default:g})"
         parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
     add_context(parser)
+    add_files(parser)
     parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
 
 
@@ -57,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     """A chart of each scene and a page of all of them in a folder; returns the exit code."""
     check_matplotlib()
     plan = _plan(arguments)
-    scenes = _scenes(arguments.scenes)
+    scenes = _scenes(arguments.scenes, file_rules(arguments))
     folder = Path(arguments.output)
     files.make_folder(folder, "chart.md")
     with Interruption().watched() as interruption:
@@ -112,13 +113,13 @@ def _plan(arguments: argparse.Namespace) -> Plan:
     return Plan(arguments.height, arguments.rounds, arguments.seconds)
 
 
-def _scenes(sources: Sequence[str]) -> dict[str, Scene]:
+def _scenes(sources: Sequence[str], rules: FileRules) -> dict[str, Scene]:
     scenes: dict[str, Scene] = {}
     for source in sources:
         name = "standard-input" if source == STANDARD_INPUT else Path(source).stem
         if name in scenes:
             raise UsageError(f"Two scenes are called {name}: their charts would share a file.")
-        scenes[name] = load(source)
+        scenes[name], _ = load_recipe(source, rules)
     return scenes
 
 

@@ -97,10 +97,11 @@ def light_groups(image: Image, path: str) -> dict[str, Image]:
     if image.recipe is None:
         raise UsageError(f"{path}: --groups needs the recipe of a picture that glrt rendered.")
     from glrt.api import render
+    from glrt.image.sources import files_read
     from glrt.methods.light_layers import emitters
     from glrt.scene.scene import with_lights
 
-    scene, settings = image.recipe.scene, image.recipe.settings
+    scene, settings = files_read(image.recipe, Path(path)).scene, image.recipe.settings
     own = {name: scene.lights.get(name, 1.0) for name in emitters(scene)}
     kept: Any = settings.model_dump(include=GROUP_SETTINGS, exclude_none=True)
     samples = min(image.recipe.samples, GROUP_SAMPLES)

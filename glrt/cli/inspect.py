@@ -2,7 +2,14 @@
 
 import argparse
 
-from glrt.cli.options import SCENE, add_context, add_pipeline, add_settings, error_limit
+from glrt.cli.options import (
+    SCENE,
+    add_context,
+    add_files,
+    add_pipeline,
+    add_settings,
+    error_limit,
+)
 from glrt.cli.request import check_limit, open_renderer, scene_and_settings
 from glrt.errors import UsageError
 from glrt.image.sources import recipe_of, shown
@@ -40,6 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_context(parser)
     add_pipeline(parser)
+    add_files(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

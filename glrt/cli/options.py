@@ -3,10 +3,12 @@
 import argparse
 import re
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any, NoReturn, get_args
 
 from glrt.errors import UsageError
 from glrt.gpu.context import ROUTES, Pipeline
+from glrt.image.sources import FileRules
 from glrt.settings import RenderSettings, Settings, editable_of
 
 AUTO = "auto"  # as --method: chosen by a measurement
@@ -61,6 +63,35 @@ def add_context(parser: argparse.ArgumentParser) -> None:
         default="auto",
         help="how OpenGL is opened",
     )
+
+
+def add_files(parser: argparse.ArgumentParser) -> None:
+    """`--allow-outside`, `--assets-from` and `--assets`: which files a scene may name."""
+    group = parser.add_argument_group("files that the scene names")
+    group.add_argument(
+        "--allow-outside",
+        action="store_true",
+        help="read files outside of the folder of the scene too: only for scenes that you trust",
+    )
+    group.add_argument(
+        "--assets-from",
+        type=Path,
+        metavar="DIR",
+        help="read them from this folder (default: that of the scene file, or of the picture)",
+    )
+    group.add_argument(
+        "--assets",
+        choices=["strict", "changed"],
+        default="strict",
+        help="strict: a picture takes only the files that it was made with; changed: what is there "
+        "now (default: %(default)s)",
+    )
+
+
+def file_rules(arguments: argparse.Namespace) -> FileRules:
+    """What `add_files` has read."""
+    is_changed = arguments.assets == "changed"
+    return FileRules(arguments.allow_outside, arguments.assets_from, is_changed)
 
 
 def add_settings(parser: argparse.ArgumentParser, *more_methods: str) -> None:

@@ -14,6 +14,7 @@ from glrt.cli.options import (
     AUTO,
     SCENE,
     add_context,
+    add_files,
     add_pipeline,
     add_settings,
     error_limit,
@@ -32,6 +33,7 @@ from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Ending, Interruption, Limits, render_to_limit
 from glrt.scene.limits import cautions
+from glrt.scene.loading import hashes_of
 from glrt.text import counted
 
 DESCRIPTION = "Render a scene to files, without a window."
@@ -78,6 +80,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_context(parser)
     add_pipeline(parser)
+    add_files(parser)
     parser.add_argument(
         "--resume",
         metavar="FILE.exr",
@@ -276,4 +279,5 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "error": done.error,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
+        "assets": hashes_of(renderer.scene),
     }

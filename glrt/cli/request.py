@@ -5,9 +5,10 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import get_args
 
-from glrt.cli.options import is_automatic, settings_given
+from glrt.cli.options import file_rules, is_automatic, settings_given
 from glrt.cli.process import since_start
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline
@@ -15,11 +16,12 @@ from glrt.image.image import Image
 from glrt.image.partition import Partition, one_part
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting, recipe_to_resume
-from glrt.image.sources import load_recipe, recipe_of
+from glrt.image.sources import files_read, load_recipe, recipe_of
 from glrt.methods.combinations import Way, check, ways_of
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
+from glrt.scene.loading import with_files_of
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import MAX_SAMPLES, Cost, Settings, settings_for
 
@@ -63,7 +65,7 @@ def _decisions_kept(arguments: argparse.Namespace, recipe: Recipe | None) -> dic
 
 def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
     """The scene with its lights, and the settings: those given, the rest by file or recipe."""
-    scene, recipe = load_recipe(arguments.scene)
+    scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
     return with_lights(scene, dict(arguments.lights)), settings
 
@@ -152,7 +154,8 @@ def open_renderer(
     if not (recipe and light and _is_shown(recipe, scene, settings)):
         return Renderer(scene, settings, context, tier, pipeline, part=part, decisions=decisions)
     before = settings_for(settings, bounces=light.bounces)
-    renderer = Renderer(light.scene, before, context, tier, pipeline, light.layering)
+    traced = with_files_of(light.scene, scene)
+    renderer = Renderer(traced, before, context, tier, pipeline, light.layering)
     cost = renderer.update(scene, **dict(settings))
     if cost in (None, Cost.FREE, Cost.RELIGHT):
         renderer.plan = replace(renderer.plan, weights=light.weights)
@@ -182,7 +185,11 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
     with _going_on(arguments.resume):
         recipe = recipe_to_resume(image)
         source = arguments.scene
-        scene, wished = load_recipe(source) if source is not None else (recipe.scene, None)
+        rules = file_rules(arguments)
+        if source is None:
+            scene, wished = files_read(recipe, Path(arguments.resume), rules).scene, None
+        else:
+            scene, wished = load_recipe(source, rules)
         scene = with_lights(scene, dict(arguments.lights))
         base = settings_for(wished or recipe.settings, samples=recipe.settings.samples)
         settings = settings_for(base, **settings_given(arguments))

@@ -2,7 +2,14 @@
 
 import argparse
 
-from glrt.cli.options import SCENE, add_pipeline, add_settings, settings_given
+from glrt.cli.options import (
+    SCENE,
+    add_files,
+    add_pipeline,
+    add_settings,
+    file_rules,
+    settings_given,
+)
 from glrt.early import leave_at_once
 from glrt.errors import ContextError, UsageError
 from glrt.image.sources import load_recipe
@@ -27,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_settings(parser)
     add_pipeline(parser)
+    add_files(parser)
 
 
 EXTRA = ("imgui_bundle", "glfw")  # what `pip install 'glrt[view]'` brings
@@ -34,7 +42,7 @@ EXTRA = ("imgui_bundle", "glfw")  # what `pip install 'glrt[view]'` brings
 
 def run(arguments: argparse.Namespace) -> int:
     """Show the window until it is closed; exit code 3 where none can be opened."""
-    scene, recipe = load_recipe(arguments.scene)
+    scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
     scene = with_lights(scene, dict(arguments.lights))
     try:

@@ -4,9 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.comparison.noise import Pair, Sums
 from glrt.comparison.regions import Array, ratio_of
+
+Flags = NDArray[np.bool_]
 
 POWER = 0.95  # a change "would have been found" if it is found so often
 LEAST_LIGHT = 0.01  # of all light: less than that stands for nothing
@@ -18,7 +21,7 @@ class Sensitivity:
     """The smallest relative changes that are found 19 times in 20; infinite where none is.
 
     `light`: of all light that surfaces reflect. `block`: of one block of 8 x 8 pixels, in 19 of 20
-    blocks with light. `groups`: of the light of each group, where that is known.
+    blocks with light. `groups`: of the light of each group on surfaces, where that is known.
     """
 
     light: float
@@ -39,23 +42,26 @@ def sensitivity(
     `groups`: the radiance of each light group alone, (H, W, 3). A group without light is left out.
     """
     blocks, limit = tests[-1]
+    is_noisy = has_noise(pair)
+    lit = {name: light * is_noisy for name, light in groups.items() if light.any()}
     return Sensitivity(
-        light=_least(tests, noisy_light(pair)),
+        light=_least(tests, pair.level * is_noisy),
         block=_of_most(blocks.factor_found(pair.level, limit, POWER)),
-        groups={name: _least(tests, light) for name, light in groups.items() if light.any()},
+        groups={name: _least(tests, light) for name, light in lit.items()},
     )
 
 
-def noisy_light(pair: Pair) -> Array:
-    """The mean of both pictures where it has noise, 0 elsewhere; all of it if that is hardly any.
+def has_noise(pair: Pair) -> Flags:
+    """Where the light is that of surfaces, (H, W, 3); everywhere if that is hardly any.
 
     What the camera sees of lamps and sky itself comes with hardly any noise: it would show the
     smallest change, which says nothing of the light on surfaces.
     """
     noise = ratio_of(np.sqrt(pair.shuffled_variance), np.abs(pair.level))
     usual = np.quantile(noise[noise > 0], 0.9) if noise.any() else 0.0
-    light = np.where(noise > CALM * usual, pair.level, 0.0)
-    return light if light.sum() > LEAST_LIGHT * pair.level.sum() else pair.level
+    found = noise > CALM * usual
+    light = pair.level[found].sum()
+    return found if light > LEAST_LIGHT * pair.level.sum() else np.ones_like(found)
 
 
 def _least(tests: list[tuple[Sums, float]], change: Array) -> float:

@@ -30,8 +30,11 @@ def differing_settings(pair: Pair, names: list[str]) -> Iterator[str]:
 
 
 def differing_scenes(pair: Pair) -> Iterator[str]:
-    """Scenes, but for what changes no sample."""
+    """Scenes with their files, but for what changes no sample."""
     yield from _apart(pair, "", _content(pair.left), _content(pair.right))
+    before, after = pair.left.assets, pair.right.assets
+    for path in before.keys() & after.keys():
+        yield from pair.tell(f"the SHA-256 of {path}", before[path][:12], after[path][:12])
 
 
 def differing_fields(pair: Pair, names: tuple[str, ...]) -> Iterator[str]:

@@ -1,6 +1,7 @@
 """The recipe of a picture: all that made it, as JSON in the picture's metadata."""
 
 import json
+import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Self
 
@@ -9,6 +10,7 @@ from pydantic import Field, ValidationError, model_validator
 from glrt.errors import SceneError
 from glrt.image.partition import Partition
 from glrt.methods.light_layers import Layering, Plan, Weights, are_trivial
+from glrt.scene.loading import hashes_of, with_hashes
 from glrt.scene.scene import Scene
 from glrt.scene.toml import LARGEST, parse_scene, scene_to_dict
 from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for
@@ -93,12 +95,19 @@ class Recipe(Frozen):
             return self.settings
         return self.settings.model_copy(update={"samples": self.samples or self.settings.samples})
 
+    @property
+    def assets(self) -> dict[str, str]:
+        """SHA-256 in hex of each file that the scene names, by its path."""
+        return hashes_of(self.scene)
+
     def to_json(self) -> str:
         """One line of ASCII that `from_json` reads back without loss."""
         table = self.model_dump(mode="json", exclude={"scene": True, "traced": True})
         if self.traced:
             light = self.traced.model_dump(mode="json", exclude={"scene"})
             table["traced"] = {"scene": scene_to_dict(self.traced.scene), **light}
+        if self.assets:
+            table["assets"] = self.assets
         return json.dumps({"scene": scene_to_dict(self.scene), **table}, allow_nan=False)
 
     @classmethod
@@ -108,13 +117,15 @@ class Recipe(Frozen):
         Raises `SceneError` with one paragraph for anything else.
         """
         table = _table(text, source)
-        table["scene"] = parse_scene(table["scene"], f"{source} (scene of its recipe)")
+        hashes = _hashes(table.pop("assets", {}), source)
+
+        def parsed(scene: dict[str, Any], what: str) -> Scene:
+            return with_hashes(parse_scene(scene, f"{source} ({what} of its recipe)"), hashes)
+
+        table["scene"] = parsed(table["scene"], "scene")
         light = table.get("traced")
         if isinstance(light, dict) and isinstance(light.get("scene"), dict):
-            table["traced"] = {
-                **light,
-                "scene": parse_scene(light["scene"], f"{source} (scene traced, of its recipe)"),
-            }
+            table["traced"] = {**light, "scene": parsed(light["scene"], "scene traced,")}
         try:
             return cls.model_validate(table)
         except ValidationError as error:
@@ -131,6 +142,13 @@ def _table(text: str, source: str) -> dict[str, Any]:
     if not isinstance(table, dict) or not isinstance(table.get("scene"), dict):
         raise _damaged(source, "its metadata holds no scene")
     return table
+
+
+def _hashes(table: Any, source: str) -> dict[str, str]:
+    texts = list(table.values()) if isinstance(table, dict) else [None]
+    if not all(isinstance(text, str) and re.fullmatch("[0-9a-f]{64}", text) for text in texts):
+        raise _damaged(source, "its assets are not SHA-256 by path")
+    return dict(table)
 
 
 def _first_problem(error: ValidationError) -> str:

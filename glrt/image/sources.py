@@ -2,15 +2,18 @@
 
 import os
 import sys
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TextIO
+from typing import Any, NamedTuple, TextIO
 
 from glrt.errors import UsageError
 from glrt.files import reason
 from glrt.image.image import read_recipe
 from glrt.image.recipe import Recipe
+from glrt.scene.assets import AssetFolder
 from glrt.scene.catalog import PICTURES, find
+from glrt.scene.loading import files_of, with_files
 from glrt.scene.scene import Scene
 from glrt.scene.toml import LARGEST, decode_scene, read_scene
 from glrt.scene.validation import scene_error
@@ -21,27 +24,82 @@ STANDARD_INPUT = "-"  # as a SCENE
 _ITS_NAME = "standard input"
 
 
-def load(source: str | Path) -> Scene:
+class FileRules(NamedTuple):
+    """Which files a scene may name; what the user says, never a scene or a picture."""
+
+    allow_outside: bool = False  # of the folder of the scene
+    folder: Path | None = None  # of the files, where it is not that of the scene or the picture
+    accept_changed: bool = False  # since a picture was made with them
+
+
+STRICT = FileRules()
+
+
+def load(
+    source: str | Path,
+    *,
+    allow_outside: bool = False,
+    assets_from: str | Path | None = None,
+    accept_changed: bool = False,
+) -> Scene:
     """The scene of a TOML file, of a name in the folder `scenes`, or of a rendered picture.
 
     A path comes first, then a name with or without `.toml`; a name may contain folders, as
-    `methods/glass`. `-` is a TOML file on standard input. Raises `SceneError` with one paragraph if
-    there is no such scene or it is wrong, `UsageError` for a picture without recipe.
+    `methods/glass`. `-` is a TOML file on standard input. The files that the scene names are read
+    from its folder, or that of the picture, or from `assets_from`, and not from outside of it
+    unless `allow_outside`. Those of a picture must be the ones that it was made with, unless
+    `accept_changed`. Raises `SceneError` with one paragraph if there is no such scene or it is
+    wrong, `UsageError` for a picture without recipe.
     """
-    return load_recipe(source)[0]
+    folder = None if assets_from is None else Path(assets_from)
+    return load_recipe(source, FileRules(allow_outside, folder, accept_changed))[0]
 
 
-def load_recipe(source: str | Path) -> tuple[Scene, Settings | None]:
+def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, Settings | None]:
     """`load`, and the settings of a picture's recipe with the samples that it really took.
 
     The settings are None for a scene file, whose wishes are in `scene.render`.
     """
-    if _is_standard_input(source):
-        return _scene_of(sys.stdin), None
     recipe = recipe_of(source)
-    if recipe is None:
-        return read_scene(find(source)), None
-    return recipe.scene, recipe.taken
+    if recipe is not None:
+        return files_read(recipe, find(source), rules).scene, recipe.taken
+    if _is_standard_input(source):
+        scene, folder = _scene_of(sys.stdin), None
+    else:
+        path = find(source)
+        scene, folder = read_scene(path), path.absolute().parent
+    return _with_files(scene, folder, rules, shown(source)), None
+
+
+def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Recipe:
+    """The recipe of a picture with the content of the files that it names.
+
+    Raises `SceneError` for one that is missing or is not as the picture was made with.
+    """
+
+    def read(scene: Scene) -> Scene:
+        return _with_files(scene, picture.absolute().parent, rules, shown(picture), recipe.assets)
+
+    if not files_of(recipe.scene):
+        return recipe
+    update: dict[str, Any] = {"scene": read(recipe.scene)}
+    if recipe.traced:
+        update["traced"] = recipe.traced.model_copy(update={"scene": read(recipe.traced.scene)})
+    return recipe.model_copy(update=update)
+
+
+def _with_files(
+    scene: Scene,
+    folder: Path | None,
+    rules: FileRules,
+    source: str,
+    expected: Mapping[str, str] | None = None,
+) -> Scene:
+    base = rules.folder or folder
+    if base is None and files_of(scene):
+        raise scene_error(source, "it names files, and has no folder: give --assets-from DIR")
+    kept = AssetFolder(base or Path(), rules.allow_outside, expected, rules.accept_changed)
+    return with_files(scene, kept, source)
 
 
 def recipe_of(source: str | Path) -> Recipe | None:

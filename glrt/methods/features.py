@@ -78,6 +78,7 @@ class Needs:
     has_lens: bool
     has_background: bool
     has_horizon: bool  # a background of two gradients
+    has_environment: bool  # a background in an image
     sample_lights: bool
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
@@ -101,9 +102,10 @@ class Needs:
 def everything() -> dict[str, bool | int]:
     """The constants of a kernel with every feature, for functions that are tried alone.
 
-    Paths are traced; lamps are chosen as in the scene that the caller names, or not at all.
+    Paths are traced; lamps are chosen as in the scene that the caller names, or not at all. The sky
+    has two gradients and no image, which would take their place.
     """
-    plain: Any = {field.name: True for field in fields(Needs)}
+    plain: Any = {field.name: field.name != "has_environment" for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
     return Needs(**{**plain, **sets, "model": 0, "clusters": 0, "block": 1}).constants()
 
@@ -138,6 +140,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_background=any(map(any, scene.background_colors)),
         has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
+        has_environment=any(map(any, scene.background_colors)) and bool(scene.background.image),
         sample_lights=is_lit and traits.samples_lights,
         weight_both=is_lit and traits.weights_both,
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
@@ -195,6 +198,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         Feature("background", needs.has_background, _background(scene)),
         Feature("horizon", needs.has_horizon, _horizon(scene)),
+        Feature("image of the sky", needs.has_environment, _environment(scene)),
         Feature("light sampling", needs.sample_lights, f"method {method}, {lamps}"),
         *(
             Feature(f"{kind} lamps", kind in needs.lamps, f"method {method}, {lamps}")
@@ -230,6 +234,13 @@ def _background(scene: Scene) -> str:
 def _horizon(scene: Scene) -> str:
     is_given = scene.background.horizon is not None
     return f"background.horizon is {'given' if is_given else 'not given'}"
+
+
+def _environment(scene: Scene) -> str:
+    image = scene.background.image
+    if image is None:
+        return "background.image is not given"
+    return f"background.image is {image.file}; it is found by scattering alone"
 
 
 def _model(settings: Settings) -> str:

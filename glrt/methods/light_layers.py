@@ -11,7 +11,6 @@ from typing import Literal
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.methods.features import needs_of, used_materials
-from glrt.scene.background import Background
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.values import Radiance
@@ -177,6 +176,8 @@ def _unlit(scene: Scene) -> Scene:
         name: m.model_copy(update={"emission": NONE}) if isinstance(m, Light) else m
         for name, m in scene.materials.items()
     }
-    given = {n: NONE for n, color in scene.background if n != "color" and color is not None}
-    update = {"materials": materials, "lights": {}, "background": Background(**given)}
+    ends = ("bottom", "horizon", "top")
+    given = {n: NONE for n in ends if getattr(scene.background, n) is not None}
+    background = scene.background.model_copy(update={"color": None, **given})
+    update = {"materials": materials, "lights": {}, "background": background}
     return scene.model_copy(update=update)

@@ -46,7 +46,10 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
     for kind in KINDS:
         if kind in lamps and kind not in SAMPLED:
             yield f"{kind} lamps light nothing"
-    if any(map(any, scene.background_colors)) and len(scene.objects) > 1:
+    has_sky = any(map(any, scene.background_colors))
+    if has_sky and scene.background.image is not None:
+        yield "the image of the sky lights nothing"
+    elif has_sky and len(scene.objects) > 1:
         yield "nothing hides the sky"
     if not traits.has_lens and scene.camera.defocus_angle > 0:
         yield "everything is in focus"

@@ -5,19 +5,29 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from glrt.errors import RenderError
+from glrt.errors import RenderError, SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Images, Kernel, Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
 from glrt.methods.features import Contents, contents_of, needs_of
 from glrt.methods.light_layers import Plan
+from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.passes import RenderPass
-from glrt.rendering.pipelines import KernelOptions, Tier, scene_text, sources, tier_for, upload
+from glrt.rendering.pipelines import (
+    ENVIRONMENT,
+    KernelOptions,
+    Tier,
+    scene_text,
+    sources,
+    tier_for,
+    upload,
+)
 from glrt.rendering.schedule import DispatchRange, stride_of
+from glrt.scene.loading import check_loaded
 from glrt.scene.scene import Scene
 
 
@@ -59,10 +69,13 @@ class DeviceScene:
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
+        self._sky: ImageTexture | None = None
+        check_loaded(plan.scene)
         try:
             with context.checked("the scene"):
                 self._upload()
-        except RenderError:
+                self._sky = _sky_image(context, plan.scene, before._sky if before else None)
+        except (RenderError, SceneError):
             self.release()
             raise
 
@@ -102,7 +115,10 @@ class DeviceScene:
         """Let a kernel add a part's samples to a film, a picture of `tiles`."""
         numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers))
-        kernel.bind(self._resources, film.images())
+        resources = self._resources
+        if self._sky:
+            resources = {**resources, ENVIRONMENT: self._sky.texture}
+        kernel.bind(resources, film.images())
         kernel.run_tiles(part.tiles)
 
     def lost_any(self) -> bool:
@@ -114,8 +130,9 @@ class DeviceScene:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for resource in self._resources.values():
-            resource.release()
+        for resource in (*self._resources.values(), self._sky):
+            if resource:
+                resource.release()
 
     def _upload(self) -> None:
         self._frame = self._resources["FrameBlock"] = self._gl.buffer(
@@ -131,6 +148,13 @@ class DeviceScene:
 
     def _shaders(self, texts: Mapping[str, str]) -> list[Source]:
         return sources(self._options.pipeline, self._constants, texts)
+
+
+def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> ImageTexture | None:
+    image = scene.background.image
+    if image is None:
+        return None
+    return (known and known.shared(image)) or ImageTexture(context, image, "background.image")
 
 
 def _packed(scene: Scene, contents: Contents, before: DeviceScene | None) -> Arrays:

@@ -10,10 +10,11 @@ from glrt.gpu.evaluate import Probe, path_files
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
 from glrt.methods.features import contents_of, everything
+from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
-from glrt.rendering.pipelines import scene_text, upload
+from glrt.rendering.pipelines import ENVIRONMENT, scene_text, upload
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 
@@ -53,7 +54,11 @@ def resources_of(gl: moderngl.Context, scene: Scene | None, arrays: Arrays) -> d
     if scene:
         counts = {struct: len(rows) for struct, rows in arrays.items()}
         frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1)
-    return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame)}
+    image = scene.background.image if scene else None
+    sky = (
+        {} if image is None or image.pixels is None else {ENVIRONMENT: texture_of(gl, image.pixels)}
+    )
+    return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 
 
 def _choice(scene: Scene) -> dict[str, bool | int]:

@@ -86,6 +86,7 @@ def pack_frame(
         "bounces": settings.bounces,
         "background_horizon": horizon[0] if horizon else BLACK,
         "background_top": top,
+        "background_turn": (scene.background.rotation or 0.0) / 360 % 1.0,
         "seed": settings.seed,
         "size": (settings.width, settings.height),
         "origin": settings.crop[:2] if settings.crop else (0, 0),

@@ -17,6 +17,7 @@ from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 # "baked" writes the shapes into the kernel's text, so that each edit of them compiles; "generic"
 # reads them. Materials are never written: a colour is to change without compiling.
 Tier = Literal["generic", "baked"]
+ENVIRONMENT = "environment_image"  # the texture of the image of the sky
 MOST_BAKED = 32  # shapes
 
 
@@ -58,7 +59,21 @@ def tier_for(arrays: Arrays, wanted: Tier) -> Tier:
 
 def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
     """The shader file that is written for a scene."""
-    return scene_arrays(arrays, NUMBERED, _constant(tier), uniform_bytes(gl))
+    return text_of(arrays, tier, uniform_bytes(gl))
+
+
+def text_of(arrays: Arrays, tier: Tier, most_bytes: int) -> str:
+    """The same for a driver whose uniform blocks hold so many bytes."""
+    return scene_arrays(arrays, NUMBERED, _constant(tier), most_bytes) + _SKY
+
+
+_SKY = f"""
+uniform sampler2D {ENVIRONMENT};
+ivec2 environment_size() {{ return textureSize({ENVIRONMENT}, 0); }}
+vec3 environment_pixel(int column, int row) {{
+    return texelFetch({ENVIRONMENT}, ivec2(column, row), 0).rgb;
+}}
+"""
 
 
 def upload(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:

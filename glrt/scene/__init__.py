@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - assets: files that a scene names, held to its folder and hashed
 - float_images: Radiance .hdr and OpenEXR files as arrays
 - image_files: images in files, of any format, as arrays of linear values
+- named_images: images that a scene names by a path
 - camera: where a scene is seen from
 - background: light from infinity
 - materials: what surfaces are made of
@@ -14,6 +15,7 @@ Modules, each importing only what stands above it:
 - cylinder: the round one of them, with ends or without
 - shapes: what there is to see
 - contents: the fields of a scene
+- loading: the files that a scene names, read into it
 - tables: the parts of a scene as plain tables, and tables as TOML
 - validation: what is wrong with a scene, in words
 - scene: all of it together, and whether the parts fit

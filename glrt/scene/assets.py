@@ -58,6 +58,7 @@ class Asset:
     path: str
     content: bytes = field(repr=False)
     sha256: str
+    origin: Path = field(compare=False)  # the file itself, without links
 
     @property
     def size(self) -> int:
@@ -113,7 +114,7 @@ class AssetReader:
         content = known.content if known else self._content(name, real)
         digest = known.sha256 if known else hashlib.sha256(content).hexdigest()
         _check_content(name, digest, self._folder)
-        asset = Asset(name, content, digest)
+        asset = Asset(name, content, digest, Path(real))
         self._by_file.setdefault(real, asset)
         return asset
 

@@ -4,16 +4,29 @@ from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, model_validator
 
-from glrt.scene.values import BLACK, Radiance, Triple, Value
+from glrt.scene.named_images import ImageFile, NamedImage
+from glrt.scene.values import BLACK, Angle, Number, Radiance, Triple, Value
 from glrt.settings import Cost, Editable
+
+WHITE = (1.0, 1.0, 1.0)
 
 
 class Background(Value):
-    """Light from infinitely far away: one colour, or a vertical gradient, or two."""
+    """Light from infinitely far away: a colour, one or two vertical gradients, or an image."""
 
     color: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
-        description="radiance from every direction; default: black",
+        description="radiance from every direction, default: black; with an image, a factor of "
+        "its radiance, default: white",
+    )
+    image: NamedImage | None = Field(
+        None,
+        description="path of an image of all directions, .hdr or .exr, also .png, .jpg or .webp: "
+        "the top row is straight up, the middle column -z, three quarters of the width +x",
+    )
+    rotation: Annotated[Angle | None, Editable(Cost.RESTART, "degrees", (-180, 180))] = Field(
+        None,
+        description="turns the image about the y axis: 90 moves what stood at -z to -x; default: 0",
     )
     bottom: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
@@ -35,6 +48,8 @@ class Background(Value):
             self,
             *,
             color: Triple | None = None,
+            image: ImageFile | str | None = None,
+            rotation: Number | None = None,
             bottom: Triple | None = None,
             horizon: Triple | None = None,
             top: Triple | None = None,
@@ -42,8 +57,11 @@ class Background(Value):
 
     @property
     def gradient(self) -> tuple[Radiance, ...]:
-        """Radiance from straight below, the horizon where it is given, and straight above."""
-        flat = self.color or BLACK
+        """Radiance from straight below, the horizon where it is given, and straight above.
+
+        With an image, the factor of its radiance.
+        """
+        flat = self.color or (WHITE if self.image else BLACK)
         middle = () if self.horizon is None else (self.horizon,)
         return (self.bottom or flat, *middle, self.top or flat)
 
@@ -55,4 +73,8 @@ class Background(Value):
             raise ValueError("horizon goes with bottom and top; give all three, or color alone")
         if self.color is not None and self.top is not None:
             raise ValueError("color excludes bottom and top; give color alone, or bottom and top")
+        if self.image is not None and self.top is not None:
+            raise ValueError("image excludes bottom and top; give image alone, or with color")
+        if self.rotation is not None and self.image is None:
+            raise ValueError("rotation turns an image; give image, or leave rotation out")
         return self

@@ -12,9 +12,11 @@ from pydantic import model_validator
 
 from glrt.errors import SceneError, UsageError
 from glrt.files import write_text
+from glrt.scene.assets import AssetFolder
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.contents import Contents
+from glrt.scene.loading import copy_files, with_files
 from glrt.scene.materials import Dielectric, Light, Material
 from glrt.scene.shapes import Shape
 from glrt.scene.tables import to_tables, toml_text
@@ -40,12 +42,14 @@ class Scene(Contents):
         lights: Mapping[str, Number] | None = None,
         render: RenderSettings | Mapping[str, Any] | None = None,
         title: str | None = None,
+        folder: str | Path = ".",
     ) -> Self:
         """A scene from values: models such as `glrt.Sphere`, or dicts with the keys of scene files.
 
         Objects name their material by a key of `materials`. A vector or a colour is a list, a tuple
         or an array of shape (3,), a number also one of numpy's. What is left out has the default of
-        scene files. Raises `SceneError`, one paragraph that names each mistake as in a file.
+        scene files. Files that the scene names are read from `folder`. Raises `SceneError`, one
+        paragraph that names each mistake as in a file.
         """
         tables = to_tables(
             title=title,
@@ -56,17 +60,20 @@ class Scene(Contents):
             lights=lights,
             objects=objects,
         )
-        return validated(cls, tables, "Scene.build")
+        source = "Scene.build"
+        return with_files(validated(cls, tables, source), AssetFolder(Path(folder)), source)
 
     def save(self, path: str | Path) -> None:
         """Write a scene file, with a name in .toml, that `load` reads back as an equal scene.
 
-        Raises `UsageError` for another suffix, `RenderError` if the file cannot be written; an
-        existing file is then unchanged.
+        Files that the scene names are copied beside it where they are not there. Raises
+        `UsageError` for another suffix, and where another file has the name of a copy;
+        `RenderError` if a file cannot be written: an existing one is then unchanged.
         """
         file = Path(path)
         if file.suffix.lower() != ".toml":
             raise UsageError(f"Cannot write {path}: the name of a scene file must end in .toml.")
+        copy_files(self, file.parent)
         write_text(file, toml_text(self))
 
     @property

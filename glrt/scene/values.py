@@ -55,6 +55,8 @@ Color = tuple[Fraction, Fraction, Fraction]
 Intensity = Annotated[float, Field(ge=0, le=LARGEST)]
 Radiance = tuple[Intensity, Intensity, Intensity]
 
+Angle = Annotated[float, Field(ge=-360_000, le=360_000)]  # degrees
+
 BLACK = (0.0, 0.0, 0.0)
 
 # What Python code may give where a scene has a number, and where it has a vector or a colour.

@@ -1,7 +1,41 @@
-// Light from infinitely far away: a gradient over the height of a direction. HAS_HORIZON: two, each from
-// the horizon to a pole.
+// Light from infinitely far away: a gradient over the height of a direction, or an image. HAS_HORIZON: two
+// gradients, each from the horizon to a pole.
+
+// From 0 to PI, of a sine that is not below 0.
+float angle_of(float sine, float cosine) {
+    precise float size = abs(cosine);
+    precise float acute = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
+    precise float angle = cosine < 0.0 ? PI - acute : acute;
+    return angle;
+}
+
+// The image of the sky, of all directions: the top row is +y, the middle column -z, three quarters of the
+// width +x. Between the centres of four pixels; around the vertical axis there is no edge.
+vec3 environment(vec3 direction) {
+    ivec2 size = environment_size();
+    precise float across = sqrt(direction.x * direction.x + direction.z * direction.z);
+    precise float azimuth = abs(direction.x) + abs(direction.z) > 0.0 ? angle_of(abs(direction.x), -direction.z) : 0.0;
+    precise float turned = direction.x < 0.0 ? -azimuth : azimuth;
+    precise float turns = 0.5 / PI * turned + 0.5 + frame.background_turn;
+    precise float height = angle_of(across, direction.y) / PI;
+    precise vec2 place = vec2(turns, height) * vec2(size) - 0.5;
+    precise vec2 corner = floor(place);
+    precise vec2 share = place - corner;
+    ivec2 low = ivec2(corner);
+    ivec2 columns = (ivec2(low.x, low.x + 1) + size.x) % size.x;
+    ivec2 rows = clamp(ivec2(low.y, low.y + 1), 0, size.y - 1);
+    precise vec3 upper_left = environment_pixel(columns.x, rows.x);
+    precise vec3 upper_right = environment_pixel(columns.y, rows.x);
+    precise vec3 lower_left = environment_pixel(columns.x, rows.y);
+    precise vec3 lower_right = environment_pixel(columns.y, rows.y);
+    precise vec3 upper = upper_left + share.x * (upper_right - upper_left);
+    precise vec3 lower = lower_left + share.x * (lower_right - lower_left);
+    precise vec3 radiance = upper + share.y * (lower - upper);
+    return radiance;
+}
 
 vec3 background(vec3 direction) {
+    if (HAS_ENVIRONMENT) return frame.background_top * environment(direction);
     if (HAS_HORIZON) {
         precise vec3 pole = direction.y < 0.0 ? frame.background_bottom : frame.background_top;
         precise vec3 mixed = frame.background_horizon + abs(direction.y) * (pole - frame.background_horizon);
@@ -12,18 +46,11 @@ vec3 background(vec3 direction) {
     return radiance;
 }
 
-// From 0 to PI, of a sine that is not below 0.
-float angle_of(float sine, float cosine) {
-    precise float size = abs(cosine);
-    precise float acute = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
-    precise float angle = cosine < 0.0 ? PI - acute : acute;
-    return angle;
-}
-
 // Irradiance over PI of a surface that sees all of its half of the sky. Of one gradient that is the
 // radiance two thirds of the way up along the normal. Of two, each half of the sky adds what two
 // clamped cosines at an angle a have in common: 2/3 (sin a + (PI - a) cos a).
 vec3 unhidden_sky(vec3 normal) {
+    if (HAS_ENVIRONMENT) return vec3(0.0);  // models leave it out
     precise vec3 two_thirds_up = 2.0 / 3.0 * normal;
     if (!HAS_HORIZON) return background(two_thirds_up);
     precise float sine = sqrt(normal.x * normal.x + normal.z * normal.z);

@@ -32,4 +32,5 @@ struct Frame {
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;
     int node_count;
+    float background_turn;  // of its image about +y, in turns from 0 to 1
 };

@@ -12,7 +12,7 @@ from glrt.cli.main import main
 from glrt.errors import SceneError
 from glrt.image import sources
 from glrt.image.image import read_recipe
-from glrt.image.sources import load, scene_file_of
+from glrt.image.sources import STRICT, load, scene_file_of
 from glrt.resources import folder
 from glrt.scene import catalog, toml
 from glrt.scene.catalog import all_scene_names
@@ -128,7 +128,7 @@ def test_inspect_and_chart_read_it_too(
     assert main(["inspect", "-"]) == 0
     assert capsys.readouterr().out.startswith(f"standard input: {load('sky').title}\n")
     given(SKY, monkeypatch)
-    assert chart._scenes(["-"]) == {"standard-input": load("sky")}
+    assert chart._scenes(["-"], STRICT) == {"standard-input": load("sky")}
     assert scene_file_of("-") is None, "no file for the window to save in, or to watch"
 
 

@@ -158,7 +158,7 @@ def test_the_user_can_allow_what_lies_outside(base: Path, tmp_path: Path) -> Non
     reader = AssetReader(AssetFolder(base, allow_outside=True))
     for path in ("../secret", "file", str(tmp_path / "secret")):
         assert reader.read(path, WHERE).content == SECRET
-    reader.read("room.mtl", WHERE, named_by=Asset("../other/room.obj", b"", ""))
+    reader.read("room.mtl", WHERE, named_by=Asset("../other/room.obj", b"", "", tmp_path))
     absolute = (tmp_path / "secret").as_posix()
     assert list(reader.hashes) == ["../secret", "file", absolute, "../other/room.mtl"]
 

@@ -1,15 +1,13 @@
 """The shader file that is written for a scene, as the kernel of each tier gets it."""
 
-from glrt.gpu.struct_arrays import FILE, MOST_UNIFORM_BYTES, scene_arrays
+from glrt.gpu.struct_arrays import FILE, MOST_UNIFORM_BYTES
 from glrt.image.sources import load
 from glrt.rendering.pack import pack_scene
-from glrt.rendering.pack_shapes import NUMBERED
-from glrt.rendering.pipelines import Tier
+from glrt.rendering.pipelines import Tier, text_of
 
 
 def written_for(
     scene: str = "cornell", tier: Tier = "generic", uniform_bytes: int = MOST_UNIFORM_BYTES
 ) -> dict[str, str]:
     """By its name, as `Source` takes it."""
-    constant = NUMBERED if tier == "baked" else ()
-    return {FILE: scene_arrays(pack_scene(load(scene)), NUMBERED, constant, uniform_bytes)}
+    return {FILE: text_of(pack_scene(load(scene)), tier, uniform_bytes)}

@@ -195,14 +195,20 @@ def _display(app: App) -> None:
 
 
 def _background(app: App) -> None:
-    """One colour, or a gradient from bottom to top, with or without a horizon."""
+    """An image, one colour, or a gradient from bottom to top, with or without a horizon."""
     background = app.session.scene.background
     bottom, *_, top = background.gradient
-    values: dict[str, Any] = {n: color for n, color in background if color is not None}
+    values: dict[str, Any] = {n: value for n, value in background if value is not None}
+    kept = {"image": values.pop("image")} if background.image else {}
+    if background.image:
+        imgui.text_wrapped(background.image.file)
+        values = {"color": top, "rotation": background.rotation or 0.0}
     values = values or {"color": bottom}
     changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
     if changes:
-        app.edit_scene("background", partial(_with_background, **{**values, **changes}))
+        app.edit_scene("background", partial(_with_background, **{**kept, **values, **changes}))
+    if background.image:
+        return
     ends: dict[str, Any] = {"bottom": bottom, "top": top}
     wanted = edited(GRADIENT, background.top is not None)
     if wanted is not None:

@@ -19,6 +19,7 @@ from glrt.image.recipe import Recipe
 from glrt.methods.light_layers import Layering
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
+from glrt.scene.loading import with_stand_ins
 from glrt.settings import Settings, settings_for
 from glrt.version import VERSION
 
@@ -112,7 +113,8 @@ def _ready(recipe: Recipe, layering: Layering) -> Iterator[Renderer]:
     pipeline: Resolved = "fragment" if recipe.pipeline == "fragment" else "compute"
     context = _same_driver(recipe.renderer, pipeline)
     settings = _cropped(recipe.settings)
-    renderer = Renderer(recipe.scene, settings, context, pipeline=pipeline, layering=layering)
+    scene = with_stand_ins(recipe.scene)
+    renderer = Renderer(scene, settings, context, pipeline=pipeline, layering=layering)
     yield renderer
     renderer.release()
     context.gl.release()
