@@ -127,7 +127,7 @@ def test_worst_and_best_are_named() -> None:
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
     """A checkout in small."""
-    for name in ("glrt/error/estimate.py", "shaders_glsl/trace.glsl", "docs/index.md"):
+    for name in ("glrt/error/estimate.py", "shaders_glsl/trace.glsl", "docs/README.md"):
         path = tmp_path / name
         path.parent.mkdir(parents=True)
         path.write_text("first")
@@ -146,7 +146,7 @@ def test_another_program_has_another_seed(tree: Path, name: str) -> None:
 
 def test_what_is_no_part_of_the_program_leaves_the_seed(tree: Path) -> None:
     before = seed_of(tree)
-    (tree / "docs/index.md").write_text("other")
+    (tree / "docs/README.md").write_text("other")
     (tree / "glrt/__pycache__").mkdir()
     (tree / "glrt/__pycache__/estimate.pyc").write_text("compiled")
     assert seed_of(tree) == before
