@@ -215,7 +215,8 @@ def _print(parsed: argparse.Namespace) -> int:
     versions = installed(commands)
     if len(versions) < len(commands):
         raise RenderError("glrt is compared with Mitsuba here: it needs both.")
-    first, place = seed_of(), machine(*versions.values())
+    first = seed_of() if parsed.seed is None else parsed.seed
+    place = machine(*versions.values())
     work = (
         f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} renders of each, "
         f"turns of about {parsed.seconds:g} s, seeds from {first} on"
@@ -245,6 +246,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = parser_of("unseen", __doc__)
     add = parser.add_argument
     add("--scenes", type=at_least(1), default=24, metavar="N", help="at most (default: 24)")
+    told = "the first one (default: from the hash); for the scenes of a printed table"
+    add("--seed", type=at_least(0), metavar="SEED", help=told)
     told = "no scene begins that would end later (default: 55)"
     add("--minutes", type=float, default=55, metavar="M", help=told)
     add_rounds(parser, size=256, rounds=16)

@@ -172,6 +172,24 @@ def test_the_command_measures_scenes_as_long_as_there_is_time(
     assert scene["seed"] == seed_of()
 
 
+def test_a_seed_of_a_table_renders_its_scene_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    turns = tmp_path / "turns"
+    peers = {"glrt": painter("Own 1", 1e-3, turns), "Mitsuba": painter("Other 2", 4e-3, turns)}
+    monkeypatch.setattr(unseen, "PEERS", peers)
+    seeds: list[int] = []
+
+    def measure(commands: object, seed: int, *rest: object) -> Result:
+        seeds.append(seed)
+        return made_up(seed, 0.5, 1.0)
+
+    monkeypatch.setattr(unseen, "measure", measure)
+    assert main(["--seed", "7", "--scenes", "2"]) == 0
+    assert seeds == [7, 8]
+    assert "seeds from 7 on" in capsys.readouterr().out
+
+
 def test_without_mitsuba_there_is_no_comparison(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
