@@ -17,8 +17,11 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - aov_sheet: the picture of docs/how-to/aovs.md
 - memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
+- unseen: the lead over Mitsuba on scenes drawn from a hash of the program
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
+- methods_compared: its false alarms between different methods
+- changes_found: whether it finds changes of the size that it says it would have found
 - window_tour: frame times of the window, driven by a script
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml
@@ -28,12 +31,15 @@ What they share:
 - program: options, the description of the machine, and errors in one paragraph
 - shader_edits: kernels with edited shader sources
 - processes: processes that answer requests over pipes
-- peer: other renderers as such processes
+- peer: renderers as such processes
+- glrt_peer: glrt as one of them
+- entries: glrt and other renderers as they take part in a contest
+- turns: renderers that take turns, and whether that costs them speed
 - against_side: one side of `against`, which may import a much older glrt
 - gpu_way: one route, pipeline and tier, measured in a process of its own for `gpu`
 - checkouts: another commit in a temporary folder
 - ratios: ratios of times from interleaved rounds, with intervals
-- contest: one renderer against another, from many short renders
+- contest: one renderer against another, from many renders
 - cold_start: time and memory of a process to its first picture
 - contact_sheet: pictures in rows
 - screens: virtual X servers

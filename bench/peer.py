@@ -1,17 +1,19 @@
-"""Other renderers, each in a process that renders on request, so that its start is not timed.
+"""Renderers, each in a process that renders on request, so that its start is not timed.
 
 Requests and answers are lines of JSON on stdin and stdout; pictures are passed as files. The
-process of the benchmark imports none of these renderers, and a crash of one does not affect it.
+process of the benchmark imports none of the others, and a crash of one does not affect it.
 """
 
+import ctypes
 import json
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -36,9 +38,12 @@ class Request:
     bounces: int
     samples: int
     seed: int
+    method: str = "mis"
+    sampler: str = ""  # by the renderer's own name; default: its usual one
     roulette: bool = True
     one_sided: bool = False  # quads emit light only on the side of their normal
     finite: bool = False  # planes may be replaced by large polygons
+    native: bool = False  # materials may be replaced by similar ones of the renderer's own
     batches: int = 1  # parts from which standard errors are estimated; with 1 there are none
 
     @classmethod
@@ -52,10 +57,14 @@ class Request:
 
 
 class Peer:
-    """The running process of another renderer."""
+    """The running process of a renderer."""
 
-    def __init__(self, command: Sequence[str]) -> None:
-        """Start it; raises RenderError with its last message if it does not get ready."""
+    def __init__(self, command: Sequence[str], is_paused_at_rest: bool = False) -> None:
+        """Start it; raises RenderError with its last message if it does not get ready.
+
+        With `is_paused_at_rest` it is stopped whenever it does not render.
+        """
+        self._is_paused_at_rest = is_paused_at_rest
         _remove_forgotten_folders()
         self._folder = tempfile.TemporaryDirectory(prefix=PREFIX)
         self._process = Process(command, Path(self._folder.name, "log"))
@@ -64,12 +73,26 @@ class Peer:
         except RenderError:
             self.close()
             raise
+        if is_paused_at_rest:
+            self._process.pause()
 
     def render(self, request: Request) -> tuple[Image, float]:
         """Return a picture and the seconds that it took; raises RenderError on failure."""
         output = Path(self._folder.name, "picture.exr")
-        answer = self._process.ask({**asdict(request), "output": str(output)})
+        with self._awake():
+            answer = self._process.ask({**asdict(request), "output": str(output)})
         return Image.load(output), answer["seconds"]
+
+    @contextmanager
+    def _awake(self) -> Iterator[None]:
+        if not self._is_paused_at_rest:
+            yield
+            return
+        self._process.resume()
+        try:
+            yield
+        finally:
+            self._process.pause()
 
     def close(self) -> None:
         """End the program."""
@@ -87,6 +110,7 @@ def _remove_forgotten_folders() -> None:
 
 def serve(name: str, render: Callable[[Request], tuple[Image, float]]) -> None:
     """Answer requests until stdin ends; called in the process of the renderer `name`."""
+    _end_with_parent()
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # output of libraries must not mix with the answers
 
@@ -104,3 +128,10 @@ def serve(name: str, render: Callable[[Request], tuple[Image, float]]) -> None:
             answer(error=" ".join(str(error).split()))
         else:
             answer(seconds=seconds)
+
+
+def _end_with_parent() -> None:
+    """On Linux, let this process end with its parent; a paused one does not see stdin end."""
+    if sys.platform == "linux":
+        set_signal_of_parents_end = 1  # PR_SET_PDEATHSIG
+        ctypes.CDLL(None).prctl(set_signal_of_parents_end, signal.SIGKILL)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -51,8 +52,16 @@ class Process:
         answer: dict[str, Any] = json.loads(line)
         return answer
 
+    def pause(self) -> None:
+        """Stop the program with all of its threads: it takes no time of any processor."""
+        self._process.send_signal(signal.SIGSTOP)
+
+    def resume(self) -> None:
+        """Let a paused program go on."""
+        self._process.send_signal(signal.SIGCONT)
+
     def close(self) -> None:
-        """End the program."""
+        """End the program, also a paused one."""
         self._process.kill()
         self._process.communicate()
 

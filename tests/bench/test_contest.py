@@ -10,7 +10,9 @@ import pytest
 from bench import rivals
 from bench.cold_start import starts
 from bench.contest import Factor, Runs, lead_of, seconds_to
-from bench.rivals import Contender, interleaved, main
+from bench.rivals import Row, main
+from bench.turns import Pace
+from tests.bench.painter import painter
 from tests.support.alarms import book
 
 LEVEL = np.linspace(0.5, 2, 12 * 12 * 3).reshape(12, 12, 3)
@@ -65,40 +67,6 @@ def test_a_factor_is_written_with_its_interval() -> None:
     assert str(Factor(3.456, 3.0, 4.0)) == "3.46 (3.00-4.00)"
 
 
-def test_contenders_take_turns_with_seeds_of_their_own() -> None:
-    calls: list[tuple[str, int, int]] = []
-
-    def contender(name: str, cost: float, block: int) -> Contender:
-        def render(samples: int, seed: int) -> tuple[rivals.Picture, float]:
-            calls.append((name, samples, seed))
-            return np.full((2, 2, 3), seed, np.float32), cost * samples
-
-        return Contender(name, render, block)
-
-    found = interleaved([contender("a", 0.001, 1), contender("b", 0.002, 16)], 3, 0.1)
-    assert [each.samples for each in found] == [100, 48]
-    expected = [
-        (name, count, seed) for seed in (1, 2, 3) for name, count in (("a", 100), ("b", 48))
-    ]
-    assert calls[-6:] == expected
-    assert found[1].pictures[:, 0, 0, 0].tolist() == [1, 2, 3]
-    assert found[1].seconds.tolist() == pytest.approx([0.096] * 3)
-
-
-FLAT_AND_SLOW = """
-import numpy as np
-from glrt import Image
-from bench.peer import serve
-
-def render(request):
-    shape = request.height, request.width, 3
-    radiance = np.random.default_rng(request.seed).uniform(0, 1, shape).astype(np.float32)
-    return Image(radiance, radiance, request.samples), 1e-3 * request.samples
-
-serve("Painter 2", render)
-"""
-
-
 PAINTER = """
 import sys, time
 assert sys.argv[1] == "cornell"
@@ -125,27 +93,41 @@ def test_a_start_is_timed_whole_with_its_memory() -> None:
 def test_figures_are_printed_and_saved_and_absent_peers_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(rivals, "LEVEL_SECONDS", 0.01)
     absent = [sys.executable, "-c", "raise SystemExit('no adapter')"]
-    peers = {"Mitsuba": [sys.executable, "-c", FLAT_AND_SLOW], "WGSL": absent}
+    turns = tmp_path / "turns"
+    own, other = painter("Own 1", 2e-4, turns), painter("Painter 2", 1e-3, turns)
+    peers = {"glrt": own, "Mitsuba": other, "WGSL": absent}
     monkeypatch.setattr(rivals, "PEERS", peers)
     monkeypatch.setattr(rivals, "PROGRAMS", {"glrt": [sys.executable, "-c", PAINTER]})
     file = tmp_path / "rivals.json"
-    line = "--scenes sky --size 16 --rounds 3 --seconds 0.005 --json"
+    line = "--scenes sky --size 16 --rounds 3 --seconds 1 --json"
     assert main([*line.split(), str(file)]) == 0
     printed = capsys.readouterr()
     assert "Without WGSL: no adapter" in printed.err
-    assert "Painter 2" in printed.out
+    assert "Own 1, Painter 2" in printed.out
+    assert "Every rate in turns is within 10% of the rate alone." in printed.out
     saved = json.loads(file.read_text())
     rows = saved["rows"]
     assert f"| glrt | {saved['first pictures']['glrt']['seconds']:.2f} s |" in printed.out
     names = ["glrt mis, independent", "glrt mis, sobol", "Mitsuba", "glrt naive"]
-    assert [
-        row["renderer"].partition(", no roul")[0].partition(", roul")[0] for row in rows
-    ] == names
+    assert [row["renderer"].partition(", r")[0].partition(", no r")[0] for row in rows] == names
     assert printed.out.count("| sky |") == len(rows)
     for row in rows[:2]:
         assert row["rival"] == rows[2]["renderer"]
         factors = {name: row["lead"][name]["value"] for name in ("time", "rate", "variance")}
         assert factors["time"] == pytest.approx(factors["rate"] * factors["variance"])
+        assert factors["rate"] == pytest.approx(5)
     assert rows[2]["lead"] is rows[3]["lead"] is None
+
+
+def test_a_renderer_slowed_down_by_turns_ends_the_command_with_1(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    row = Row("sky", "Mitsuba", 64, 1e6, Pace(1e6, 2e6), 1.0, 1.0, None, None)
+    monkeypatch.setattr(rivals, "installed", lambda commands: {})
+    monkeypatch.setattr(rivals, "PROGRAMS", {})
+    monkeypatch.setattr(rivals.Contest, "rows", lambda contest, name: [row])
+    assert main(["--scenes", "sky"]) == 1
+    printed = capsys.readouterr().out
+    assert "| sky | Mitsuba | 64 | 1.00 | 0.50 (!) |" in printed
+    assert "NOT TO BE QUOTED:\n- sky, Mitsuba: 1.00 million samples/s in turns" in printed

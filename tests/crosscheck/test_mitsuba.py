@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import glrt
@@ -144,6 +145,19 @@ def test_a_planted_difference_is_found(
 ) -> None:
     found = judged(ours(context, scene, **settings), their_picture)
     assert not found, str(found)
+
+
+def test_what_makes_mitsuba_faster_leaves_the_picture(context: Context, mitsuba: Peer) -> None:
+    """Planes that end, Mitsuba's own rough metal, and points spread over 64 samples."""
+    fast = {"finite": True, "native": True, "sampler": "multijitter"}
+    found = theirs(mitsuba, everything(), 1024, **fast)
+    assert judged(ours(context, everything()), found).verdict == "same"
+    assert not np.array_equal(found.radiance, theirs(mitsuba, everything(), 1024).radiance)
+
+
+def test_points_that_are_spread_come_in_whole_blocks(mitsuba: Peer) -> None:
+    with pytest.raises(RenderError, match="multiples of 64 samples"):
+        theirs(mitsuba, everything(), 96, sampler="multijitter")
 
 
 def test_a_lamp_without_its_back_is_found(context: Context, mitsuba: Peer) -> None:

@@ -18,6 +18,7 @@ from tests.mitsuba.near import EXTENT, Near, Vector, corners, length, near, norm
 
 ROULETTE_DEPTH = 5  # where it starts by Mitsuba's own choice
 NEVER = 1 << 30
+BLOCK = 64  # samples of a pixel among which samplers spread their points
 
 # In lengths of Mitsuba's coordinates. A plane becomes a grid so large that the gap to the horizon
 # is a small part of a pixel. Its outer cells are larger, since Mitsuba knows a point on a triangle
@@ -36,6 +37,8 @@ class Liberties(NamedTuple):
 
     one_sided: bool = False  # quads light their front alone
     finite: bool = False  # planes end far away, before the horizon
+    native: bool = False  # rough metal is Mitsuba's own, whose shadowing is not correlated
+    sampler: str = "independent"  # of the samplers of Mitsuba; all others take BLOCK samples
 
 
 def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> Words:
@@ -53,7 +56,7 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
             "max_depth": settings.bounces + 1,  # Mitsuba counts segments
             "rr_depth": ROULETTE_DEPTH if settings.roulette else NEVER,
         },
-        "camera": _camera(mi, scene, settings, at),
+        "camera": _camera(mi, scene, settings, at, liberties.sampler),
     }
     if any(map(any, scene.background_colors)):
         words["background"] = _background(mi, *scene.background_colors)
@@ -63,7 +66,7 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
     return words
 
 
-def _camera(mi: Any, scene: Scene, settings: Settings, at: Near) -> Words:
+def _camera(mi: Any, scene: Scene, settings: Settings, at: Near, sampler: str) -> Words:
     camera = scene.camera
     focus = camera.resolved_focus_distance * at.factor
     radius = focus * math.tan(math.radians(camera.defocus_angle) / 2)
@@ -79,7 +82,7 @@ def _camera(mi: Any, scene: Scene, settings: Settings, at: Near) -> Words:
         "fov_axis": "y",
         "near_clip": CLIP[0],
         "far_clip": CLIP[1],
-        "sampler": {"type": "independent"},
+        "sampler": {"type": sampler, "sample_count": BLOCK},
         "film": {
             "type": "hdrfilm",
             "width": settings.width,
@@ -106,25 +109,26 @@ def _background(mi: Any, bottom: Radiance, *rest: Radiance) -> Words:
 
 def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> Iterator[Any]:
     """The shape, or its two faces."""
+    surface = _surface(scene, item.material, liberties.native)
     if isinstance(item, Sphere):
-        yield from _sphere(scene, item, at)
+        yield from _sphere(scene, surface, item, at)
     elif isinstance(item, Plane):
         if isinstance(scene.materials[item.material], Light):
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
         grid = _grid(item, at, CELL if liberties.finite else GRID)
-        yield _mesh(mi, _surface(scene, item.material), *grid)
+        yield _mesh(mi, surface, *grid)
     elif not isinstance(item, Quad):
         raise SceneError(f"shape '{item.shape}': the converter to Mitsuba does not know it.")
     elif any(scene.emission(item.material)):
         for side in (1,) if liberties.one_sided else (1, -1):
-            yield _quad(mi, _surface(scene, item.material), item, at, side * GAP / 2)
+            yield _quad(mi, surface, item, at, side * GAP / 2)
     else:
-        yield _quad(mi, _surface(scene, item.material), item, at, 0.0)
+        yield _quad(mi, surface, item, at, 0.0)
 
 
-def _sphere(scene: Scene, item: Sphere, at: Near) -> Iterator[Words]:
+def _sphere(scene: Scene, surface: Words, item: Sphere, at: Near) -> Iterator[Words]:
     center, radius = at.point(item.center).tolist(), item.radius * at.factor
-    ball = {"type": "sphere", "center": center, **_surface(scene, item.material)}
+    ball = {"type": "sphere", "center": center, **surface}
     yield {**ball, "radius": radius}
     if any(scene.emission(item.material)) and is_seen_from_inside(item, scene):
         yield {**ball, "radius": radius - GAP, "flip_normals": True}
@@ -174,24 +178,27 @@ def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
     return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix)}
 
 
-def _surface(scene: Scene, name: str) -> Words:
+def _surface(scene: Scene, name: str, is_native: bool) -> Words:
     """How a surface scatters, on both sides, and what it emits from its front."""
     material = scene.materials[name]
     if isinstance(material, Dielectric):
         return {"bsdf": {"type": "dielectric", "int_ior": material.ior, "ext_ior": 1.0}}
-    surface: Words = {"bsdf": {"type": "twosided", "bsdf": _scattering(material)}}
+    surface: Words = {"bsdf": {"type": "twosided", "bsdf": _scattering(material, is_native)}}
     if any(scene.emission(name)):
         surface["emitter"] = {"type": "area", "radiance": _color(scene.emission(name))}
     return surface
 
 
-def _scattering(material: Any) -> Words:
+def _scattering(material: Any, is_native: bool) -> Words:
     if not isinstance(material, Metal):
         return {"type": "diffuse", "reflectance": _color(material.color)}
+    mirror = {"type": "conductor", "material": "none"}  # reflects all, at all angles
     if not material.roughness:
-        mirror = {"type": "conductor", "material": "none"}  # reflects all, at all angles
         return {**mirror, "specular_reflectance": _color(material.color)}
     alpha = material.roughness**2
+    if is_native:
+        rough = {**mirror, "type": "roughconductor", "distribution": "ggx", "alpha": alpha}
+        return {**rough, "specular_reflectance": _color(material.color)}
     return {"type": metal.NAME, "alpha": alpha, "reflectance": _color(material.color)}
 
 

@@ -26,7 +26,8 @@ def main() -> int:
         scene = asked.parsed()
         size = {"width": asked.width, "height": asked.height}
         paths = {"bounces": asked.bounces, "roulette": asked.roulette}
-        liberties = Liberties(asked.one_sided, asked.finite)
+        sampler = asked.sampler or "independent"
+        liberties = Liberties(asked.one_sided, asked.finite, asked.native, sampler)
         return Engine(mi, scene, settings_for(scene.render, **size, **paths), liberties)
 
     def render(request: Request) -> tuple[Image, float]:

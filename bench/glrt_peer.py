@@ -1,0 +1,47 @@
+"""glrt as a peer of `bench.peer`, so that it starts, waits and is timed as other renderers are."""
+
+import sys
+import time
+from dataclasses import replace
+from functools import lru_cache
+
+from bench.peer import Request, serve
+from glrt.errors import GlrtError
+from glrt.gpu.context import open_context
+from glrt.image.image import Image
+from glrt.rendering.renderer import Renderer
+from glrt.settings import settings_for
+
+
+def main() -> int:
+    """Until stdin ends; another exit code if there is no OpenGL."""
+    try:
+        context = open_context()
+    except GlrtError as error:
+        print(error, file=sys.stderr)
+        return error.exit_code
+
+    @lru_cache(maxsize=4)
+    def renderer(asked: Request) -> Renderer:
+        """As `glrt render` makes it."""
+        scene = asked.parsed()
+        size = {"width": asked.width, "height": asked.height, "bounces": asked.bounces}
+        paths = {"method": asked.method, "roulette": asked.roulette}
+        sampler = {"sampler": asked.sampler} if asked.sampler else {}
+        settings = settings_for(scene.render, **size, **paths, **sampler)
+        return Renderer(scene, settings, context, "baked")
+
+    def render(request: Request) -> tuple[Image, float]:
+        ready = renderer(replace(request, samples=1, seed=0, batches=1))
+        start = time.perf_counter()
+        ready.update(seed=request.seed)
+        ready.restart()  # also for the seed of the last picture
+        image = ready.render(request.samples).image()
+        return image, time.perf_counter() - start
+
+    serve(str(context.renderer), render)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

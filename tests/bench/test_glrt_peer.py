@@ -1,0 +1,25 @@
+"""glrt as a peer renders what `glrt render` does."""
+
+import numpy as np
+
+from bench.entries import GLRT, PEERS
+from bench.peer import Request
+from bench.turns import started
+from glrt.gpu.context import Context
+from tests.support.builders import MATTE, scene_of, sphere
+from tests.support.renders import rendered
+
+SKY = {"color": [1.0, 2.0, 3.0]}
+SCENE = scene_of([sphere([0, 0, -3], 1, "matte")], {"matte": MATTE}, background=SKY)
+
+
+def test_the_picture_is_that_of_the_request_whatever_came_before(context: Context) -> None:
+    size = {"width": 8, "height": 6, "bounces": 2}
+    with started({GLRT: PEERS[GLRT]}) as peers:
+        for sampler in ("sobol", "independent"):
+            for seed in (3, 3, 4):
+                asked = Request.of(SCENE, samples=16, seed=seed, sampler=sampler, **size)
+                image, seconds = peers[GLRT].render(asked)
+                ours = rendered(SCENE, context, 16, seed=seed, sampler=sampler, **size)
+                assert np.array_equal(image.radiance, ours.radiance)
+                assert seconds > 0
