@@ -6,7 +6,7 @@ Modules, each importing only what stands above it:
 - keys: names of keys and what they mean
 - preferences: what a user wants of any window
 - history: undo and redo
-- preview_size: how coarsely a moving camera is shown
+- preview_size: how coarsely edits in a row are shown
 - frame_budget: how long a frame may render
 - layer_limits: whether a driver has room for layers
 - idle_compile: a kernel compiled ahead by another process

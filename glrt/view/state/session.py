@@ -67,7 +67,7 @@ class Session:
         self._clock = clock
         self._announced = 0
         self._preview = Preview(clock)
-        self._budget = 0.0  # seconds: of the last frame
+        self._full_size = self.state.settings.size  # of the last edit that was applied
 
     @property
     def scene(self) -> Scene:
@@ -155,15 +155,15 @@ class Session:
     def _take(self, after: State, gesture: str = "") -> None:
         if after != self.state:
             self.history.record(self.state, gesture)
-            self._set_state(after)
+            self.state = after
 
     def undo(self) -> None:
         """Take back the last gesture."""
-        self._set_state(self.history.undo(self.state))
+        self.state = self.history.undo(self.state)
 
     def redo(self) -> None:
         """Do again what was taken back."""
-        self._set_state(self.history.redo(self.state))
+        self.state = self.history.redo(self.state)
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
@@ -173,8 +173,7 @@ class Session:
 
     def advance(self, seconds: float, count: int = 0) -> None:
         """A frame: bring edits to the renderer, then render for a time or `count` samples."""
-        self._budget = seconds
-        if self._apply_pending() and self.renderer:
+        if self._apply_pending(seconds) and self.renderer:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
@@ -207,32 +206,35 @@ class Session:
         if self.renderer:
             self.renderer.release()
 
-    def _set_state(self, after: State) -> None:
-        if after.scene.camera != self.scene.camera:
-            self._preview.move(self.settings.width * self.settings.height, self._budget)
-        self.state = after
-
     def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
         start, before = self._clock(), renderer.work
         renderer.advance(seconds, target)
         spent, done = self._clock() - start, renderer.work - before
         self.rendering += spent
+        if renderer.samples:
+            self._preview.deliver()
         is_early = renderer.samples <= FIRST_SAMPLES and not renderer.is_baked
         if done > 0 and is_early:
             width, height = renderer.size
             self._preview.record(spent / (done * width * height))
 
-    def _apply_pending(self) -> bool:
-        """Whether the renderer has all edits; what compiles is announced first."""
-        is_behind = self.is_behind
-        if is_behind and self._compiles() and self._announced < ANNOUNCED:
+    def _apply_pending(self, seconds: float) -> bool:
+        """Whether there is something to render; what compiles is announced first."""
+        cost = self._pending_cost()
+        if cost is Cost.RECOMPILE and self._announced < ANNOUNCED:
             self.busy = "Compiling a kernel for this scene"
             self._announced += 1
             return False
         self.busy, self._announced = "", 0
-        if is_behind:
+        if cost is Cost.RESTART:
+            pixels = self.settings.width * self.settings.height
+            if self._preview.goes_on(pixels, seconds):
+                return True
+            self._preview.begin(pixels, seconds)
+        if self.is_behind:
             try:
                 self._apply()
+                self._full_size = self.settings.size
             except GlrtError as error:
                 self._refuse(error)
         return self.renderer is not None
@@ -264,6 +266,7 @@ class Session:
     def _refuse(self, error: GlrtError) -> None:
         """Tell, and go back to what the renderer has; without one there is nothing to do."""
         self.problem = str(error)
+        self._preview.end()
         if not self.renderer:
             raise error
         given = self.renderer.scene, self.settings_of(self.renderer)
@@ -274,15 +277,21 @@ class Session:
         size = {"width": self.settings.width, "height": self.settings.height}
         return settings_for(renderer.settings, aov=self.settings.aov, **size)
 
-    def _compiles(self) -> bool:
-        if not self.renderer:
-            return True
-        wanted = self._wanted()
-        cost = self.renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
-        return cost is Cost.RECOMPILE
+    def _pending_cost(self) -> Cost | None:
+        """Of the edits that the renderer lacks; the size of a preview is none."""
+        renderer = self.renderer
+        if not renderer:
+            return Cost.RECOMPILE
+        if not self.is_behind:
+            return None
+        width, height = renderer.settings.size
+        settings = settings_for(self._wanted().settings, width=width, height=height)
+        cost = renderer.plan.cost_of(self.scene, settings, self.layering)
+        is_resized = self._full_size != self.settings.size
+        return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost
 
     def _wanted(self) -> State:
-        """What the renderer is to show: while the camera moves, at a size that keeps up."""
+        """What the renderer is to show: while edits restart it, at a size that keeps up."""
         shown = (self.aov,) if self.aov else ()
         settings = settings_for(self.settings, aov=(*self.settings.aov, *shown))
         factor = self._preview.factor
