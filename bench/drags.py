@@ -148,7 +148,7 @@ def _fingerprint(window: Any) -> int:
 
 def _swing(frame: int) -> float:
     """To and fro, by a step a frame: what is dragged stays in sight."""
-    return STEP * (abs(frame % 80 - 40) - 20)
+    return STEP * (20 - abs((frame + 20) % 80 - 40))
 
 
 def _shifted(number: int, aside: float, scene: Scene) -> Scene:

@@ -217,8 +217,8 @@ class App:
     def save(self, path: str = "") -> None:
         """Write the picture, with its recipe, to a path, by default to the one in its text box."""
         self.save_path = path or self.save_path
-        if not self.session.renderer or not self.session.samples:
-            return self.complain("There is no picture yet.")
+        if not self.session.samples or self.session.is_preview:
+            return self.complain("There is no picture of all pixels yet.")
         with self.telling():
             self.session.image().save(self.save_path)
             self.tell(f"Saved {self.save_path}")

@@ -141,7 +141,7 @@ class Session:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
         is_short = self.renderer is None or self.renderer.lacks(self.settings.samples)
-        return not self.is_behind and (waits or not is_short)
+        return not self.is_behind and not self.is_preview and (waits or not is_short)
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
@@ -269,13 +269,10 @@ class Session:
         self._preview.end()
         if not self.renderer:
             raise error
-        given = self.renderer.scene, self.settings_of(self.renderer)
-        self.state = State(*given, self.renderer.plan.layering == "lengths")
-
-    def settings_of(self, renderer: Renderer) -> Settings:
-        """The renderer's settings at full size."""
-        size = {"width": self.settings.width, "height": self.settings.height}
-        return settings_for(renderer.settings, aov=self.settings.aov, **size)
+        width, height = self._full_size
+        whole: dict[str, Any] = {"aov": self.settings.aov, "width": width, "height": height}
+        given = settings_for(self.renderer.settings, **whole)
+        self.state = State(self.renderer.scene, given, self.renderer.plan.layering == "lengths")
 
     def _pending_cost(self) -> Cost | None:
         """Of the edits that the renderer lacks; the size of a preview is none."""
