@@ -20,6 +20,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - window_tour: frame times of the window, driven by a script
+- drags: whether the picture in the window follows a drag
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml
 

@@ -8,12 +8,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
+import pytest
 from imgui_bundle import imgui
 
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
 from glrt.view.panels.gizmo import is_held
+from glrt.view.state import grain
 from glrt.view.state.frame_budget import FrameBudget
+from glrt.view.state.grain import FirstSurface
 from glrt.view.state.preferences import Preferences
 from tests.window.gestures import ball, place_of
 from tests.window.hand import Hand, check
@@ -127,3 +130,28 @@ def the_picture_follows_sliders(hand: Hand) -> None:
         assert is_whole_again(hand), reference
         assert hand.session.state.scene != before.scene or reference == "bounces"
     hand.window.app.selected = None
+
+
+@check
+def a_drag_too_noisy_to_read_shows_first_surfaces_and_says_so(hand: Hand) -> None:
+    """The frames have no time for a second sample: all that there is of the light is noise."""
+    number, shape = ball(hand)
+    app = hand.window.app
+    first = FirstSurface()
+    with slowly(hand), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(grain, "MOST", 0.01)
+        hand.session.surface = first
+        app.selected = number
+        start = place_of(hand, shape.center)
+        hand.ctx.mouse_move_to_pos(start)
+        hand.ctx.yield_(4)
+        assert followed(hand, line(start, 120)) >= LEAST // 2
+        assert app.show.is_surface
+        assert "first surface" in app.show.notice(hand.session)
+        hand.ctx.mouse_move("//Controls/bounces")
+        x, y = imgui.get_io().mouse_pos
+        assert followed(hand, line((x, y), -60)) >= LEAST
+        assert not app.show.is_surface, "bounces are not seen on it"
+    assert is_whole_again(hand)
+    assert not app.show.is_surface
+    hand.session.surface, app.selected = FirstSurface(), None

@@ -20,6 +20,7 @@ class Preview:
         self._edited = -STILL
         self._factor = 1
         self._pixel_seconds = 0.0  # for a sample of a pixel
+        self._uncounted = 0.0  # seconds of frames that brought no sample, as those of AOVs
         self._is_owed = False
 
     @property
@@ -37,10 +38,13 @@ class Preview:
         self._edited, self._is_owed = self._clock(), True
         self._factor = self._fitting(pixels, budget)
 
-    def record(self, seconds: float) -> None:
-        """Learn from a frame what a sample of a pixel took."""
-        known = self._pixel_seconds or seconds
-        self._pixel_seconds = known + MEMORY * (seconds - known)
+    def record(self, seconds: float, samples: float) -> None:
+        """Learn from a frame what a sample of a pixel took; one without any counts to the next."""
+        self._uncounted += seconds
+        if samples > 0:
+            newest, self._uncounted = self._uncounted / samples, 0.0
+            known = self._pixel_seconds or newest
+            self._pixel_seconds = known + MEMORY * (newest - known)
 
     def deliver(self) -> None:
         """The picture has a sample."""

@@ -5,17 +5,20 @@ Edits are gathered and reach the renderer once a frame. It knows no window.
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
-from glrt.errors import GlrtError, RenderError
+from glrt.errors import GlrtError, RenderError, UsageError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
 from glrt.methods.light_layers import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.surface_view import NEEDED
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost, Settings, settings_for
+from glrt.view.state.edited import State
+from glrt.view.state.grain import FirstSurface
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
@@ -24,15 +27,6 @@ from glrt.view.state.preview_size import Preview
 ANNOUNCED = 2  # frames that say what is about to stop them
 FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
-
-
-@dataclass(frozen=True)
-class State:
-    """What is edited, and what undo brings back."""
-
-    scene: Scene
-    settings: Settings
-    by_length: bool = False  # layers by the length of paths, so that bounces are weighed
 
 
 class Session:
@@ -57,6 +51,7 @@ class Session:
         self.waits = False  # for another picture, which is to get as many samples
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
+        self.surface = FirstSurface()
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
         self.restarts = 0
@@ -104,16 +99,12 @@ class Session:
 
         A fragment shader writes to few textures: it keeps none. So does a film too large for them.
         """
-        return "none" if self.pipeline == "fragment" or self.lacks_room else self._wanted_layering
+        return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
 
     @property
     def lacks_room(self) -> bool:
         """Whether the film is too large to keep layers: then lamps and bounces restart."""
-        return not self.room.fits(self.scene, self.settings, self._wanted_layering)
-
-    @property
-    def _wanted_layering(self) -> Layering:
-        return "lengths" if self.by_length else "groups"
+        return not self.room.fits(self.scene, self.settings, self.state.layering)
 
     @property
     def weights(self) -> Weights:
@@ -127,6 +118,14 @@ class Session:
     def is_preview(self) -> bool:
         """Whether the renderer is at less than full size."""
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether there is something to show; of a preview, all that is wanted of it."""
+        if not self.renderer or not self.samples:
+            return False
+        has_aovs = not self.renderer.settings.aov or self.renderer.shown[1] > 0
+        return has_aovs or not self.is_preview
 
     @property
     def is_behind(self) -> bool:
@@ -195,7 +194,9 @@ class Session:
         return Renderer(state.scene, state.settings, self._context, **ways)
 
     def image(self) -> Image:
-        """The picture with its error and its recipe, without the AOV of the view."""
+        """The picture, error and recipe, without AOVs of the view; UsageError for a preview."""
+        if self.is_preview:
+            raise UsageError("There is no picture of all pixels yet.")
         assert self.renderer
         return self.renderer.image(self.weights).with_aovs(self.settings.aov)
 
@@ -207,16 +208,19 @@ class Session:
             self.renderer.release()
 
     def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
-        start, before = self._clock(), renderer.work
+        start, before, held = self._clock(), renderer.work, renderer.samples
+        if self.is_preview and renderer.settings.aov:  # they follow the first sample at once
+            renderer.advance(seconds, min(target, 1))
+            seconds -= self._clock() - start
         renderer.advance(seconds, target)
         spent, done = self._clock() - start, renderer.work - before
         self.rendering += spent
-        if renderer.samples:
+        if self.is_shown:
             self._preview.deliver()
-        is_early = renderer.samples <= FIRST_SAMPLES and not renderer.is_baked
-        if done > 0 and is_early:
+        is_early = held < FIRST_SAMPLES and (self.is_preview or not renderer.is_baked)
+        if is_early:
             width, height = renderer.size
-            self._preview.record(spent / (done * width * height))
+            self._preview.record(spent, done * width * height)
 
     def _apply_pending(self, seconds: float) -> bool:
         """Whether there is something to render; what compiles is announced first."""
@@ -231,12 +235,14 @@ class Session:
             if self._preview.goes_on(pixels, seconds):
                 return True
             self._preview.begin(pixels, seconds)
+            self.surface.is_apt = bool(self.renderer and self.state.moves(self.renderer.scene))
         if self.is_behind:
             try:
                 self._apply()
                 self._full_size = self.settings.size
             except GlrtError as error:
-                self._refuse(error)
+                if not self.surface.refuse():  # else the next frame tries without
+                    self._refuse(error)
         return self.renderer is not None
 
     def _apply(self) -> None:
@@ -269,10 +275,9 @@ class Session:
         self._preview.end()
         if not self.renderer:
             raise error
-        width, height = self._full_size
-        whole: dict[str, Any] = {"aov": self.settings.aov, "width": width, "height": height}
-        given = settings_for(self.renderer.settings, **whole)
-        self.state = State(self.renderer.scene, given, self.renderer.plan.layering == "lengths")
+        settings = settings_for(self.renderer.settings, aov=self.settings.aov)
+        by_length = self.renderer.plan.layering == "lengths"
+        self.state = State(self.renderer.scene, settings, by_length).sized(*self._full_size)
 
     def _pending_cost(self) -> Cost | None:
         """Of the edits that the renderer lacks; the size of a preview is none."""
@@ -281,18 +286,13 @@ class Session:
             return Cost.RECOMPILE
         if not self.is_behind:
             return None
-        width, height = renderer.settings.size
-        settings = settings_for(self._wanted().settings, width=width, height=height)
-        cost = renderer.plan.cost_of(self.scene, settings, self.layering)
+        wanted = self._wanted().sized(*renderer.settings.size)
+        cost = renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
         is_resized = self._full_size != self.settings.size
         return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost
 
     def _wanted(self) -> State:
         """What the renderer is to show: while edits restart it, at a size that keeps up."""
-        shown = (self.aov,) if self.aov else ()
-        settings = settings_for(self.settings, aov=(*self.settings.aov, *shown))
         factor = self._preview.factor
-        if factor > 1:
-            size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
-            settings = settings_for(settings, **size)
-        return State(self.scene, settings)
+        shown = (self.aov,) if self.aov else NEEDED if factor > 1 and self.surface.is_wanted else ()
+        return State(self.scene, self.settings).showing(*shown).coarser(factor)
