@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
-from glrt.errors import SceneError
+from glrt.errors import SceneError, UsageError
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
@@ -140,3 +141,38 @@ def test_a_coarse_picture_gets_its_sample_though_edits_go_on(
     fresh = Renderer(session.scene, session.settings, context).render(session.samples)
     assert (fresh.image().radiance == session.image().radiance).all()
     fresh.release()
+
+
+def test_a_coarse_picture_is_not_given_out(
+    session: Session, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    learn(session, clock, monkeypatch)
+    session.edit(shifted(session.scene), "object")
+    session.advance(0.01)
+    with pytest.raises(UsageError, match="all pixels"):
+        session.image()
+
+
+def test_an_output_that_the_driver_refuses_is_done_without(
+    session: Session, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first surface of a preview takes two, which a scene may have no room for."""
+    update = Renderer.update
+
+    def refuse_aovs(renderer: Renderer, *scene: Any, **changes: Any) -> Any:
+        if changes["aov"]:
+            raise SceneError("beyond this driver's loop limit")
+        return update(renderer, *scene, **changes)
+
+    learn(session, clock, monkeypatch)
+    session.surface.judge(np.random.default_rng(1).integers(0, 256, (60, 80, 4), np.uint8))
+    monkeypatch.setattr(Renderer, "update", refuse_aovs)
+    wanted = shifted(session.scene)
+    session.edit(wanted, "object")
+    for _ in range(4):
+        session.advance(0.01)
+    assert session.renderer
+    assert session.renderer.scene == wanted
+    assert session.surface.is_apt
+    assert not session.surface.is_wanted
+    assert not session.problem
