@@ -45,6 +45,7 @@ gallery: ## render every scene into gallery/
 bench: ## measure how fast the kernel, its variants and the window are, and other renderers
 	@$(BOOTSTRAP) test
 	$(IN_ENVIRONMENT) bench.window_tour drag
+	$(IN_ENVIRONMENT) bench.drags
 	$(IN_ENVIRONMENT) bench.kernels --seconds 0.1
 	$(IN_ENVIRONMENT) bench.sphere_counts
 	$(IN_ENVIRONMENT) bench.memory

@@ -25,11 +25,12 @@ from glrt.settings import RenderSettings, settings_for
 from glrt.view.file_dialogs import Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.state.controls import replaced
+from glrt.view.state.edited import State
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
 from glrt.view.state.preferences import Preferences, save_preferences
-from glrt.view.state.session import Session, State
+from glrt.view.state.session import Session
 from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
@@ -219,7 +220,7 @@ class App:
     def save(self, path: str = "") -> None:
         """Write the picture, with its recipe, to a path, by default to the one in its text box."""
         self.save_path = path or self.save_path
-        if not self.session.renderer or not self.session.samples:
+        if not self.session.samples:
             return self.complain("There is no picture yet.")
         with self.telling():
             self.session.image().save(self.save_path)

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 
+import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from glrt.errors import ContextError
@@ -11,6 +12,7 @@ from glrt.gpu.glsl import shader_files
 from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors
 from glrt.rendering.stopping import Interruption
+from glrt.rendering.surface_view import SurfaceView
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.view.app import App
@@ -121,7 +123,7 @@ class Window:
         self._rate = RATES[context.is_software]
         self.app = App(
             session=Session(scene, settings, context, pipeline=self._pipeline, rest=IdleKernel()),
-            show=PictureView(Picture(context.gl), FalseColors(context.gl), AovView(context.gl)),
+            show=_shown(context.gl),
             preferences=preferences,
             preferences_file=preferences_file(),
             source=source,
@@ -187,6 +189,10 @@ class Window:
         self.app.show.release()
         self.app.dialogs.close()
         self.app.session.release()
+
+
+def _shown(gl: moderngl.Context) -> PictureView:
+    return PictureView(Picture(gl), FalseColors(gl), AovView(gl), SurfaceView(gl))
 
 
 def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:

@@ -31,7 +31,13 @@ layout(std430) buffer Data { vec4 data; };
 void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
-DISPLAYS = ("display.frag", "weighting.frag", "false_colors.frag", "aov_view.frag")
+DISPLAYS = (
+    "display.frag",
+    "weighting.frag",
+    "false_colors.frag",
+    "aov_view.frag",
+    "first_surface.frag",
+)
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
 
@@ -173,7 +179,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     assert files == {*FILES, *by_structs} | {
         *("trace.glsl", "aov.glsl", "integrators/first_hit.glsl"),
         "integrators/aov_numbers.glsl",
-        *("aov.comp", "aov.frag", "aov_view.frag"),
+        *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag"),
         "trace.comp",
         "passes/tiles.glsl",
         "passes/tonemap.glsl",

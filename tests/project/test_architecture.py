@@ -26,7 +26,7 @@ ENTRIES = {
     "display.vert",
     "aov.comp",
     "aov.frag",
-} | {"weighting.frag", "false_colors.frag", "aov_view.frag"}
+} | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag"}
 NOT_OF_A_PATH = {*ENTRIES, "passes/tonemap.glsl", "trace.glsl", "aov.glsl", "structs/scene.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it

@@ -28,7 +28,13 @@ ES = "320 es"  # knows no implicit conversion
 PRECISIONS = " ".join(
     f"precision highp {kind};" for kind in ("float", "int", "image2D", "sampler2D", "usampler2D")
 )
-DRAWN = ("display.frag", "weighting.frag", "false_colors.frag", "aov_view.frag")
+DRAWN = (
+    "display.frag",
+    "weighting.frag",
+    "false_colors.frag",
+    "aov_view.frag",
+    "first_surface.frag",
+)
 # The driver compiles all of them in tests/shaders; here, those with the most and the least text.
 SETS = [
     name if name in ("everything", "nothing") else pytest.param(name, marks=pytest.mark.slow)

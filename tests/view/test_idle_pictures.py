@@ -33,7 +33,7 @@ def same_as_headless(session: Session, context: Context, layering: Layering = "g
     assert rests
     kind: Any = {"layering": layering, "pipeline": session.pipeline}
     plain = Renderer(rests.scene, rests.settings, context, **kind)
-    expected, image = plain.render(session.samples).image(), session.image()
+    expected, image = plain.render(session.samples).image(), rests.image(session.weights)
     plain.release()
     assert image.recipe == expected.recipe
     return same_bits(image.radiance, expected.radiance) and same_bits(image.stderr, expected.stderr)
@@ -91,8 +91,8 @@ def test_a_moving_camera_is_planned_by_the_kernel_that_it_will_have(
 ) -> None:
     session = opened(Stage(GOOD))
     assert rested(session, clock)
-    learnt: list[float] = []
-    monkeypatch.setattr(session._preview, "record", learnt.append)
+    learnt: list[tuple[float, ...]] = []
+    monkeypatch.setattr(session._preview, "record", lambda *frame: learnt.append(frame))
     session.restart()
     frames(session, 3)
     assert not learnt

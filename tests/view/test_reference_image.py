@@ -11,8 +11,9 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import settings_for
 from glrt.view.state.controls import replaced
+from glrt.view.state.edited import State
 from glrt.view.state.reference_image import ReferenceImage
-from glrt.view.state.session import ANNOUNCED, State
+from glrt.view.state.session import ANNOUNCED
 from tests.support.mixed_scene import everything
 
 SIZE: dict[str, int] = {"width": 16, "height": 12, "bounces": 3}

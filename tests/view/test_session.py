@@ -1,4 +1,4 @@
-"""What the window edits, without a window: edits, costs, previews, and the time of a frame."""
+"""What the window edits, without a window: edits, costs, and the time of a frame."""
 
 import pytest
 
@@ -9,11 +9,10 @@ from glrt.scene.scene import Scene
 from glrt.settings import Cost
 from glrt.view.state.controls import replaced
 from glrt.view.state.frame_budget import LEAST, FrameBudget
-from glrt.view.state.preview_size import STILL
-from glrt.view.state.session import FIRST_SAMPLES, Session
+from glrt.view.state.session import Session
 from tests.support.builders import MATTE, lamp, sphere
 from tests.support.mixed_scene import everything
-from tests.support.sessions import Clock, start
+from tests.support.sessions import start
 
 
 def aside(scene: Scene) -> Scene:
@@ -118,35 +117,6 @@ def test_a_paused_session_shows_one_sample_of_what_is_new(session: Session) -> N
     assert session.is_done
     session.paused = False
     assert not session.is_done
-
-
-def test_a_moving_camera_is_shown_coarsely_when_samples_are_slow(
-    session: Session, clock: Clock, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    start(session)
-    clock.step = 0.02
-    with monkeypatch.context() as patch:
-        patch.setattr(Renderer, "advance", lambda renderer, *_: renderer.step(1))
-        session.restart()
-        for _ in range(FIRST_SAMPLES):
-            session.advance(0.01)  # learns that a sample takes twice the time of a frame
-    session.edit(aside(session.scene), "camera")
-    session.advance(0.01)
-    assert session.renderer
-    assert session.is_preview
-    assert session.renderer.size == (8, 8)
-    assert session.settings.width == 16, "what the user asked for stays"
-    clock.now += STILL
-    session.advance(0.01)
-    assert not session.is_preview
-    assert session.renderer.size == (16, 16)
-
-
-def test_a_fast_renderer_moves_at_full_size(session: Session) -> None:
-    start(session)
-    session.edit(aside(session.scene), "camera")
-    session.advance(0.1)
-    assert not session.is_preview
 
 
 def test_undo_brings_back_scene_and_settings(session: Session) -> None:

@@ -5,8 +5,10 @@ Modules, each importing only what stands above it:
 - controls: what a widget must know of a value
 - keys: names of keys and what they mean
 - preferences: what a user wants of any window
+- edited: what undo brings back
 - history: undo and redo
-- preview_size: how coarsely a moving camera is shown
+- preview_size: how coarsely edits in a row are shown
+- grain: whether a coarse picture can be read
 - frame_budget: how long a frame may render
 - layer_limits: whether a driver has room for layers
 - idle_compile: a kernel compiled ahead by another process

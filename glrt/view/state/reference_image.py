@@ -11,7 +11,8 @@ from glrt.methods.light_layers import Plan, Weights, are_trivial
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.weighting import Mixer
 from glrt.settings import Settings, settings_for
-from glrt.view.state.session import ANNOUNCED, State
+from glrt.view.state.edited import State
+from glrt.view.state.session import ANNOUNCED
 
 
 class ReferenceImage:

@@ -5,17 +5,20 @@ Edits are gathered and reach the renderer once a frame. It knows no window.
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
-from glrt.errors import GlrtError, RenderError
+from glrt.errors import GlrtError, RenderError, UsageError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
 from glrt.methods.light_layers import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.surface_view import NEEDED
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost, Settings, settings_for
+from glrt.view.state.edited import State
+from glrt.view.state.grain import FirstSurface
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
@@ -24,15 +27,6 @@ from glrt.view.state.preview_size import Preview
 ANNOUNCED = 2  # frames that say what is about to stop them
 FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
-
-
-@dataclass(frozen=True)
-class State:
-    """What is edited, and what undo brings back."""
-
-    scene: Scene
-    settings: Settings
-    by_length: bool = False  # layers by the length of paths, so that bounces are weighed
 
 
 class Session:
@@ -57,6 +51,7 @@ class Session:
         self.waits = False  # for another picture, which is to get as many samples
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
+        self.surface = FirstSurface()
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
         self.restarts = 0
@@ -67,7 +62,7 @@ class Session:
         self._clock = clock
         self._announced = 0
         self._preview = Preview(clock)
-        self._budget = 0.0  # seconds: of the last frame
+        self._full_size = self.state.settings.size  # of the last edit that was applied
 
     @property
     def scene(self) -> Scene:
@@ -104,16 +99,12 @@ class Session:
 
         A fragment shader writes to few textures: it keeps none. So does a film too large for them.
         """
-        return "none" if self.pipeline == "fragment" or self.lacks_room else self._wanted_layering
+        return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
 
     @property
     def lacks_room(self) -> bool:
         """Whether the film is too large to keep layers: then lamps and bounces restart."""
-        return not self.room.fits(self.scene, self.settings, self._wanted_layering)
-
-    @property
-    def _wanted_layering(self) -> Layering:
-        return "lengths" if self.by_length else "groups"
+        return not self.room.fits(self.scene, self.settings, self.state.layering)
 
     @property
     def weights(self) -> Weights:
@@ -129,6 +120,14 @@ class Session:
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
 
     @property
+    def is_shown(self) -> bool:
+        """Whether there is something to show; of a preview, all that is wanted of it."""
+        if not self.renderer or not self.samples:
+            return False
+        has_aovs = not self.renderer.settings.aov or self.renderer.shown[1] > 0
+        return has_aovs or not self.is_preview
+
+    @property
     def is_behind(self) -> bool:
         """Whether the renderer lacks an edit."""
         if self.renderer is None:
@@ -141,7 +140,7 @@ class Session:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
         is_short = self.renderer is None or self.renderer.lacks(self.settings.samples)
-        return not self.is_behind and (waits or not is_short)
+        return not self.is_behind and not self.is_preview and (waits or not is_short)
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Take another scene or settings from the next frame on; a refusal is told, not raised."""
@@ -155,15 +154,15 @@ class Session:
     def _take(self, after: State, gesture: str = "") -> None:
         if after != self.state:
             self.history.record(self.state, gesture)
-            self._set_state(after)
+            self.state = after
 
     def undo(self) -> None:
         """Take back the last gesture."""
-        self._set_state(self.history.undo(self.state))
+        self.state = self.history.undo(self.state)
 
     def redo(self) -> None:
         """Do again what was taken back."""
-        self._set_state(self.history.redo(self.state))
+        self.state = self.history.redo(self.state)
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
@@ -173,8 +172,7 @@ class Session:
 
     def advance(self, seconds: float, count: int = 0) -> None:
         """A frame: bring edits to the renderer, then render for a time or `count` samples."""
-        self._budget = seconds
-        if self._apply_pending() and self.renderer:
+        if self._apply_pending(seconds) and self.renderer:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
@@ -196,7 +194,9 @@ class Session:
         return Renderer(state.scene, state.settings, self._context, **ways)
 
     def image(self) -> Image:
-        """The picture with its error and its recipe, without the AOV of the view."""
+        """The picture, error and recipe, without AOVs of the view; UsageError for a preview."""
+        if self.is_preview:
+            raise UsageError("There is no picture of all pixels yet.")
         assert self.renderer
         return self.renderer.image(self.weights).with_aovs(self.settings.aov)
 
@@ -207,34 +207,42 @@ class Session:
         if self.renderer:
             self.renderer.release()
 
-    def _set_state(self, after: State) -> None:
-        if after.scene.camera != self.scene.camera:
-            self._preview.move(self.settings.width * self.settings.height, self._budget)
-        self.state = after
-
     def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
-        start, before = self._clock(), renderer.work
+        start, before, held = self._clock(), renderer.work, renderer.samples
+        if self.is_preview and renderer.settings.aov:  # they follow the first sample at once
+            renderer.advance(seconds, min(target, 1))
+            seconds -= self._clock() - start
         renderer.advance(seconds, target)
         spent, done = self._clock() - start, renderer.work - before
         self.rendering += spent
-        is_early = renderer.samples <= FIRST_SAMPLES and not renderer.is_baked
-        if done > 0 and is_early:
+        if self.is_shown:
+            self._preview.deliver()
+        is_early = held < FIRST_SAMPLES and (self.is_preview or not renderer.is_baked)
+        if is_early:
             width, height = renderer.size
-            self._preview.record(spent / (done * width * height))
+            self._preview.record(spent, done * width * height)
 
-    def _apply_pending(self) -> bool:
-        """Whether the renderer has all edits; what compiles is announced first."""
-        is_behind = self.is_behind
-        if is_behind and self._compiles() and self._announced < ANNOUNCED:
+    def _apply_pending(self, seconds: float) -> bool:
+        """Whether there is something to render; what compiles is announced first."""
+        cost = self._pending_cost()
+        if cost is Cost.RECOMPILE and self._announced < ANNOUNCED:
             self.busy = "Compiling a kernel for this scene"
             self._announced += 1
             return False
         self.busy, self._announced = "", 0
-        if is_behind:
+        if cost is Cost.RESTART:
+            pixels = self.settings.width * self.settings.height
+            if self._preview.goes_on(pixels, seconds):
+                return True
+            self._preview.begin(pixels, seconds)
+            self.surface.is_apt = bool(self.renderer and self.state.moves(self.renderer.scene))
+        if self.is_behind:
             try:
                 self._apply()
+                self._full_size = self.settings.size
             except GlrtError as error:
-                self._refuse(error)
+                if not self.surface.refuse():  # else the next frame tries without
+                    self._refuse(error)
         return self.renderer is not None
 
     def _apply(self) -> None:
@@ -264,29 +272,27 @@ class Session:
     def _refuse(self, error: GlrtError) -> None:
         """Tell, and go back to what the renderer has; without one there is nothing to do."""
         self.problem = str(error)
+        self._preview.end()
         if not self.renderer:
             raise error
-        given = self.renderer.scene, self.settings_of(self.renderer)
-        self.state = State(*given, self.renderer.plan.layering == "lengths")
+        settings = settings_for(self.renderer.settings, aov=self.settings.aov)
+        by_length = self.renderer.plan.layering == "lengths"
+        self.state = State(self.renderer.scene, settings, by_length).sized(*self._full_size)
 
-    def settings_of(self, renderer: Renderer) -> Settings:
-        """The renderer's settings at full size."""
-        size = {"width": self.settings.width, "height": self.settings.height}
-        return settings_for(renderer.settings, aov=self.settings.aov, **size)
-
-    def _compiles(self) -> bool:
-        if not self.renderer:
-            return True
-        wanted = self._wanted()
-        cost = self.renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
-        return cost is Cost.RECOMPILE
+    def _pending_cost(self) -> Cost | None:
+        """Of the edits that the renderer lacks; the size of a preview is none."""
+        renderer = self.renderer
+        if not renderer:
+            return Cost.RECOMPILE
+        if not self.is_behind:
+            return None
+        wanted = self._wanted().sized(*renderer.settings.size)
+        cost = renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
+        is_resized = self._full_size != self.settings.size
+        return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost
 
     def _wanted(self) -> State:
-        """What the renderer is to show: while the camera moves, at a size that keeps up."""
-        shown = (self.aov,) if self.aov else ()
-        settings = settings_for(self.settings, aov=(*self.settings.aov, *shown))
+        """What the renderer is to show: while edits restart it, at a size that keeps up."""
         factor = self._preview.factor
-        if factor > 1:
-            size = {name: max(1, getattr(settings, name) // factor) for name in ("width", "height")}
-            settings = settings_for(settings, **size)
-        return State(self.scene, settings)
+        shown = (self.aov,) if self.aov else NEEDED if factor > 1 and self.surface.is_wanted else ()
+        return State(self.scene, self.settings).showing(*shown).coarser(factor)

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
 from glrt.rendering.display import Display
 from glrt.settings import Settings
@@ -43,6 +45,12 @@ class Picture:
         self._texture.filter = (moderngl.LINEAR, magnify)
         with self._gl.scope(self._target):
             draw()
+
+    def codes(self) -> NDArray[np.uint8]:
+        """The picture as the screen has it, (H, W, 4) uint8 sRGB; its rows may be upside down."""
+        assert self._texture
+        width, height = self.size
+        return np.frombuffer(self._texture.read(), np.uint8).reshape(height, width, 4)
 
     @property
     def kept_name(self) -> int:

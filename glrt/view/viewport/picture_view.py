@@ -7,10 +7,13 @@ import moderngl
 from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors, Scale
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.surface_view import NEEDED, SurfaceView
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import View, aov_of, scale_of
+
+SURFACE = "preview: first surface under simple light"
 
 
 @dataclass
@@ -20,12 +23,14 @@ class PictureView:
     picture: Picture
     colors: FalseColors
     aovs: AovView
+    surface: SurfaceView
     view: View = "picture"  # as wanted; see `drawn`
     most: float = 0.5  # relative difference that has the strongest colour
     wipe: float = 0.5  # share of the picture's width that shows the kept one
     kept: ReferenceImage | None = None
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
+    is_surface: bool = False  # in place of the picture: the first surface under simple light
     is_old: bool = False  # what is on the screen: it lacks the last edit, which has no sample yet
     _content: object = None  # what the picture was drawn from
     _restarts: int = 0  # of the session, when it was drawn
@@ -64,7 +69,7 @@ class PictureView:
 
     def _draw_newest(self, session: Session) -> None:
         renderer, kept = session.renderer, self._compared(session)
-        if not renderer or not session.samples:
+        if not renderer or not session.is_shown:
             return
         other = kept.light(renderer) if kept else None
         if kept and other is None:
@@ -88,10 +93,10 @@ class PictureView:
         """Keep the picture, whatever the view, to compare it with what comes."""
         if not session.renderer or not session.samples:
             return
+        mean = float(session.image().radiance.mean(dtype="float64"))
         self.forget()
         self._draw(session, session.renderer, "picture", None)
         self.picture.keep()
-        mean = float(session.image().radiance.mean(dtype="float64"))
         self.kept = ReferenceImage(session.state, mean, session.renderer.context)
         self._content = None
 
@@ -105,8 +110,12 @@ class PictureView:
     def notice(self, session: Session) -> str:
         """Why the view is not what was wanted, or what the next frame waits for; "" for nothing."""
         renderer, kept = session.renderer, self.kept
-        if session.busy or self.view == "picture" or not renderer:
+        if session.busy or not renderer:
             return session.busy
+        if self.is_surface:
+            return SURFACE
+        if self.view == "picture":
+            return ""
         if self.view == "error" and not self._knows_error(session):
             return f"The error is known after {2 * renderer.film.extent.block} samples"
         if self.view != "difference":
@@ -127,6 +136,7 @@ class PictureView:
         self.picture.release()
         self.colors.release()
         self.aovs.release()
+        self.surface.release()
 
     def _compared(self, session: Session) -> ReferenceImage | None:
         """The kept picture if its difference is to be shown, and can be."""
@@ -154,8 +164,12 @@ class PictureView:
     ) -> None:
         film, weights = renderer.film, session.weights
         light = renderer.weighed(weights)
+        self.is_surface = False
+        if not session.is_preview:
+            session.surface.end()
         if view == "picture":
-            return self.picture.draw(light, session.settings, session.is_preview)
+            self.picture.draw(light, session.settings, session.is_preview)
+            return self._draw_surface(session, renderer) if session.is_preview else None
 
         aov = aov_of(view)
         mean = renderer.aov_mean(aov) if aov else None
@@ -171,3 +185,12 @@ class PictureView:
                 self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)
 
         return self.picture.paint(film.size, paint)
+
+    def _draw_surface(self, session: Session, renderer: Renderer) -> None:
+        """In place of a coarse picture that is too noisy, once there is something to draw."""
+        session.surface.judge(self.picture.codes())
+        albedo, normal = map(renderer.aov_mean, NEEDED)
+        self.is_surface = bool(session.surface.is_wanted and albedo and normal)
+        if self.is_surface and albedo and normal:
+            draw, camera = self.surface.draw, renderer.scene.camera
+            self.picture.paint(albedo.size, lambda: draw(albedo, normal, camera), is_preview=True)
