@@ -9,9 +9,9 @@ Modules, each importing only what stands above it:
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values
 - pipelines: compute or fragment shader
+- image_texture: an image of a scene as a texture
 - evaluation: functions of the path tracer over arrays
 - schedule: how much work a dispatch takes
-- image_texture: an image of a scene as a texture
 - device_scene: a scene in the driver's memory, and the kernel source that reads it
 - kernel_switch: a generic kernel and a faster one by turns
 - pass_film: what a pass adds samples to

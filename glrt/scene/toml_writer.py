@@ -7,6 +7,7 @@ from typing import Any
 
 from glrt.errors import SceneError, UsageError
 from glrt.files import write_whole
+from glrt.scene.loading import copy_files, hashes_of, with_hashes
 from glrt.scene.scene import Scene
 from glrt.scene.tables import scene_to_dict, toml_text
 from glrt.scene.tables import toml_lines as toml_lines
@@ -25,11 +26,13 @@ def scene_with(scene: Scene, settings: Settings) -> Scene:
 
 
 def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
-    """Write a file that `read_scene` reads back as the same scene.
+    """Write a file that `read_scene` reads back as the same scene, and copies of its files.
 
     `model` is a scene file whose comments, order and formatting it is to have; returns whether that
-    could be. It appears whole or not at all: raises `RenderError` if it cannot be written.
+    could be. It appears whole or not at all: raises `RenderError` if it cannot be written,
+    `UsageError` if a copy would replace another file.
     """
+    copy_files(scene, path.parent)
     text = _with_comments(_text(model), scene) if model else None
     content = (toml_text(scene) if text is None else text).encode("utf-8")
     write_whole(path, lambda file: _write(file, content))
@@ -58,7 +61,8 @@ def _with_comments(text: str, scene: Scene) -> str | None:
     try:
         before = parse_scene(tomllib.loads(text), "")
         new = _changed(text, scene_to_dict(before), scene_to_dict(scene))
-        return new if parse_scene(tomllib.loads(new), "") == scene else None
+        told = with_hashes(parse_scene(tomllib.loads(new), ""), hashes_of(scene))
+        return new if told == scene else None
     except (ValueError, SceneError):
         return None
 

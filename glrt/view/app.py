@@ -16,7 +16,6 @@ from glrt.gpu.glsl import files_anew
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
 from glrt.scene.camera import Camera
-from glrt.scene.loading import copy_files
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.scene.toml_writer import scene_with, write_scene
@@ -176,7 +175,6 @@ class App:
         self.scene_path = path or self.scene_path
         whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
         with self.telling():
-            copy_files(whole, file.parent)
             model = scene_file_of(self.source) if self.source else None
             has_comments = write_scene(whole, file, model)
             self.source, self.watch = str(file), watch_for(str(file))

@@ -11,6 +11,7 @@ from glrt.image.sources import load
 from glrt.scene.loading import files_of, hashes_of
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.scene.toml_writer import write_scene
 from tests.support.sky_images import random_sky, write_exr
 
 SCENE = """
@@ -154,3 +155,16 @@ def test_what_was_read_is_what_is_saved(folder: Path, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="has changed since it was read"):
         scene.save(elsewhere / "scene.toml")
     assert not (elsewhere / "scene.toml").exists()
+
+
+def test_comments_stay_where_a_scene_with_an_image_is_saved(folder: Path, tmp_path: Path) -> None:
+    file = folder / "scene.toml"
+    file.write_text("# my sky\n" + SCENE)
+    turned = load(file).model_copy(
+        update={"background": load(file).background.model_copy(update={"rotation": 50.0})}
+    )
+    elsewhere = tmp_path / "other"
+    elsewhere.mkdir()
+    assert write_scene(turned, elsewhere / "scene.toml", file)
+    assert (elsewhere / "scene.toml").read_text().startswith("# my sky\n")
+    assert load(elsewhere / "scene.toml") == turned
