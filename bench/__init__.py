@@ -17,6 +17,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - aov_sheet: the picture of docs/how-to/aovs.md
 - memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
+- doubt: how often the judgement on an estimated error is wrong, on new scenes
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - window_tour: frame times of the window, driven by a script
@@ -37,6 +38,7 @@ What they share:
 - cold_start: time and memory of a process to its first picture
 - contact_sheet: pictures in rows
 - screens: virtual X servers
+- fooling_scenes: random scenes whose estimated error is likely to be wrong
 - dice: random numbers that are the same on every machine
 - placing: random positions without overlaps
 """

@@ -17,6 +17,8 @@ from glrt.view.state.session import Session
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
 
+_DOUBT = "not to be believed: few samples carry much of the light"
+
 
 def draw_figures(app: App) -> None:
     """The content of the window below the picture."""
@@ -44,6 +46,8 @@ def figures(app: App) -> list[str]:
         f"error {_banded(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
+    if progress.last and progress.last.is_doubtful:
+        lines.insert(3, _DOUBT)
     if progress.last and progress.last.nonfinite:
         lines.append(f"{progress.last.nonfinite:,} samples were not finite and were dropped")
     return lines
