@@ -20,6 +20,8 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
+- methods_compared: false alarms of `glrt compare` between different methods
+- changes_found: what `glrt compare` finds of changes of scenes
 - window_tour: frame times of the window, driven by a script
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml

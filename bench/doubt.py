@@ -13,6 +13,7 @@ import os
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -141,18 +142,27 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _print(work: list[Task]) -> None:
-    with ProcessPoolExecutor(os.cpu_count()) as pool:
+    # A process that was forked from one with OpenGL open may wait for ever.
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
         found = [finding for part in pool.map(findings, work) for finding in part]
-    first = work[0].seed if work else 0
+    first = min((task.seed for task in work), default=0)
     print(f"{machine()}, {SIZE['width']} x {SIZE['height']} pixels, scenes from seed {first} on\n")
+    print(report(found))
+
+
+def report(found: Sequence[Finding]) -> str:
+    """The table, and a line for each picture that was judged wrongly."""
     kinds = [kind for kind in (RANDOM, *KINDS) if any(one.kind == kind for one in found)]
     rows = [row(kind, [one for one in found if one.kind == kind]) for kind in kinds]
-    print(markdown(list(HEAD), [*rows, row("all", found)]) + "\n")
+    lines = [markdown(list(HEAD), [*rows, row("all", found)]), ""]
     for one in found:
-        is_wrong = one.ratio > WRONG and not one.is_doubtful
-        if is_wrong or (one.ratio < RIGHT and one.is_doubtful):
+        is_missed = one.ratio > WRONG and not one.is_doubtful
+        if is_missed or (one.ratio < RIGHT and one.is_doubtful):
             told = "cautioned" if one.is_doubtful else "not cautioned"
-            print(f"{one.kind}, seed {one.seed}, {one.samples} samples: {one.ratio:.2f}, {told}")
+            lines += [
+                f"{one.kind}, seed {one.seed}, {one.samples} samples: {one.ratio:.2f}, {told}"
+            ]
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":
