@@ -8,6 +8,7 @@ import pytest
 from bench.methods_compared import metal_balls
 from glrt.error.estimate import Band
 from glrt.gpu.context import Context
+from glrt.image.sources import load
 from glrt.methods.light_layers import ONE, Weight
 from glrt.settings import Method
 from glrt.view.panels.plots import forecast, told_error
@@ -152,7 +153,8 @@ def test_a_look_tells_what_the_picture_tells(context: Context) -> None:
 @pytest.mark.parametrize("method", ["nee", "mis"])
 def test_an_error_that_is_not_to_be_believed_is_told_so(context: Context, method: Method) -> None:
     size = {"width": 48, "height": 36, "method": method, "sampler": "sobol"}
-    with rendering(metal_balls(0.15 if method == "nee" else 0.5), context, **size) as renderer:
+    scene = metal_balls(0.15) if method == "nee" else load("metals")
+    with rendering(scene, context, **size) as renderer:
         film = renderer.render(256).film
         with context.gl:
             known, relit = (look_at(film, (weight,), 1.0) for weight in (ONE, HALF))
