@@ -18,6 +18,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
 - unseen: the lead over Mitsuba on scenes drawn from a hash of the program
+- doubt: how often the judgement on an estimated error is wrong, on new scenes
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - methods_compared: its false alarms between different methods
@@ -44,6 +45,7 @@ What they share:
 - cold_start: time and memory of a process to its first picture
 - contact_sheet: pictures in rows
 - screens: virtual X servers
+- fooling_scenes: random scenes whose estimated error is likely to be wrong
 - dice: random numbers that are the same on every machine
 - placing: random positions without overlaps
 """

@@ -13,7 +13,7 @@ import os
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from zipfile import BadZipFile
@@ -23,10 +23,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt import files
 from glrt.error.estimate import DARK
+from glrt.error.reliability import is_doubtful
 from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read, shader_files
+from glrt.image.image import Image
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
@@ -53,6 +55,7 @@ class Reference:
     second: Floats
     samples: int  # per pixel, in each half; 0 for a closed form
     bounces: int  # the limit of the paths
+    is_doubtful: bool = False  # whether its own error is not to be believed
 
     @cached_property
     def radiance(self) -> Floats:
@@ -186,8 +189,15 @@ def _rendered(
         if watch:
             watch(min(1.0, max(spent / seconds, (error / max(result.error, 1e-9)) ** 2)))
         if result.error <= error or 2 * spent > seconds or 2 * samples > most:
-            return result
+            return replace(result, is_doubtful=_is_doubtful(images))
         samples *= 2
+
+
+def _is_doubtful(halves: list[Image]) -> bool:
+    first, second = halves
+    radiance = 0.5 * (first.radiance + second.radiance)
+    stderr = 0.5 * np.hypot(first.stderr, second.stderr)
+    return bool(is_doubtful(radiance, stderr, first.samples + second.samples))
 
 
 def _cache_folder() -> Path:
@@ -216,7 +226,8 @@ def _loaded(path: Path) -> Reference | None:
     try:
         with path.open("rb") as file, np.load(file) as arrays:
             first, second = (arrays[name].astype(float) for name in ("first", "second"))
-            return Reference(first, second, *map(int, arrays["counts"]))
+            samples, bounces, *doubt = map(int, arrays["counts"])
+            return Reference(first, second, samples, bounces, any(doubt))
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         return None
 
@@ -224,7 +235,7 @@ def _loaded(path: Path) -> Reference | None:
 def _save(reference: Reference, path: Path) -> None:
     """Write a reference into the cache; failures to write are ignored."""
     first, second = (half.astype(np.float32) for half in (reference.first, reference.second))
-    counts = (reference.samples, reference.bounces)
+    counts = (reference.samples, reference.bounces, reference.is_doubtful)
     with suppress(OSError, RenderError):
         path.parent.mkdir(parents=True, exist_ok=True)
         files.write_whole(

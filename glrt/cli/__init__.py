@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - options: what command lines share
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
+- doubts: what is said of an error that is not to be believed
 - progress: the progress bar
 - render: `glrt render`
 - view: `glrt view`

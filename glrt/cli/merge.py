@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from glrt.cli.doubts import doubt
 from glrt.cli.process import file_names, print_figures
 from glrt.errors import UsageError
 from glrt.image.image import Image, check_writable, read_recipe
@@ -70,6 +71,7 @@ def _tell(arguments: argparse.Namespace, image: Image) -> None:
     held, count = len(recipe.partition.numbers), recipe.partition.count
     if arguments.json:
         figures = {"parts": held, "of": count, "samples": image.samples, "error": error}
+        figures["error_doubtful"] = image.error_doubtful
         print_figures(figures, arguments.outputs)
     elif not arguments.quiet:
         known = "" if error is None else f", estimated error {100 * error:.2g} %"
@@ -78,6 +80,8 @@ def _tell(arguments: argparse.Namespace, image: Image) -> None:
             f"{counted(image.samples, 'sample')}{known}.",
             file=sys.stderr,
         )
+    if not arguments.quiet and (caution := doubt(image)):
+        print(f"glrt: caution: {caution}", file=sys.stderr)
     ways = [way for way in (recipe.renderer, recipe.pipeline, recipe.tier) if " and " in way]
     if ways and not arguments.quiet:
         print(

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from glrt import signals
 from glrt.cli.autosave import Autosave
+from glrt.cli.doubts import doubt
 from glrt.cli.options import (
     AUTO,
     SCENE,
@@ -22,7 +23,6 @@ from glrt.cli.options import (
 )
 from glrt.cli.process import fail, file_names, peak_bytes, print_figures, since_start
 from glrt.cli.request import Order, opened, order
-from glrt.error.reliability import doubt
 from glrt.errors import RenderError, UsageError
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
@@ -31,7 +31,7 @@ from glrt.methods.omissions import left_out, omissions
 from glrt.methods.slowness import slow_because
 from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.stopping import Ending, Interruption, Limits, render_to_limit
+from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.scene.limits import cautions
 from glrt.scene.loading import hashes_of
 from glrt.text import counted
@@ -143,7 +143,7 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
     start = time.perf_counter()
     with _watch(arguments, limits, autosave, begun) as watch:
         try:
-            image, error_ratio = _ending(renderer, wanted, interruption, watch)
+            image = _picture(renderer, wanted, interruption, watch)
         except RenderError as error:
             raise RenderError(f"{error} {autosave.advice}".strip()) from error
     seconds = {
@@ -161,15 +161,15 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
         return fail(unreached(arguments.error, limits.error, estimate, renderer.samples), 1)
-    if not arguments.quiet and (caution := doubt(error_ratio, limits.error)):
-        print(f"glrt: caution: {caution}", file=sys.stderr)
     return 0
 
 
-def _ending(renderer: Renderer, wanted: Order, interruption: Interruption, watch: Watch) -> Ending:
-    """The picture: of one render, or merged from its parts."""
+def _picture(
+    renderer: Renderer, wanted: Order, interruption: Interruption, watch: Watch
+) -> Image | None:
+    """Of one render, or merged from its parts."""
     if wanted.merged:
-        return Ending(render_parts(renderer, wanted.merged, interruption, watch))
+        return render_parts(renderer, wanted.merged, interruption, watch)
     return render_to_limit(renderer, wanted.limits, interruption, watch)
 
 
@@ -257,6 +257,8 @@ def _tell(arguments: argparse.Namespace, done: Done) -> None:
                 "loop limit. If there are many, the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
+    if not arguments.quiet and (caution := doubt(done.image)):
+        print(f"glrt: caution: {caution}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
         print(left_out(renderer.settings, missing), file=sys.stderr)
 
@@ -277,6 +279,7 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "seconds": {name: round(value, 6) for name, value in done.seconds.items()},
         "samples_per_second": round(done.rate, 1),
         "error": done.error,
+        "error_doubtful": done.image.error_doubtful,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
         "assets": hashes_of(renderer.scene),

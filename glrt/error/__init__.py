@@ -4,5 +4,5 @@ Modules, each importing only what stands above it:
 
 - estimate: relative error of a picture, means and standard errors of blocks; the standard error
   of a pixel is read from the film (glrt/rendering/film.py)
-- reliability: whether parts of a render differ as its error says
+- reliability: whether the error is to be believed, by pixels that few samples lit
 """

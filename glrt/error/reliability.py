@@ -1,54 +1,114 @@
-"""Whether an estimated error can be trusted: whether parts of a render agree with it.
+"""Whether an estimated error can be believed: not where it hangs on pixels that few samples lit.
 
-A pixel that no rare bright sample has met does not know of them, and the error of one that has
-been met is divided by its own brightness. So the estimate is too small under fireflies. But two
-parts of the samples disagree where a firefly met only one of them, and the other one tells how
-bright the pixel is without.
+A pixel that one bright sample has met has a standard error as large as its radiance, whatever that
+sample brought: its relative error is estimated as 1. If so bright a sample is much rarer than one
+in those that were taken, the true radiance is far below, and the true error far above.
+
+So each pixel was lit by h = (radiance / stderr)^2 equal samples, or is as noisy as if it were. The
+number l expected of them has the density l^(h - 1) exp(-l) where a pixel beside it is half as
+bright for certain, as at the rim of a lamp; else over sqrt(l), for light that is far brighter than
+all around it is rare. A pixel that is f times as bright as it should be has l = h / f.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from glrt.error.estimate import DARK
+from glrt.error.estimate import BAND, DARK, relative_error
 
 Pixels = NDArray[np.float32]
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
-DOUBTFUL = 2.0  # times the estimate: docs/results/stress.md
-# Pixels without a vote, those that differ most: one at the rim of a lamp may see it in one part
-# alone, which says nothing of the rest.
-MUTE_SHARE, MUTE_LEAST = 1e-3, 3
+LEAST_OBSERVATIONS = 4  # fewer do not tell a standard error
+TIMES = 1.5  # the true error over the estimate
+DOUBTFUL = 0.3  # the chance of that from which on it is doubted: docs/results/stress.md
+TOGETHER = (1, 4, 16, 64, 256)  # pixels that may bring it about
+SURE = 100  # hits: with more a pixel is known
 
 
-def error_ratio(
-    part: Pixels, part_samples: int, whole: Pixels, samples: int, estimate: float | None
-) -> float | None:
-    """The error that two parts of a render show, in that which it estimates.
+def is_doubtful(radiance: ArrayLike, stderr: ArrayLike, observations: int) -> bool | None:
+    """Whether the estimated error of a picture, (H, W, 3) each, is not to be believed.
 
-    `part`: radiance, (H, W, 3), after the first `part_samples` of the `samples` of `whole`; the
-    other part is the rest. The error is relative to the darker of the two in each pixel. About 1 if
-    the noise is normal. None where there is no rest or no estimate.
+    It is not where for some k there is a chance of DOUBTFUL that k pixels are too bright, each by
+    so much that together they make the error TIMES as large. None where that cannot be judged:
+    below four observations, without an estimate, or without noise or light.
     """
-    if not estimate or not 0 < part_samples < samples:
+    error = relative_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
+    if not error or not math.isfinite(error):
         return None
-    share = part_samples / samples
-    all_, first = whole.astype(np.float64), part.astype(np.float64)
-    rest = (all_ - share * first) / (1 - share)
-    variance = share * (1 - share) * np.square(first - rest)  # of the whole, in expectation
-    scale = np.square(np.minimum(first, rest)) + DARK * all_.mean() ** 2
-    terms = (variance / scale).mean(axis=-1).ravel()
-    mute = min(max(MUTE_LEAST, math.ceil(MUTE_SHARE * terms.size)), terms.size - 1)
-    heard = np.partition(terms, terms.size - 1 - mute)[: terms.size - mute]
-    return math.sqrt(heard.sum() / terms.size) / estimate
+    found = _unsure(np.asarray(radiance, np.float32), np.asarray(stderr, np.float32))
+    size = np.asarray(radiance)[..., 0].size
+    return any(_chance(found, size * error**2, k) >= DOUBTFUL for k in TOGETHER)
 
 
-def doubt(error_ratio: float | None, wanted: float | None) -> str:
-    """A paragraph where an error that was wanted is judged reached, but may not be; else ""."""
-    if wanted is None or error_ratio is None or error_ratio < DOUBTFUL:
-        return ""
-    return (
-        f"--error {wanted:g} may not be reached: parts of the samples differ {error_ratio:.2g} "
-        "times as much as the estimated error says. A few samples carry much of the light "
-        "(fireflies), and the estimate ignores the pixels that they missed. Use more --samples."
-    )
+class Unsure(NamedTuple):
+    """The values of a picture that few samples lit, (n,) each, of so many channels."""
+
+    brightness: Array  # squared, over the squared mean
+    hits: Array
+    shape: Array  # of the gamma distribution of the number expected
+    log_gamma: Array  # of shape + 1
+    channels: int
+
+
+def _chance(found: Unsure, squared: float, together: int) -> float:
+    """That so many pixels do that to an error whose square, times the pixels, is `squared`.
+
+    A pixel brings its share of that if its relative error is the root of `bound`, for which it must
+    be bright enough: in the denominator stands no less than DARK.
+    """
+    bound = (TIMES**2 - 1) * squared / together
+    places = found.brightness > bound * DARK
+    hits, shape, log_gamma = (part[places] for part in found[1:4])
+    limit = hits / (1 + math.sqrt(bound))
+    expected = float(_below(limit, shape, log_gamma).sum()) / found.channels
+    if expected == 0 or expected >= together:
+        return float(expected > 0)
+    # A Poisson number is at least k as often as a gamma number of shape k is below its mean.
+    one = (np.array([x]) for x in (expected, float(together), math.lgamma(together + 1)))
+    return float(_below(*one)[0])
+
+
+def _below(limit: Array, shape: Array, log_gamma: Array) -> Array:
+    """The chance that a number of the gamma distribution of such a shape is below `limit` < shape.
+
+    The first terms of its series, and a geometric one above the rest.
+    """
+    series = 1 + limit / (shape + 1) / (1 - limit / (shape + 2))
+    first = np.exp(shape * np.log(limit) - limit - log_gamma)
+    return np.asarray(np.minimum(first * series, 1.0))
+
+
+def _unsure(values: Pixels, errors: Pixels) -> Unsure:
+    """What few samples lit, some rows at a time."""
+    height, width, channels = values.shape
+    rows = max(1, BAND // (width * channels))
+    parts = [_of_rows(values, errors, top, top + rows) for top in range(0, height, rows)]
+    squares, hits, is_rim = (np.concatenate(part) for part in zip(*parts, strict=True))
+    shape = np.maximum(np.where(is_rim, hits, hits - 0.5), 0.5)
+    log_gamma = np.array([math.lgamma(value + 1) for value in shape])
+    mean = float(values.mean(dtype=np.float64))
+    return Unsure(squares / mean**2, hits, shape, log_gamma, channels)
+
+
+def _of_rows(values: Pixels, errors: Pixels, top: int, end: int) -> tuple[Array, Array, Mask]:
+    """Squares and hits of the values of some rows that few samples lit, and which are at a rim."""
+    value, error = (part[top:end].astype(np.float64) for part in (values, errors))
+    places = (error > 0) & (value > 0) & (value**2 < SURE * error**2)
+    certain = values[max(top - 1, 0) : end + 1] - errors[max(top - 1, 0) : end + 1]
+    beside = _brightest_beside(certain)[min(top, 1) :][: len(value)]
+    squares = np.square(value[places])
+    return squares, squares / np.square(error[places]), beside[places] > 0.5 * value[places]
+
+
+def _brightest_beside(values: Pixels) -> Pixels:
+    """Of the eight neighbours of each pixel, by channel; -inf for a picture of one pixel."""
+    height, width = values.shape[:2]
+    framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=-math.inf)
+    found = np.full_like(values, -math.inf)
+    for y, x in ((y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)):
+        np.maximum(found, framed[y : y + height, x : x + width], out=found)
+    return found

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glrt import files
 from glrt.error.estimate import relative_error
+from glrt.error.reliability import is_doubtful
 from glrt.errors import SceneError, UsageError
 from glrt.image import aovs
 from glrt.image.aovs import AovImages
@@ -59,6 +60,18 @@ class Image:
     def error(self) -> float | None:
         """Estimated relative RMS error, of the noise alone; None if it is unknown."""
         return relative_error(self.radiance, self.stderr)
+
+    @property
+    def error_doubtful(self) -> bool | None:
+        """Whether `error` is not to be believed: it may hang on a few pixels that few samples lit.
+
+        None where that cannot be judged: with fewer than four observations, without a recipe, or
+        where the light was changed in the window.
+        """
+        if self.recipe is None or self.recipe.traced is not None:
+            return None
+        observations = self.samples // self.recipe.settings.block
+        return is_doubtful(self.radiance, self.stderr, observations)
 
     def with_aovs(self, names: tuple[Aov, ...]) -> "Image":
         """The picture with these of its AOVs alone."""

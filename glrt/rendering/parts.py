@@ -19,8 +19,8 @@ def render_parts(
     whole = []
     for number in partition.numbers:
         renderer.begin_part(number)
-        ending = render_to_limit(renderer, Limits(renderer.wanted_samples), interruption, watch)
-        if not ending.image or ending.image.samples < renderer.wanted_samples:
+        image = render_to_limit(renderer, Limits(renderer.wanted_samples), interruption, watch)
+        if not image or image.samples < renderer.wanted_samples:
             break
-        whole.append(ending.image)
+        whole.append(image)
     return merge(whole, incomplete=True) if whole else None

@@ -5,10 +5,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import NamedTuple
 
-from glrt.error.reliability import error_ratio
-from glrt.image.image import Image, Pixels
+from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
 from glrt.signals import handled
@@ -34,15 +32,6 @@ class Limits:
         return self.deadline is not None or self.error is not None
 
 
-class Ending(NamedTuple):
-    """The picture at the end of a render, and what else is known of its error."""
-
-    image: Image | None  # None if there is no sample
-    # The error seen between two parts of the samples over the estimate (glrt/error/reliability.py),
-    # where the error that was asked for was judged reached.
-    error_ratio: float | None = None
-
-
 class Interruption:
     """Remembers SIGINT or SIGTERM, so that a dispatch ends and the picture is saved."""
 
@@ -66,8 +55,8 @@ def render_to_limit(
     limits: Limits,
     interruption: Interruption,
     watch: Callable[[Renderer], None] | None = None,
-) -> Ending:
-    """Render to the first limit.
+) -> Image | None:
+    """Render to the first limit; None if there is no sample.
 
     `watch` is called after each dispatch, to show progress. Each pixel gets a sample at least,
     unless the interruption comes before; a frame that is not complete at the end is left out.
@@ -79,7 +68,6 @@ def render_to_limit(
         late = limits.deadline is not None and time.perf_counter() >= limits.deadline
         return interruption.signal is None and not (late and renderer.samples > begun)
 
-    part: tuple[Pixels, int] | None = None
     begun = renderer.samples
     for look in _looks(limits):
         if interruption.signal is not None:
@@ -91,22 +79,14 @@ def render_to_limit(
             break
         if limits.error is not None:
             image = renderer.image()
-            is_judged = look >= limits.first_look or look == limits.samples
-            if is_judged and _is_reached(image.error, limits.error):
-                return Ending(image, _error_ratio(part, image))
-            part = image.radiance, image.samples
-    return Ending(renderer.image() if renderer.samples else None)
-
-
-def _error_ratio(part: tuple[Pixels, int] | None, image: Image) -> float | None:
-    if part is None:
-        return None
-    return error_ratio(*part, image.radiance, image.samples, image.error)
+            if _is_reached(image.error, limits.error):
+                return image
+    return renderer.image() if renderer.samples else None
 
 
 def _looks(limits: Limits) -> Iterator[int]:
-    """The sample counts at which to look at the error, one before the first, and the last one."""
-    look = max(limits.first_look // 2, 1)
+    """The sample counts at which to look at the error, and the last one."""
+    look = limits.first_look
     while limits.error is not None and look < limits.samples:
         yield look
         look *= 2

@@ -157,7 +157,8 @@ class Noisy:
         return self
 
     def image(self) -> Any:
-        return SimpleNamespace(radiance=np.full((2, 2, 3), self.level))
+        radiance = np.full((2, 2, 3), self.level)
+        return SimpleNamespace(radiance=radiance, stderr=0.1 * radiance, samples=64)
 
 
 def test_a_reference_takes_no_more_samples_than_a_picture_holds() -> None:

@@ -5,13 +5,18 @@ import math
 import numpy as np
 import pytest
 
+from bench.methods_compared import metal_balls
 from glrt.error.estimate import Band
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import ONE
-from glrt.view.panels.plots import forecast
+from glrt.image.sources import load
+from glrt.methods.light_layers import ONE, Weight
+from glrt.settings import Method
+from glrt.view.panels.plots import forecast, told_error
 from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
 from tests.support.mixed_scene import everything
 from tests.support.renders import rendering
+
+HALF: Weight = (0.5, 0.5, 0.5)
 
 
 def seen(samples: int, seconds: float, error: float) -> Look:
@@ -143,3 +148,18 @@ def test_a_look_tells_what_the_picture_tells(context: Context) -> None:
     assert (look.samples, look.seconds, look.nonfinite) == (8, 0.5, 0)
     assert look.error == pytest.approx(image.error), "light that is twice as much is as sure"
     assert look.mean == pytest.approx(2 * image.radiance.mean(dtype=np.float64))
+
+
+@pytest.mark.parametrize("method", ["nee", "mis"])
+def test_an_error_that_is_not_to_be_believed_is_told_so(context: Context, method: Method) -> None:
+    size = {"width": 48, "height": 36, "method": method, "sampler": "sobol"}
+    scene = metal_balls(0.15) if method == "nee" else load("metals")
+    with rendering(scene, context, **size) as renderer:
+        film = renderer.render(256).film
+        with context.gl:
+            known, relit = (look_at(film, (weight,), 1.0) for weight in (ONE, HALF))
+    assert known
+    assert known.is_doubtful is (method == "nee")
+    assert ("not to be believed" in told_error(known)) is (method == "nee")
+    assert relit
+    assert relit.is_doubtful is None, "of other light"

@@ -157,6 +157,12 @@ def _slopes(curves: Sequence[Curve]) -> Iterator[str]:
         )
 
 
+_DOUBT = (
+    " That error is not to be believed: few samples carry much of the light, and all errors here "
+    "may be wrong by as much."
+)
+
+
 def _reference(experiment: Experiment) -> str:
     reference = experiment.reference
     width, height = experiment.size
@@ -166,6 +172,7 @@ def _reference(experiment: Experiment) -> str:
     return (
         f"The reference, two halves of {reference.samples} samples and up to {reference.bounces} "
         f"bounces, has itself an error of {percent(reference.error)} ({frame})."
+        f"{_DOUBT if reference.is_doubtful else ''}"
     )
 
 

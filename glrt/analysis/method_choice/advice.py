@@ -20,6 +20,7 @@ from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
+_DOUBT = ", which is not to be believed (few samples carry much of its light)"
 SHARE = 0.5  # most time of the measurement, relative to what is left of `--time`
 # What decided, as recipes tell it.
 BY_WORK = "auto: counted work"
@@ -130,7 +131,7 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
     yield (
         f"For an error of {percent(verdict.error)} (relative RMS) with sampler {sampler}, measured "
         f"on {width} x {height} pixels against a reference with an error of "
-        f"{percent(verdict.reference.error)}:"
+        f"{percent(verdict.reference.error)}{_DOUBT if verdict.reference.is_doubtful else ''}:"
     )
     yield ""
     yield "bounces  bias from longer paths"

@@ -17,6 +17,8 @@ from glrt.view.state.session import Session
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
 
+_DOUBT = ",\nnot to be believed: few samples carry much of the light"
+
 
 def draw_figures(app: App) -> None:
     """The content of the window below the picture."""
@@ -41,7 +43,7 @@ def figures(app: App) -> list[str]:
     lines = [
         _samples(session.samples, session.settings.samples) + preview,
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {_banded(progress.last) if progress.last else _unknown(session)}",
+        f"error {told_error(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
     if progress.last and progress.last.nonfinite:
@@ -75,6 +77,11 @@ def _unknown(session: Session) -> str:
     more = f": raise samples to {session.known_from}"
     is_short = session.settings.samples < session.known_from
     return f"unknown, known from {session.known_from} samples on{more if is_short else ''}"
+
+
+def told_error(look: Look) -> str:
+    """The error of a look, and whether it is to be believed."""
+    return f"{_banded(look)}{_DOUBT if look.is_doubtful else ''}"
 
 
 def _banded(look: Look) -> str:

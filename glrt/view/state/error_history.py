@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.error.estimate import Band, error_band
-from glrt.methods.light_layers import Weights
+from glrt.error.reliability import is_doubtful
+from glrt.methods.light_layers import Weights, are_trivial
 from glrt.rendering.film import Film
 from glrt.rendering.weighting import mixed
 from glrt.view.state.session import Session
@@ -26,6 +27,7 @@ class Look(NamedTuple):
     band: Band  # of the relative error
     mean: float = 1.0  # radiance, over pixels and channels
     nonfinite: int = 0  # samples that were dropped
+    is_doubtful: bool | None = None  # whether the error is not to be believed; None: not known
 
     @property
     def error(self) -> float:
@@ -40,7 +42,9 @@ def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
     if band is None:
         return None
     mean = float(radiance.mean(dtype=np.float64))
-    return Look(film.samples, seconds, band, mean, film.dropped())
+    observations = film.samples // film.extent.block
+    doubt = is_doubtful(radiance, stderr, observations) if are_trivial(weights) else None
+    return Look(film.samples, seconds, band, mean, film.dropped(), doubt)
 
 
 class Progress:

@@ -1,0 +1,61 @@
+"""The rates at which the judgement on an estimated error is wrong: a small run, and the counts."""
+
+import numpy as np
+import pytest
+
+from bench import doubt
+from bench.doubt import (
+    LOOKS,
+    RANDOM,
+    Finding,
+    findings,
+    frozen_seed,
+    report,
+    row,
+    tasks,
+    true_ratio,
+)
+from bench.fooling_scenes import KINDS, fooling_scene
+from glrt.image.image import Image
+from tests.support.noisy_images import flat
+
+
+def test_rates_are_of_what_is_wrong_and_of_what_is_right() -> None:
+    found = [
+        Finding(RANDOM, 1, 64, ratio, told)
+        for ratio, told in ((9.0, True), (3.0, False), (1.5, False), (1.0, True), (1.1, False))
+    ]
+    told = row("some", found)
+    assert told[:3] == ["some", "5", "2"]
+    assert told[3].startswith("1 (50.0 %")
+    assert "of all pictures 20.0 %" in told[3]
+    assert told[4] == "2"
+    assert told[5].startswith("1 (50.0 %")
+
+
+def test_noise_of_the_reference_is_no_error() -> None:
+    image = flat(1.0, 0.1, 64)
+    draw = np.random.default_rng(1).normal(size=image.radiance.shape)
+    reference = flat(1.0, 0.05, 64)
+    shaken = Image((1 + 0.05 * draw).astype(np.float32), reference.stderr, 64)
+    ratio = true_ratio(image, shaken)
+    assert ratio is not None
+    assert ratio < 0.3
+    assert true_ratio(flat(1.0, 0.0, 64), reference) is None
+
+
+def test_each_kind_is_drawn_from_the_seed() -> None:
+    assert [task.kind for task in tasks(7, 1, 6)] == [*KINDS, next(iter(KINDS)), RANDOM]
+    for kind in KINDS:
+        assert fooling_scene(kind, 7) == fooling_scene(kind, 7)
+        assert fooling_scene(kind, 7) != fooling_scene(kind, 8)
+    assert frozen_seed() == frozen_seed()
+
+
+def test_a_table_of_two_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doubt, "REFERENCE", 256)
+    found = [finding for task in tasks(3, 1, 1) for finding in findings(task)]
+    assert [one.samples for one in found] == [*LOOKS, *LOOKS]
+    told = report(found)
+    assert "| rims of small suns | 2 |" in told
+    assert "| all | 4 |" in told
