@@ -35,7 +35,10 @@ vec3 environment(vec3 direction) {
 }
 
 vec3 background(vec3 direction) {
-    if (HAS_ENVIRONMENT) return frame.background_top * environment(direction);
+    if (HAS_ENVIRONMENT) {
+        precise vec3 pictured = frame.background_top * environment(direction);
+        return pictured;
+    }
     if (HAS_HORIZON) {
         precise vec3 pole = direction.y < 0.0 ? frame.background_bottom : frame.background_top;
         precise vec3 mixed = frame.background_horizon + abs(direction.y) * (pole - frame.background_horizon);
