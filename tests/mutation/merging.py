@@ -125,4 +125,18 @@ MERGING = [
         "stage.film.restart(0)",
         "rendering/test_parts.py::test_merged_parts_are_one_render_up_to_rounding",
     ),
+    bug(
+        "parts under other skies are merged",
+        "image/differences.py",
+        "for path in before.keys() & after.keys():",
+        "for path in before.keys() - after.keys():",
+        "cli/test_scene_files.py::test_parts_under_other_skies_are_not_merged",
+    ),
+    bug(
+        "a picture renders again with whatever file is there",
+        "image/sources.py",
+        "AssetFolder(base or Path(), rules.allow_outside, expected, rules.accept_changed)",
+        "AssetFolder(base or Path(), rules.allow_outside, None, rules.accept_changed)",
+        "cli/test_scene_files.py::test_a_file_that_has_changed_is_refused_unless_accepted",
+    ),
 ]

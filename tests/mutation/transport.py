@@ -220,4 +220,29 @@ TRANSPORT = [
         ),
         "truths/test_horizon.py::test_models_know_what_a_surface_gathers",
     ),
+    Mutant(
+        "the image of the sky is mirrored",
+        edit("lights/sky.glsl", "direction.x < 0.0 ? -azimuth", "direction.x > 0.0 ? -azimuth"),
+        "truths/test_sky_image.py::test_pixels_stand_where_the_format_says",
+    ),
+    Mutant(
+        "the image of the sky stands on its head",
+        edit("lights/sky.glsl", "angle_of(across, direction.y)", "angle_of(across, -direction.y)"),
+        "truths/test_sky_image.py::test_the_first_row_is_above",
+    ),
+    Mutant(
+        "the image of the sky turns the other way",
+        edit("lights/sky.glsl", "+ 0.5 + frame.background_turn", "+ 1.5 - frame.background_turn"),
+        "truths/test_sky_image.py::test_a_quarter_turn_moves_what_stood_ahead_to_the_left",
+    ),
+    Mutant(
+        "the image of the sky has an edge behind the camera",
+        edit("lights/sky.glsl", "+ size.x) % size.x", "+ size.x) % (size.x + 1)"),
+        "truths/test_sky_image.py::test_directions_see_what_float64_says",
+    ),
+    Mutant(
+        "pixels of the sky are half a pixel off",
+        edit("lights/sky.glsl", "* vec2(size) - 0.5", "* vec2(size)"),
+        "truths/test_sky_image.py::test_a_floor_gathers_the_upper_half",
+    ),
 ]
