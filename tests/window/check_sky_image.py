@@ -1,0 +1,33 @@
+"""A background in an image: turned and tinted in the panel, with nothing that would lose it."""
+
+from glrt.settings import Cost
+from glrt.view.state.controls import replaced
+from tests.support.builders import plane
+from tests.support.sky_images import random_sky, under
+from tests.window.gestures import move
+from tests.window.hand import Hand, check
+
+
+@check
+def an_image_of_the_sky_is_turned_and_tinted(hand: Hand) -> None:
+    ctx, session = hand.ctx, hand.session
+    sky = under(random_sky(8, 4), plane([0, -1, 0], [0, 1, 0], "m"))
+    scene = replaced(sky, camera=session.scene.camera)
+    hand.there(lambda: hand.window.app.edit_scene("", lambda _: scene))
+    hand.settle()
+    ctx.set_ref("Controls")
+    ctx.item_open("Background")
+    hand.ctx.yield_(2)
+    assert not ctx.item_exists("gradient"), "it would take the place of the image"
+    move(hand, "rotation##background", 90.0)
+    hand.settle()
+    assert session.scene.background.rotation == 90.0
+    assert session.last_cost is Cost.RESTART
+    move(hand, "color##background/##color/$$1", 0.5)
+    hand.settle()
+    assert session.scene.background.color == (1.0, 0.5, 1.0)
+    assert session.scene.background.image == scene.background.image
+    move(hand, "intensity##background", 2.0)
+    hand.settle()
+    assert session.scene.lights["background"] == 2.0
+    ctx.item_close("Background")
