@@ -67,7 +67,8 @@ def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
 @pytest.mark.parametrize("name", LIT)
 def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> None:
     """With nee on cornell too: its lamp hangs a thousandth of the room below the ceiling."""
-    samples = Samples(naive=8192, nee=8192, mis=4096)
+    more = 3 if name == "table" else 1  # its glasses throw caustics
+    samples = Samples(naive=8192 * more, nee=8192 * more, mis=4096 * more)
     methods_agree(load(name), context, samples, 0.015, **small(name, 32))
 
 
