@@ -170,7 +170,7 @@ def test_a_lamp_without_its_back_is_found(context: Context, mitsuba: Peer) -> No
 def test_scene_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer, name: str) -> None:
     scene = load(name)
     settings = {"width": 64, "height": 64, "bounces": scene.render.bounces}
-    found = judged(ours(context, scene, 1024, **settings), theirs(mitsuba, scene, 1024, **settings))
+    found = judged(ours(context, scene, 2048, **settings), theirs(mitsuba, scene, 2048, **settings))
     assert found.verdict == "same", str(found)
 
 
