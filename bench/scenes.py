@@ -1,4 +1,4 @@
-"""Random scenes by seed: rooms and open floors with spheres, quads and lamps of many sizes.
+"""Random scenes by seed: rooms and open floors with shapes and lamps of many kinds and sizes.
 
     python -m bench.scenes SEED [-o FILE.toml]
 
@@ -28,6 +28,10 @@ LAMP_SIZES = SMALLEST, 100 * SMALLEST  # radius or half an edge
 BODY_SIZES = 0.06, 0.6
 LENS_CHANCE = 1 / 3
 TURNED = {"position", "look_at", "up", "center", "point", "normal", "corner", "edge_u", "edge_v"}
+TURNED |= {"from", "to"}
+ROUND_SHARE = 0.5  # of spheres among bodies, and among lamps
+OTHERS = ("quad", "quad", "disk", "box", "box", "cylinder")  # equally likely
+FLAT = ("quad", "disk")
 
 
 class Builder(Free):
@@ -133,15 +137,40 @@ def _any_material(builder: Builder, *excluded: str) -> str:
 
 
 def _add_body(builder: Builder) -> None:
-    """Add a sphere or a quad, on the floor or above it, if there is space left."""
+    """Add a shape on the floor or above it, if there is space left."""
     dice = builder.dice
     height = dice.within(0.3, builder.space.height) if dice.chance(0.3) else None
     ball = builder.place(dice.decades(*BODY_SIZES), height)
-    if ball and dice.chance(0.7):
-        material = _any_material(builder)
-        builder.add(material, shape="sphere", center=ball.center, radius=ball.radius)
-    elif ball:
-        builder.add(_any_material(builder, "glass"), shape="quad", **_panel(dice, ball))
+    if ball:
+        kind = "sphere" if dice.chance(ROUND_SHARE) else dice.one_of(OTHERS)
+        shape = _shape_within(dice, ball, kind)
+        has_inside = kind not in FLAT and shape.get("capped", True)
+        material = _any_material(builder) if has_inside else _any_material(builder, "glass")
+        builder.add(material, **shape)
+
+
+def _shape_within(dice: Dice, ball: Ball, kind: str, is_level: bool = False) -> Table:
+    """A shape of this kind within a sphere; a flat one horizontal or randomly oriented."""
+    if kind == "sphere":
+        return {"shape": kind, "center": ball.center, "radius": ball.radius}
+    if kind == "quad":
+        return {"shape": kind, **_panel(dice, ball, is_level)}
+    if kind == "disk":
+        normal = (0.0, 1.0, 0.0) if is_level else dice.direction()
+        radius = ball.radius * dice.within(0.5, 0.9)
+        return {"shape": kind, "center": ball.center, "normal": normal, "radius": radius}
+    center = np.array(ball.center)
+    if kind == "box":
+        parts = np.array([dice.within(0.3, 1.0) for _ in range(3)])
+        half = ball.radius * parts / np.linalg.norm(parts)
+        tilt = dice.within(-40, 40) if dice.chance(0.5) else 0.0
+        rotate = [tilt, dice.within(0, 90), 0.0]
+        return {"shape": kind, "min": center - half, "max": center + half, "rotate": rotate}
+    slimness = dice.within(0.25, 1.3)  # angle between its axis and the way to a rim
+    axis = np.array(dice.direction() if dice.chance(0.5) else (0.0, 1.0, 0.0))
+    end = ball.radius * math.cos(slimness) * axis
+    ends = {"from": center - end, "to": center + end, "capped": dice.chance(0.75)}
+    return {"shape": kind, **ends, "radius": ball.radius * math.sin(slimness)}
 
 
 def _panel(dice: Dice, ball: Ball, is_level: bool = False) -> Table:
@@ -174,18 +203,22 @@ def _add_lamp(builder: Builder, name: str, flux: float) -> None:
     ball = builder.place(dice.decades(*LAMP_SIZES), dice.within(low, high))
     if not ball:
         return
-    if dice.chance(0.5):
-        shape: Table = {"shape": "sphere", "center": ball.center, "radius": ball.radius}
-        area = 4 * math.pi * ball.radius**2
-    else:
-        shape = {"shape": "quad", **_panel(dice, ball, dice.chance(0.4))}
-        area = 2 * float(np.linalg.norm(np.cross(shape["edge_u"], shape["edge_v"])))  # both sides
+    kind = "sphere" if dice.chance(ROUND_SHARE) else dice.one_of(FLAT)
+    shape = _shape_within(dice, ball, kind, dice.chance(0.4))
     tint = np.array(_color(dice, 0.6, 1.0))
-    emission = tint / tint.mean() * flux / (math.pi * area)
+    emission = tint / tint.mean() * flux / (math.pi * _bright_area(shape))
     builder.materials[name] = {"type": "light", "emission": emission}
     if dice.chance(0.3):
         builder.materials[name]["color"] = _color(dice, 0.0, 0.8)
     builder.add(name, **shape)
+
+
+def _bright_area(shape: Table) -> float:
+    """Of a lamp; both sides of a flat one."""
+    if shape["shape"] == "quad":
+        return 2 * float(np.linalg.norm(np.cross(shape["edge_u"], shape["edge_v"])))
+    sides = 4 if shape["shape"] == "sphere" else 2
+    return sides * math.pi * float(shape["radius"]) ** 2
 
 
 def _camera(dice: Dice, eye: Point, subject: Point) -> Table:
@@ -215,7 +248,8 @@ def _background(dice: Dice, is_room: bool) -> Table:
 def _turned(value: Any, angle: float, key: str = "") -> Any:
     """The tables with points and directions rotated about the y axis by `angle` radians."""
     if isinstance(value, dict):
-        return {name: _turned(item, angle, name) for name, item in value.items()}
+        turned = {name: _turned(item, angle, name) for name, item in value.items()}
+        return _turned_box(turned, angle) if value.get("shape") == "box" else turned
     if key == "objects":
         return [_turned(item, angle) for item in value]
     if key not in TURNED:
@@ -223,6 +257,15 @@ def _turned(value: Any, angle: float, key: str = "") -> Any:
     x, y, z = value
     cos, sin = math.cos(angle), math.sin(angle)
     return [cos * x + sin * z, y, cos * z - sin * x]
+
+
+def _turned_box(box: Table, angle: float) -> Table:
+    """A box that is not turned about the z axis, turned about the y axis of the scene."""
+    middle, half = (box["min"] + box["max"]) / 2, (box["max"] - box["min"]) / 2
+    center = np.array(_turned(middle, angle, "center"))
+    x, y, z = box["rotate"]
+    rotate = [x, y + math.degrees(angle), z]
+    return {**box, "min": center - half, "max": center + half, "rotate": rotate}
 
 
 def _rounded(value: Any) -> Any:

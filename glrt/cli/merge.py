@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from glrt.cli.doubts import doubt
+from glrt.cli.options import add_outputs, add_summary
 from glrt.cli.process import file_names, print_figures
 from glrt.errors import UsageError
 from glrt.image.image import Image, check_writable, read_recipe
@@ -25,21 +26,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "parts", metavar="PART.exr", nargs="+", help="the parts of one render, in any order"
     )
-    parser.add_argument(
-        "-o",
-        dest="outputs",
-        metavar="FILE",
-        action="append",
-        required=True,
-        help="output: .exr, .png or .npy; may be repeated",
-    )
+    add_outputs(parser)
     parser.add_argument(
         "--incomplete",
         action="store_true",
         help="merge what is there, although parts are missing",
     )
-    parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
-    parser.add_argument("--quiet", action="store_true", help="print no summary")
+    add_summary(parser, "no summary")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -45,6 +45,24 @@ class Parser(argparse.ArgumentParser):
         return f"unknown {kind} {word!r}.{question} See `{self.prog} {command} --help`."
 
 
+def add_outputs(parser: argparse.ArgumentParser) -> None:
+    """`-o`, of a command that writes pictures."""
+    parser.add_argument(
+        "-o",
+        dest="outputs",
+        metavar="FILE",
+        action="append",
+        required=True,
+        help="output: .exr (radiance and its standard error), .png or .npy; may be repeated",
+    )
+
+
+def add_summary(parser: argparse.ArgumentParser, unsaid: str) -> None:
+    """`--json` and `--quiet`, which leaves `unsaid` out."""
+    parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
+    parser.add_argument("--quiet", action="store_true", help=f"print {unsaid}")
+
+
 def add_pipeline(parser: argparse.ArgumentParser) -> None:
     """`--pipeline`."""
     parser.add_argument(

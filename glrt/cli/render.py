@@ -16,8 +16,10 @@ from glrt.cli.options import (
     SCENE,
     add_context,
     add_files,
+    add_outputs,
     add_pipeline,
     add_settings,
+    add_summary,
     error_limit,
     is_automatic,
 )
@@ -51,14 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "scene", metavar="SCENE", nargs="?", help=f"{SCENE}; optional with --resume"
     )
-    parser.add_argument(
-        "-o",
-        dest="outputs",
-        metavar="FILE",
-        action="append",
-        required=True,
-        help="output: .exr (radiance and its standard error), .png or .npy; may be repeated",
-    )
+    add_outputs(parser)
     add_settings(parser, AUTO)
     parser.add_argument(
         "--time",
@@ -86,8 +81,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE.exr",
         help="continue this picture, with its scene and settings, up to --samples in all",
     )
-    parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
-    parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
+    add_summary(parser, "no progress and no summary")
 
 
 def _part(text: str) -> tuple[int, int]:

@@ -6,6 +6,7 @@ import math
 from functools import cache
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,17 +14,29 @@ from numpy.typing import NDArray
 
 from bench.dice import Dice
 from bench.placing import GAP
-from bench.scenes import MOST_LAMPS, MOST_SHAPES, main, random_scene, random_tables
+from bench.scenes import (
+    MOST_LAMPS,
+    MOST_SHAPES,
+    _rounded,
+    _turned,
+    main,
+    random_scene,
+    random_tables,
+)
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.scene.cylinder import Cylinder
 from glrt.scene.limits import cautions
 from glrt.scene.materials import Metal
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Shape, Sphere
+from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
+from glrt.scene.solids import Box
+from glrt.scene.toml import parse_scene
 from glrt.settings import settings_for
 from tests.support.renders import rendered
 
 Floats = NDArray[np.float64]
+COS, SIN = math.cos(1.0), math.sin(1.0)
 
 SEEDS = range(200)
 
@@ -38,23 +51,21 @@ def lamps(scene: Scene) -> list[Shape]:
 
 
 def points(shape: Shape) -> Floats:
-    """The corners of a quad; the ends of a sphere along the axes."""
-    if isinstance(shape, Sphere):
+    """The corners of a quad; else the ends along the axes of a ball around it."""
+    if not isinstance(shape, Quad):
         axes = np.concatenate([np.eye(3), -np.eye(3)])
-        ends: Floats = np.array(shape.center) + shape.radius * axes
+        ends: Floats = np.array(shape.middle) + shape.reach * axes
         return ends
-    assert isinstance(shape, Quad)
     u, v = np.array(shape.edge_u), np.array(shape.edge_v)
     corners: Floats = np.array(shape.corner) + np.array([0 * u, u, v, u + v])
     return corners
 
 
 def size(shape: Shape) -> float:
-    """The radius of a sphere; of a quad, half of its longer edge."""
-    if isinstance(shape, Sphere):
-        return shape.radius
-    assert isinstance(shape, Quad)
-    return max(math.hypot(*shape.edge_u), math.hypot(*shape.edge_v)) / 2
+    """The radius of a sphere or disk; of a quad, half of its longer edge."""
+    if isinstance(shape, Quad):
+        return max(math.hypot(*shape.edge_u), math.hypot(*shape.edge_v)) / 2
+    return shape.reach
 
 
 def height_over(plane: Plane, places: Floats) -> float:
@@ -75,16 +86,17 @@ def assert_sound(found: Scene) -> None:
     assert cautions(found, settings_for(found.render)) == []
     eye = np.array(found.camera.position)
     planes = [shape for shape in found.objects if isinstance(shape, Plane)]
-    balls = [shape for shape in found.objects if isinstance(shape, Sphere)]
+    balls = [shape for shape in found.objects if isinstance(shape, Sphere | Box | Cylinder | Disk)]
     assert min((height_over(plane, eye[None]) for plane in planes), default=1.0) > 0.2
     for lamp in lamps(found):
         for plane in planes:
             assert height_over(plane, points(lamp)) > 0.9 * GAP
         assert points(lamp)[:, 1].min() > 0
     for ball in balls:
-        assert math.dist(ball.center, found.camera.position) > 2 * ball.radius
+        assert math.dist(ball.middle, found.camera.position) > 2 * ball.reach
+        assert all(height_over(plane, points(ball)) > -1e-4 for plane in planes)
     for a, b in combinations(balls, 2):
-        assert math.dist(a.center, b.center) > a.radius + b.radius
+        assert math.dist(a.middle, b.middle) > a.reach + b.reach
 
 
 def test_the_first_ball_is_in_view() -> None:
@@ -102,7 +114,10 @@ def test_every_kind_of_thing_occurs() -> None:
     assert used == {"lambertian", "metal", "dielectric", "light"}
     metals = [m for s in scenes for m in s.materials.values() if isinstance(m, Metal)]
     assert {metal.roughness == 0 for metal in metals} == {True, False}
-    assert {type(lamp) for s in scenes for lamp in lamps(s)} == {Sphere, Quad}
+    assert {type(lamp) for s in scenes for lamp in lamps(s)} == {Sphere, Quad, Disk}
+    assert {type(shape) for s in scenes for shape in s.objects} == set(KINDS.values())
+    tubes = [shape for s in scenes for shape in s.objects if isinstance(shape, Cylinder)]
+    assert {tube.capped for tube in tubes} == {True, False}
     floors = {type(s.objects[0]) for s in scenes}
     assert floors == {Plane, Quad}
     planes = {sum(isinstance(shape, Plane) for shape in s.objects) for s in scenes}
@@ -131,7 +146,39 @@ def test_numbers_and_sizes_spread() -> None:
 def test_a_seed_is_one_scene_on_every_machine() -> None:
     assert random_scene(7) == random_scene(7) != random_scene(8)
     text = json.dumps(random_tables(7), sort_keys=True)
-    assert hashlib.sha256(text.encode()).hexdigest()[:16] == "cd461111ff003688"
+    assert hashlib.sha256(text.encode()).hexdigest()[:16] == "194d689253c7055d"
+
+
+def test_a_scene_turns_as_a_whole() -> None:
+    """Rays turned with it meet its shapes at the same distances."""
+    tables = next(t for t in map(random_tables, SEEDS) if {"box", "cylinder", "disk"} <= kinds(t))
+    before = [shape for shape in parse_scene(tables, "before").objects if type(shape) is not Plane]
+    turned = parse_scene(_rounded(_turned(arrays(tables), 1.0)), "turned")
+    after = [shape for shape in turned.objects if type(shape) is not Plane]
+    turn = np.array([[COS, 0, SIN], [0, 1, 0], [-SIN, 0, COS]])
+    draw = np.random.default_rng(0)
+    for one, other in zip(before, after, strict=True):
+        eye = np.array(one.middle) + 3 * one.reach
+        aims = np.array(one.middle) + one.reach * draw.uniform(-0.5, 0.5, (50, 3)) - eye
+        for aim in aims / np.linalg.norm(aims, axis=1)[:, None]:
+            with np.errstate(all="ignore"):
+                there = type(one).distances(np.array([one.row]), eye, aim)
+                back = type(other).distances(np.array([other.row]), turn @ eye, turn @ aim)
+            assert np.isfinite(there) == np.isfinite(back)
+            assert not np.isfinite(there) or abs(there - back) < 2e-3 * one.reach + 1e-3
+
+
+def kinds(tables: dict[str, Any]) -> set[str]:
+    return {item["shape"] for item in tables["objects"]}
+
+
+def arrays(value: Any) -> Any:
+    """Tables with lists of numbers as arrays, as they are before they are turned."""
+    if isinstance(value, dict):
+        return {key: arrays(item) for key, item in value.items()}
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return [arrays(item) for item in value]
+    return np.array(value) if isinstance(value, list) else value
 
 
 def test_counts_have_both_ends() -> None:

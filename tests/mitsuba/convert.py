@@ -7,14 +7,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.errors import SceneError
+from glrt.scene.cylinder import Cylinder
 from glrt.scene.materials import Dielectric, Light, Metal
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Sphere
+from glrt.scene.shapes import Disk, Plane, Quad, Sphere
+from glrt.scene.solids import Box
 from glrt.scene.values import Radiance
 from glrt.settings import Settings
 from tests.mitsuba import metal
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
-from tests.mitsuba.near import EXTENT, Near, Vector, corners, length, near, normal_of, unit
+from tests.mitsuba.near import EXTENT, Near, Vector, around, corners, length, near, normal_of, unit
 
 ROULETTE_DEPTH = 5  # where it starts by Mitsuba's own choice
 NEVER = 1 << 30
@@ -117,13 +119,30 @@ def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> 
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
         grid = _grid(item, at, CELL if liberties.finite else GRID)
         yield _mesh(mi, surface, *grid)
-    elif not isinstance(item, Quad):
-        raise SceneError(f"shape '{item.shape}': the converter to Mitsuba does not know it.")
-    elif any(scene.emission(item.material)):
-        for side in (1,) if liberties.one_sided else (1, -1):
-            yield _quad(mi, surface, item, at, side * GAP / 2)
+    elif isinstance(item, Quad | Disk):
+        for lift in _lifts(any(scene.emission(item.material)), liberties):
+            yield _face(mi, surface, item, at, lift)
+    elif isinstance(item, Box | Cylinder):
+        yield from _solid(mi, scene, surface, item, at)
     else:
-        yield _quad(mi, surface, item, at, 0.0)
+        raise SceneError(f"shape '{item.shape}': the converter to Mitsuba does not know it.")
+
+
+def _face(mi: Any, surface: Words, item: Quad | Disk, at: Near, lift: float) -> Any:
+    """One face of a flat shape, lifted to its side: below 0, the back."""
+    if isinstance(item, Quad):
+        return _quad(mi, surface, item, at, lift)
+    normal = normal_of(item)
+    center = at.point(item.center) + lift * normal
+    radius = item.radius * at.factor
+    return {**surface, **_circle(mi, center, normal if lift >= 0 else -normal, radius)}
+
+
+def _lifts(is_lamp: bool, liberties: Liberties) -> tuple[float, ...]:
+    """Of the faces of a flat shape: a lamp has two, which face away from each other."""
+    if not is_lamp:
+        return (0.0,)
+    return (GAP / 2,) if liberties.one_sided else (GAP / 2, -GAP / 2)
 
 
 def _sphere(scene: Scene, surface: Words, item: Sphere, at: Near) -> Iterator[Words]:
@@ -137,9 +156,9 @@ def _sphere(scene: Scene, surface: Words, item: Sphere, at: Near) -> Iterator[Wo
 def _grid(item: Plane, at: Near, lines: Vector) -> tuple[Vector, list[list[int]]]:
     """Points and triangles of a plane, around the foot of the origin."""
     normal = normal_of(item)
-    u = unit(np.cross(normal, np.eye(3)[np.abs(normal).argmin()]))
+    u, v = around(normal)
     foot = np.dot(at.point(item.point), normal) * normal
-    points = [foot + x * u + y * np.cross(normal, u) for y in lines for x in lines]
+    points = [foot + x * u + y * v for y in lines for x in lines]
     side = len(lines)
     cells = [y * side + x for y in range(side - 1) for x in range(side - 1)]
     first = [[cell, cell + 1, cell + side + 1] for cell in cells]
@@ -148,7 +167,6 @@ def _grid(item: Plane, at: Near, lines: Vector) -> tuple[Vector, list[list[int]]
 
 
 def _quad(mi: Any, surface: Words, item: Quad, at: Near, lift: float) -> Any:
-    """One face of a quad, lifted to its side: below 0, the back."""
     u, v = at.along(item.edge_u) / 2, at.along(item.edge_v) / 2
     center = np.mean([at.point(corner) for corner in corners(item)], axis=0)
     center += lift * normal_of(item)
@@ -158,6 +176,39 @@ def _quad(mi: Any, surface: Words, item: Quad, at: Near, lift: float) -> Any:
         return {**surface, **_square(mi, center, u, v)}
     points = np.array([center - u - v, center + u - v, center + u + v, center - u + v])
     return _mesh(mi, surface, points, [[0, 1, 2], [0, 2, 3]])  # a rectangle cannot be sheared
+
+
+def _circle(mi: Any, center: Vector, normal: Vector, radius: float) -> Words:
+    u, v = (radius * axis for axis in around(normal))
+    return {"type": "disk", "to_world": _placed(mi, center, u, v, normal)}
+
+
+def _placed(mi: Any, center: Vector, *axes: Vector) -> Any:
+    matrix = np.eye(4)
+    matrix[:3] = np.stack([*axes, center], axis=1)
+    return mi.ScalarTransform4f(matrix)
+
+
+def _solid(
+    mi: Any, scene: Scene, surface: Words, item: Box | Cylinder, at: Near
+) -> Iterator[Words]:
+    """A box, or the wall and the ends of a cylinder; lamps shine outwards."""
+    is_lamp = any(scene.emission(item.material))
+    is_around = length(np.subtract(item.middle, scene.camera.position)) < item.reach
+    if is_lamp and is_around:
+        raise SceneError(f"material '{item.material}': Mitsuba's lamp would not shine inwards.")
+    if isinstance(item, Box):
+        halves = item.axes * item.halves[:, None] * at.factor
+        yield {"type": "cube", "to_world": _placed(mi, at.point(item.middle), *halves), **surface}
+        return
+    ends, radius = [at.point(item.from_), at.point(item.to)], item.radius * at.factor
+    wall = {"type": "cylinder", "p0": ends[0].tolist(), "p1": ends[1].tolist(), **surface}
+    yield {**wall, "radius": radius}
+    if item.capped:
+        for end, outward in zip(ends, (-item.axis, item.axis), strict=True):
+            yield {**surface, **_circle(mi, end, outward, radius)}
+    elif is_lamp:
+        yield {**wall, "radius": radius - GAP, "flip_normals": True}
 
 
 def _mesh(mi: Any, surface: Words, points: Vector, triangles: list[list[int]]) -> Any:
@@ -173,9 +224,7 @@ def _mesh(mi: Any, surface: Words, points: Vector, triangles: list[list[int]]) -
 
 
 def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
-    matrix = np.eye(4)
-    matrix[:3] = np.stack([u, v, unit(np.cross(u, v)), middle], axis=1)
-    return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix)}
+    return {"type": "rectangle", "to_world": _placed(mi, middle, u, v, unit(np.cross(u, v)))}
 
 
 def _surface(scene: Scene, name: str, is_native: bool) -> Words:

@@ -1,12 +1,16 @@
 """What of a scene's surfaces Mitsuba needs to be told: which of them can be seen from inside, and
 which coincide, so that it would show one or the other at random."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from glrt.errors import SceneError
+from glrt.scene.cylinder import Cylinder
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Shape, Sphere
-from tests.mitsuba.near import Vector, corners, length, normal_of
+from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
+from glrt.scene.solids import Box
+from tests.mitsuba.near import Vector, around, corners, length, normal_of
 
 TOUCH = 1e-6  # of a radius or an edge: surfaces that come as near only touch
 
@@ -29,40 +33,71 @@ def _reach(item: Shape, point: Vector) -> float:
     return length(point - item.middle) - item.reach
 
 
+class Face(NamedTuple):
+    """A flat face."""
+
+    normal: Vector
+    points: list[Vector]  # its corners, around; of a disk those of its square; a point of a plane
+
+
 def refuse_coincident(scene: Scene) -> None:
-    """Raise SceneError if two flat shapes overlap in one plane."""
-    flat = [(i, o) for i, o in enumerate(scene.objects) if isinstance(o, Plane | Quad)]
+    """Raise SceneError if flat faces of two shapes overlap in one plane."""
+    flat = [(i, face) for i, item in enumerate(scene.objects) for face in _faces(item)]
     for number, (i, first) in enumerate(flat):
         for j, second in flat[number + 1 :]:
-            if _coincide(first, second):
+            if i != j and _coincide(first, second):
                 raise SceneError(
                     f"objects {i} and {j} lie in one plane: Mitsuba would show either, at random; "
                     "move one of them."
                 )
 
 
-def _coincide(a: Plane | Quad, b: Plane | Quad) -> bool:
-    normal = normal_of(a)
-    if length(np.cross(normal, normal_of(b))) > TOUCH:
+def _faces(item: Shape) -> list[Face]:
+    if isinstance(item, Plane):
+        return [Face(normal_of(item), [np.array(item.point)])]
+    if isinstance(item, Quad):
+        return [Face(normal_of(item), corners(item))]
+    if isinstance(item, Disk):
+        return [_round_face(np.array(item.center), normal_of(item), item.radius)]
+    if isinstance(item, Cylinder) and item.capped:
+        ends = np.array(item.from_), np.array(item.to)
+        return [_round_face(end, item.axis, item.radius) for end in ends]
+    if isinstance(item, Box):
+        rows = [*(item.axes * item.halves[:, None])]
+        turns = [rows[axis:] + rows[:axis] for axis in range(3)]
+        return [
+            _face_of(np.array(item.middle) + side * w, u, v)
+            for w, u, v in turns
+            for side in (-1, 1)
+        ]
+    return []
+
+
+def _round_face(center: Vector, normal: Vector, radius: float) -> Face:
+    return _face_of(center, *(radius * axis for axis in around(normal)))
+
+
+def _face_of(center: Vector, u: Vector, v: Vector) -> Face:
+    normal = np.cross(u, v)
+    points = [center - u - v, center + u - v, center + u + v, center - u + v]
+    return Face(normal / length(normal), points)
+
+
+def _coincide(a: Face, b: Face) -> bool:
+    if length(np.cross(a.normal, b.normal)) > TOUCH:
         return False
-    points = _points(b)
-    apart = [abs(float(np.dot(normal, point - _points(a)[0]))) for point in points]
-    size = max(length(point - points[0]) for point in [*points, *_points(a)])
+    apart = [abs(float(np.dot(a.normal, point - a.points[0]))) for point in b.points]
+    size = max(length(point - b.points[0]) for point in [*b.points, *a.points])
     if max(apart) > TOUCH * size:
         return False
-    return isinstance(a, Plane) or isinstance(b, Plane) or _overlap(a, b, TOUCH * size)
+    return len(a.points) == 1 or len(b.points) == 1 or _overlap(a, b, TOUCH * size)
 
 
-def _points(item: Plane | Quad) -> list[Vector]:
-    return [np.array(item.point)] if isinstance(item, Plane) else corners(item)
-
-
-def _overlap(a: Quad, b: Quad, least: float) -> bool:
-    """Convex polygons of one plane overlap unless an edge of one has the other beyond it."""
-    normal = normal_of(a)
-    sides = [np.cross(normal, edge) for edge in (a.edge_u, a.edge_v, b.edge_u, b.edge_v)]
-    for side in sides:
-        first, second = ([float(np.dot(side, p)) for p in corners(quad)] for quad in (a, b))
+def _overlap(a: Face, b: Face, least: float) -> bool:
+    """Parallelograms of one plane overlap unless an edge of one has the other beyond it."""
+    edges = [points[k + 1] - points[k] for points in (a.points, b.points) for k in (0, 1)]
+    for side in (np.cross(a.normal, edge) for edge in edges):
+        first, second = ([float(np.dot(side, p)) for p in face.points] for face in (a, b))
         slack = least * length(side)
         if max(first) <= min(second) + slack or max(second) <= min(first) + slack:
             return False

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt.scene.materials import Dielectric
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Sphere
+from glrt.scene.shapes import Disk, Plane, Quad, Sphere
 
 Vector = NDArray[np.float64]
 
@@ -69,9 +69,15 @@ def corners(quad: Quad) -> list[Vector]:
     return [corner, corner + u, corner + u + v, corner + v]
 
 
-def normal_of(item: Plane | Quad) -> Vector:
+def normal_of(item: Plane | Quad | Disk) -> Vector:
     """The unit normal of a flat shape."""
-    return unit(item.normal if isinstance(item, Plane) else np.cross(item.edge_u, item.edge_v))
+    return unit(np.cross(item.edge_u, item.edge_v) if isinstance(item, Quad) else item.normal)
+
+
+def around(normal: Vector) -> tuple[Vector, Vector]:
+    """Two unit vectors that make a right-handed frame with a unit normal, their third."""
+    u = unit(np.cross(normal, np.eye(3)[np.abs(normal).argmin()]))
+    return u, np.cross(normal, u)
 
 
 def length(vector: ArrayLike) -> float:
