@@ -154,7 +154,8 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
-        return fail(unreached(arguments.error, limits.error, estimate, renderer.samples), 1)
+        counts = renderer.samples, renderer.settings.block
+        return fail(unreached(arguments.error, limits.error, estimate, *counts), 1)
     return 0
 
 
@@ -167,9 +168,17 @@ def _picture(
     return render_to_limit(renderer, wanted.limits, interruption, watch)
 
 
-def unreached(wanted: float, noise: float, estimate: float | None, samples: int) -> str:
-    """What to say of an `--error`; of one for which `noise` is what a method's bias leaves room."""
+def unreached(
+    wanted: float, noise: float, estimate: float | None, samples: int, block: int = 1
+) -> str:
+    """What to say of an `--error`; of one for which `noise` is what a method's bias leaves room.
+
+    `block`: samples of an observation.
+    """
     found = "unknown" if estimate is None else f"{estimate:.3g}"
+    if samples < 2 * block:
+        found += f" below {2 * block} samples"
+        found += " (2 with --sampler independent)" if block > 1 else ""
     if noise < wanted:
         found = f"beside the bias of the method its noise must be {noise:.3g}, and is {found}"
     else:

@@ -8,6 +8,7 @@ from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.materials import TYPES, Material, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
+from glrt.scene.summary import few
 from glrt.settings import Settings
 from glrt.text import counted, plural
 
@@ -223,7 +224,7 @@ def _matches(material: Material, limits: dict[str, bool]) -> bool:
 
 
 def _made_of(names: Iterable[str], kind: str) -> str:
-    listed = ", ".join(names)
+    listed = few(names)
     return f"{kind}: {listed}" if listed else f"nothing is {kind}"
 
 

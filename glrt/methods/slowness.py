@@ -7,6 +7,7 @@ from glrt.settings import Settings
 from glrt.text import counted
 
 MOST_AT_ONCE = TREE_FROM - 1  # shapes that a kernel holds as constants
+MOST_BESIDE = 12  # shapes beside a tree that are worth no word
 LONG = 16  # bounces: paths that are followed further have hardly any light left
 
 
@@ -21,7 +22,7 @@ def _one_by_one(scene: Scene) -> str:
     contents = contents_of(scene)
     spheres = contents.shapes["sphere"]
     single = len(scene.objects) - (spheres if contents.has_tree else 0)
-    if single <= MOST_AT_ONCE:
+    if single <= (MOST_BESIDE if contents.has_tree else MOST_AT_ONCE):
         return ""
     kinds = [(n, kind) for kind, n in contents.shapes.items() if n and kind != "sphere"]
     count, kind = max(kinds, default=(spheres, "sphere"))
@@ -33,7 +34,8 @@ def _one_by_one(scene: Scene) -> str:
     return (
         f"each ray is compared with {counted(single, 'shape')} one by one, most of them "
         f"{counted(count, kind)}: only spheres have a tree, from {TREE_FROM} on. With "
-        f"{MOST_AT_ONCE} shapes or fewer a sample is several times as fast: {advice}."
+        f"{MOST_AT_ONCE} shapes or fewer in all, spheres too, a sample is several times as fast: "
+        f"{advice}."
     )
 
 

@@ -23,6 +23,7 @@ Modules, each importing only what stands above it:
 - toml_writer: scene files written, with their comments kept
 - catalog: the scenes that come with glrt, by name
 - summary: what a scene holds, in words
-- crossing_glass: glass that crosses glass
+- flat_faces: whether solids share a part of a plane
+- crossing_glass: how solids of glass lie to each other
 - limits: what lies beyond float32 or the model: cautions
 """

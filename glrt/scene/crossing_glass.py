@@ -1,12 +1,14 @@
-"""Glass that crosses glass: light between the two is refracted as if it entered air."""
+"""How solids of glass lie to each other: what crosses, what lies inside, what shares a face."""
 
 import math
 from collections.abc import Iterator
 from itertools import islice
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.scene.flat_faces import share_a_face
 from glrt.scene.objects import Object
 from glrt.scene.shapes import Plane, Shape, Sphere
 
@@ -17,31 +19,44 @@ SLACK = 1e-6  # of the size: solids that were meant to touch do
 
 Floats = NDArray[np.float64]
 Pair = tuple[int, int]
+Relation = Literal["cross", "share a face", "inside"]
 
 
-def first_crossing(solids: list[Shape], eye: Floats) -> Pair | None:
-    """The first two of the solids, by index, whose surfaces cross; None if none do.
+class Found(NamedTuple):
+    """Two solids, by index; of those that lie inside each other, the inner one is the first."""
 
-    A solid within another is fine, and so is one that touches another. Balls are compared exactly,
-    others by points of their surfaces. `eye` is where rounding should be least, (3,).
+    relation: Relation
+    pair: Pair
+
+
+def relations(solids: list[Shape], eye: Floats) -> Iterator[Found]:
+    """Which of the solids cross, share a part of a flat face, or lie inside another.
+
+    Balls are compared exactly, others by points of their surfaces. `eye` is where rounding should
+    be least, (3,).
     """
     few = solids[:MOST_COMPARED]
     balls = [index for index, solid in enumerate(few) if isinstance(solid, Sphere)]
     center = np.array([few[i].middle for i in balls], np.float64).reshape(-1, 3) - eye
     radius = np.array([few[i].reach for i in balls], np.float64)
-    exact = ((balls[a], balls[b]) for a, b in _crossing_balls(center, radius))
-    others = (pair for pair in islice(_near_pairs(few), MOST_PAIRS) if _cross(few, pair))
-    return min(filter(None, (next(exact, None), next(others, None))), default=None)
+    for relation, a, b in _balls(center, radius):
+        yield Found(relation, (balls[a], balls[b]))
+    for first, second in islice(_near_pairs(few), MOST_PAIRS):
+        yield from _between(few, first, second)
 
 
-def _crossing_balls(center: Floats, radius: Floats) -> Iterator[Pair]:
-    """Pairs of balls whose surfaces meet in a circle, not in a point."""
+def _balls(center: Floats, radius: Floats) -> Iterator[tuple[Relation, int, int]]:
+    """Pairs whose surfaces meet in a circle, not in a point, and balls within others."""
     for first in range(len(radius) - 1):
         apart = np.linalg.norm(center[first + 1 :] - center[first], axis=1)
         total, rest = radius[first + 1 :] + radius[first], radius[first + 1 :] - radius[first]
         slack = SLACK * total
         for second in np.flatnonzero((apart < total - slack) & (apart > np.abs(rest) + slack)):
-            yield first, first + 1 + int(second)
+            yield "cross", first, first + 1 + int(second)
+        for second in np.flatnonzero(apart < rest - slack):
+            yield "inside", first, first + 1 + int(second)
+        for second in np.flatnonzero(apart < -rest - slack):
+            yield "inside", first + 1 + int(second), first
 
 
 def _near_pairs(solids: list[Shape]) -> Iterator[Pair]:
@@ -60,20 +75,30 @@ def _may_meet(a: Shape, b: Shape) -> bool:
     return math.dist(a.middle, b.middle) < a.reach + b.reach
 
 
-def _cross(solids: list[Shape], pair: Pair) -> bool:
-    a, b = (solids[index] for index in pair)
+def _between(solids: list[Shape], first: int, second: int) -> Iterator[Found]:
+    a, b = solids[first], solids[second]
     if isinstance(a, Plane) and isinstance(b, Plane):
-        return float(np.linalg.norm(np.cross(a.normal, b.normal))) > SLACK
-    return any(_is_cut(solid, other) for solid, other in ((a, b), (b, a)))
+        if float(np.linalg.norm(np.cross(a.normal, b.normal))) > SLACK:
+            yield Found("cross", (first, second))
+        return
+    depths = _depths(a, b), _depths(b, a)
+    if share_a_face(a, b, SLACK):
+        yield Found("share a face", (first, second))
+    elif any(low < 0 < high for low, high in depths):
+        yield Found("cross", (first, second))
+    elif depths[0][0] > 0:
+        yield Found("inside", (first, second))
+    elif depths[1][0] > 0:
+        yield Found("inside", (second, first))
 
 
-def _is_cut(solid: Shape, other: Shape) -> bool:
-    """Whether some points of a solid's surface lie inside another and some outside."""
+def _depths(solid: Shape, other: Shape) -> tuple[float, float]:
+    """How far points of a solid's surface lie in another: the least and the most; 0 on it."""
     if isinstance(solid, Plane):
-        return False
-    depths = [_depth(other, point) for point in _surface(solid)]
-    slack = SLACK * solid.reach
-    return max(depths) > slack and min(depths) < -slack
+        return -math.inf, -math.inf
+    depths = np.array([_depth(other, point) for point in _surface(solid)])
+    depths[np.abs(depths) <= SLACK * solid.reach] = 0
+    return float(depths.min()), float(depths.max())
 
 
 def _surface(solid: Shape) -> Iterator[Floats]:

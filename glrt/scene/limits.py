@@ -9,7 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.scene.crossing_glass import MOST_COMPARED, first_crossing
+from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
+from glrt.scene.materials import Dielectric
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
 from glrt.settings import Settings
@@ -17,6 +18,8 @@ from glrt.text import number, quoted
 
 ROUNDING = 2.0**-24  # of a float32, as a share of it
 HUGE = 1e4  # heights of the camera over a ball, or radii of one that it touches, in its radius
+LIKELY_IOR = 1.7  # below that of a gem: as liquids and glass have it against air
+DENSE_IOR = 1.9  # above that of nearly all glass
 FINEST_PIXEL = 4 * ROUNDING  # radians: directions are known to one or two roundings
 
 Floats = NDArray[np.float64]
@@ -27,7 +30,7 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
     found = (
         _narrow_pixels(scene, settings),
         _huge_ball(scene),
-        _crossing_glass(scene),
+        *_glass(scene),
         _walled_in(scene),
         _dark(scene),
     )
@@ -75,19 +78,50 @@ def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
         yield float(radius[ball]) / max(nearest, float(radius[ball]) * ROUNDING), int(ball)
 
 
-def _crossing_glass(scene: Scene) -> str:
-    """A solid within another is fine: `ior` is that of the inside over that of the outside."""
+def _glass(scene: Scene) -> list[str]:
+    """A paragraph for each way in which glass lies to glass that is seldom meant."""
     glass = [i for i in range(len(scene.objects)) if _kind(scene, i) == "dielectric"]
     eye = np.array(scene.camera.position, np.float64)
-    found = first_crossing([scene.objects[i] for i in glass], eye)
-    if found is None:
-        return ""
-    first, second = (_name(scene, glass[index]) for index in found)
+    texts: dict[str, str] = {}
+    for relation, (first, second) in relations([scene.objects[i] for i in glass], eye):
+        if not texts.get(relation):
+            texts[relation] = _glass_to_glass(scene, relation, glass[first], glass[second])
+    return list(texts.values())
+
+
+def _glass_to_glass(scene: Scene, relation: Relation, first: int, second: int) -> str:
+    if relation == "inside":
+        return _dense_inside(scene, first, second)
+    names = " and ".join(_name(scene, index) for index in sorted((first, second)))
+    if relation == "share a face":
+        return (
+            f"{names} are glass and share a part of a flat face: a ray meets only one of the two "
+            "there, so light is refracted wrongly. Leave a hair between them, such as a thousandth "
+            "of their size."
+        )
     return (
-        f"{first} and {second} are glass and cross: light that leaves one inside the other is "
-        "refracted as if it entered air. Separate them, let them touch, or put one inside the "
-        "other."
+        f"{names} are glass and cross: light that leaves one inside the other is refracted as if "
+        "it entered air. Separate them, or put one inside the other, a hair apart."
     )
+
+
+def _dense_inside(scene: Scene, inner: int, outer: int) -> str:
+    """Where `ior` looks as if it were given against air, and not against the glass around."""
+    own, around = _ior(scene, inner), _ior(scene, outer)
+    if not 1 < own < LIKELY_IOR or own * around < DENSE_IOR:
+        return ""
+    return (
+        f"{_name(scene, inner)} lies inside {_name(scene, outer)}: ior is that of an inside over "
+        f"that of the glass around it, so its {number(own)} is {own * around:.3g} against air. If "
+        f"{number(own)} is meant against air, write {number(own)} / {number(around)} = "
+        f"{own / around:.3g}."
+    )
+
+
+def _ior(scene: Scene, index: int) -> float:
+    material = scene.materials[scene.objects[index].material]
+    assert isinstance(material, Dielectric)
+    return material.ior
 
 
 def _walled_in(scene: Scene) -> str:

@@ -15,7 +15,7 @@ def summary(scene: Scene) -> list[str]:
     return [
         f"objects    {', '.join(_objects(scene)) or 'none'}",
         f"materials  {'; '.join(_materials(scene)) or 'none'}",
-        f"lights     {_few(_lights(scene)) or 'none'}",
+        f"lights     {few(_lights(scene)) or 'none'}",
     ]
 
 
@@ -29,7 +29,7 @@ def _materials(scene: Scene) -> Iterator[str]:
     for type_ in TYPES:
         names = [name for name, material in scene.materials.items() if material.type == type_]
         if names:
-            yield f"{type_} {_few(names)}"
+            yield f"{type_} {few(names)}"
 
 
 def _lights(scene: Scene) -> Iterator[str]:
@@ -40,7 +40,7 @@ def _lights(scene: Scene) -> Iterator[str]:
             yield f"{group}={number(intensity)}"
 
 
-def _few(words: Iterable[str]) -> str:
+def few(words: Iterable[str]) -> str:
     """The first of many, and how many others there are."""
     found = [shortened(word) for word in words]
     rest = f" and {len(found) - MOST_NAMED:,} more" if len(found) > MOST_NAMED else ""

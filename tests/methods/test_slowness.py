@@ -32,6 +32,11 @@ def test_shapes_without_a_tree_are_counted() -> None:
 def test_spheres_have_a_tree() -> None:
     row = scene_of([sphere([k, 0, -9], 0.4, "white") for k in range(40)], {"white": MATTE})
     assert slow_because(row, settings()) == []
+    few, many = (
+        row.model_copy(update={"objects": (*row.objects, *quads(n).objects)}) for n in (12, 30)
+    )
+    assert slow_because(few, settings()) == []
+    assert "32 shapes or fewer in all, spheres too" in slow_because(many, settings())[0]
 
 
 @pytest.mark.parametrize(

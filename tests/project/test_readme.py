@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 from glrt.rendering.renderer import Renderer
+from glrt.scene.limits import cautions
 from glrt.scene.toml import parse_scene
+from glrt.settings import settings_for
 from tests.support.alarms import ALPHA, book
 from tests.support.processes import glrt
 
@@ -84,9 +86,10 @@ def test_python_example_runs(tmp_path: Path) -> None:
     assert (tmp_path / "cornell.exr").exists()
 
 
-def test_scene_file_renders() -> None:
-    (text,) = blocks(WRITING_A_SCENE, "toml")
+@pytest.mark.parametrize("text", blocks(WRITING_A_SCENE, "toml"), ids=["room", "glass of water"])
+def test_scene_file_renders(text: str) -> None:
     scene = parse_scene(tomllib.loads(text), WRITING_A_SCENE.name)
+    assert cautions(scene, settings_for(scene.render)) == []
     renderer = Renderer(scene, width=24, height=16)
     assert renderer.render(4).nonfinite() == 0
     renderer.release()
