@@ -47,7 +47,7 @@ bench: ## measure how fast the kernel, its variants and the window are, and othe
 	$(IN_ENVIRONMENT) bench.window_tour drag
 	$(IN_ENVIRONMENT) bench.drags
 	$(IN_ENVIRONMENT) bench.kernels --seconds 0.1
-	$(IN_ENVIRONMENT) bench.sphere_counts
+	$(IN_ENVIRONMENT) bench.shape_counts
 	$(IN_ENVIRONMENT) bench.memory
 	$(IN_ENVIRONMENT) bench.roofline
 	$(IN_ENVIRONMENT) bench.rivals

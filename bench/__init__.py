@@ -9,7 +9,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - efficiency: variance and time with one setting of a render changed at a time
 - steps: variance and time of each step from plain light sampling to the defaults
 - many_lamps: variance and time with lamps chosen by distance, for many lamps
-- sphere_counts: the speed-up by a tree over the spheres, by their number
+- shape_counts: the speed-up by a tree over shapes, by their number
 - node_visits: the number of nodes of the tree that a ray visits
 - roofline: the speed of the kernel relative to the peak of the machine
 - dispatches: the longest dispatch of a render

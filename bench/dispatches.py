@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from unittest.mock import patch
 
 from bench.program import exit_code_of, machine, parser_of
-from bench.sphere_counts import crowd
+from bench.shape_counts import crowd
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bench.program import exit_code_of, machine, parser_of
 from bench.shader_edits import Edit, edited
-from bench.sphere_counts import crowd
+from bench.shape_counts import crowd
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.pipelines import Variant

@@ -1,8 +1,12 @@
-"""Acceleration structures: a tree over spheres, clusters of lamps. Arrays in, arrays out.
+"""Acceleration structures: trees over shapes, clusters of lamps. Arrays in, arrays out.
 
 Modules, each importing only what stands above it:
 
-- bvh: a bounding volume hierarchy over boxes
+- binned_splits: how boxes are divided between the children of a node
+- bvh: a bounding volume hierarchy over boxes, with a box in each node
 - sphere_nodes: the tree over spheres as the kernel reads it
+- binary_tree: a tree over boxes, with a box in each leaf
+- wide_tree: one of 8 children a node, in slots as the kernel reads them
+- shape_tree: the tree over shapes, and what stands in its leaves
 - light_clusters: clusters of nearby lamps, and alias tables to draw one of many
 """

@@ -13,7 +13,8 @@ from glrt.cli.options import (
 from glrt.cli.request import check_limit, open_renderer, scene_and_settings
 from glrt.errors import UsageError
 from glrt.image.sources import recipe_of, shown
-from glrt.methods.features import contents_of, explain
+from glrt.methods.contents import contents_of
+from glrt.methods.features import explain
 from glrt.methods.omissions import left_out, omissions
 from glrt.methods.slowness import slow_because
 from glrt.scene.limits import cautions
@@ -80,7 +81,7 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     if missing := omissions(scene, settings):
         print(f"\n{left_out(settings, missing)}")
     rounds = iterations_per_sample(scene, settings)
-    most = "about" if contents_of(scene).has_tree else "up to"
+    most = "about" if contents_of(scene).has_trees else "up to"
     print(
         f"\nA sample takes {most} {rounds:,} loop iterations; "
         f"llvmpipe ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}."

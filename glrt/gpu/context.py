@@ -75,6 +75,10 @@ class Context:
                 "smaller picture, or a --crop, may do."
             )
 
+    def make_current(self) -> None:
+        """Make it the current context, where no `with` block does."""
+        self.gl.mglo.__enter__()
+
     def checked(self, what: str) -> AbstractContextManager[None]:
         """`checked` of this context."""
         return checked(self.gl, what)

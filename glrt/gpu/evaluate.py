@@ -86,9 +86,13 @@ class Probe:
         return Source("probe", self.constants, texts={"probe": text, **(self.texts or {})})
 
 
+_SHAPES = "shapes/all_shapes.glsl"  # a part of the table of contents
+
+
 def path_files() -> list[str]:
     """The shader files that trace a path, in the order in which they build on each other."""
-    return re.findall(r'#include "([\w/]+\.glsl)"', read("trace.glsl"))
+    text = read("trace.glsl").replace(f'#include "{_SHAPES}"', read(_SHAPES))
+    return re.findall(r'#include "([\w/]+\.glsl)"', text)
 
 
 def _plain(values: Any) -> Array:

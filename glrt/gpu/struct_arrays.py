@@ -56,7 +56,7 @@ def scene_arrays(
     return "\n".join([*parts, *_numbering(arrays, numbered)]) + "\n"
 
 
-COUNTED = ("Node", "Light")  # by the struct Frame, beside those that are numbered
+COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered
 
 
 def upload(

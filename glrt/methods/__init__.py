@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - table: the methods, a row each
+- contents: what is in a scene, and by which trees shapes are found
 - features: the features compiled into a kernel, and why
 - light_layers: light as a weighted sum of layers
 - combinations: what goes with what

@@ -4,6 +4,16 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
+from glrt.methods.contents import (
+    ENDLESS,
+    MOST_NEAR,
+    REST_FROM,
+    SAMPLED,
+    SPHERES_FROM,
+    TREE_FROM,
+    Contents,
+    contents_of,
+)
 from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.materials import TYPES, Material, Metal
 from glrt.scene.scene import Scene
@@ -12,53 +22,8 @@ from glrt.scene.summary import few
 from glrt.settings import Settings
 from glrt.text import counted, plural
 
-TREE_FROM = 33  # spheres: more than are baked, and there a tree pays (docs/results/speed.md)
-MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
-SAMPLED = (
-    "sphere",
-    "quad",
-    "disk",
-)  # the kinds of lamps that are sampled; others are found by scattering
+NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # what the tree needs is known once it stands
 NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0}
-
-
-@dataclass(frozen=True)
-class Contents:
-    """What is in a scene, counted once for all that ask."""
-
-    shapes: dict[str, int]  # how many of each kind
-    materials: dict[str, Material]  # those that are used, in the order of the scene file
-    lamps: dict[str, int]  # how many of each kind of shape emit
-
-    @property
-    def sampled_lamps(self) -> int:
-        """How many lamps can be sampled."""
-        return sum(self.lamps[kind] for kind in SAMPLED)
-
-    @property
-    def has_tree(self) -> bool:
-        """Whether rays are to find spheres by a tree."""
-        return self.shapes["sphere"] >= TREE_FROM
-
-    @property
-    def has_many_lights(self) -> bool:
-        """Whether there are more lamps than are weighed one by one."""
-        return self.sampled_lamps > MOST_NEAR
-
-    @property
-    def clusters(self) -> int:
-        """How many clusters of lamps are weighed at each point; of few lamps each is one."""
-        return min(self.sampled_lamps, MOST_NEAR)
-
-
-def contents_of(scene: Scene) -> Contents:
-    """Count what is in a scene."""
-    shapes = dict.fromkeys(KINDS, 0)
-    lamps = dict.fromkeys(KINDS, 0)
-    for shape in scene.objects:
-        shapes[shape.shape] += 1
-        lamps[shape.shape] += is_light(scene.materials[shape.material])
-    return Contents(shapes, used_materials(scene), lamps)
 
 
 @dataclass(frozen=True)
@@ -73,7 +38,8 @@ class Needs:
     shapes: frozenset[str]
     materials: frozenset[str]
     lamps: frozenset[str]  # kinds that are sampled, or lit by in the classic models
-    has_tree: bool
+    has_sphere_tree: bool
+    has_tree: bool  # over other shapes
     has_mirror: bool
     has_rough_metal: bool
     has_lens: bool
@@ -97,7 +63,7 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         plain = [field.name for field in fields(self) if field.name not in _SETS]
         values = {name.upper(): getattr(self, name) for name in plain}
-        return {**kinds, **types, **lamps, **values, **NO_LAYERS, "COUNT_RAYS": False}
+        return {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, "COUNT_RAYS": False}
 
 
 def everything() -> dict[str, bool | int]:
@@ -134,7 +100,8 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
         materials=frozenset(types),
         lamps=frozenset(kind for kind in SAMPLED if is_lit and found.lamps[kind]),
-        has_tree=found.has_tree,
+        has_sphere_tree=found.has_sphere_tree,
+        has_tree=bool(found.tree_kinds),
         has_mirror=traits.follows
         and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
@@ -160,17 +127,6 @@ def _model_number(method: str, metals: Sequence[Metal]) -> int:
     return METHODS[method].model
 
 
-def is_light(material: Material) -> bool:
-    """Whether a material emits."""
-    return material.type == "light"
-
-
-def used_materials(scene: Scene) -> dict[str, Material]:
-    """The materials that some object is made of, in the order of the scene file."""
-    names = {shape.material for shape in scene.objects}
-    return {name: material for name, material in scene.materials.items() if name in names}
-
-
 def explain(scene: Scene, settings: Settings) -> list[Feature]:
     """Every feature of the kernel: in or out, and what in the scene decides that."""
     found = contents_of(scene)
@@ -188,7 +144,12 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
     lamps = _lamps(found)
     return [
         *(Feature(plural(kind), kind in needs.shapes, shapes(kind)) for kind in KINDS),
-        Feature("tree", needs.has_tree, f"{shapes('sphere')}; it pays from {TREE_FROM} on"),
+        Feature(
+            "tree of spheres",
+            needs.has_sphere_tree,
+            _of(shapes("sphere"), SPHERES_FROM),
+        ),
+        Feature("tree of shapes", needs.has_tree, _tree(found)),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
         *(
@@ -221,6 +182,21 @@ _SPOKEN = {"dielectric": "glass"}
 def _matches(material: Material, limits: dict[str, bool]) -> bool:
     rough = getattr(material, "alpha", 0.0) > 0
     return all(rough == wanted for wanted in limits.values())
+
+
+def _of(count: str, least: int) -> str:
+    return f"{count}; it pays from {least} on"
+
+
+def _tree(found: Contents) -> str:
+    if found.tree_kinds:
+        listed = (counted(found.shapes[kind], kind) for kind in found.tree_kinds)
+        return f"over {', '.join(listed)}"
+    rest = [kind for kind in KINDS if kind not in ENDLESS]
+    if found.has_sphere_tree:
+        count = counted(found.count_of(kind for kind in rest if kind != "sphere"), "other shape")
+        return _of(count, REST_FROM)
+    return _of(counted(found.count_of(rest), "bounded shape"), TREE_FROM)
 
 
 def _made_of(names: Iterable[str], kind: str) -> str:

@@ -10,7 +10,8 @@ from typing import Literal
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.features import needs_of, used_materials
+from glrt.methods.contents import used_materials
+from glrt.methods.features import needs_of
 from glrt.scene.materials import Light
 from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.values import Radiance

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from glrt.methods.features import SAMPLED, is_light, used_materials
+from glrt.methods.contents import SAMPLED, is_light, used_materials
 from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS

@@ -1,13 +1,12 @@
 """Why a scene is slow, where the user can change it."""
 
-from glrt.methods.features import TREE_FROM, contents_of
+from glrt.methods.contents import contents_of
 from glrt.methods.table import CLASSIC
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.text import counted
 
-MOST_AT_ONCE = TREE_FROM - 1  # shapes that a kernel holds as constants
-MOST_BESIDE = 12  # shapes beside a tree that are worth no word
+MOST_PLANES = 32  # as many shapes as a kernel holds as constants
 LONG = 16  # bounces: paths that are followed further have hardly any light left
 
 
@@ -18,24 +17,13 @@ def slow_because(scene: Scene, settings: Settings) -> list[str]:
 
 
 def _one_by_one(scene: Scene) -> str:
-    """Shapes without a tree over them, when they are more than constants can hold."""
-    contents = contents_of(scene)
-    spheres = contents.shapes["sphere"]
-    single = len(scene.objects) - (spheres if contents.has_tree else 0)
-    if single <= (MOST_BESIDE if contents.has_tree else MOST_AT_ONCE):
+    """Shapes that no tree holds."""
+    planes = contents_of(scene).shapes["plane"]
+    if planes <= MOST_PLANES:
         return ""
-    kinds = [(n, kind) for kind, n in contents.shapes.items() if n and kind != "sphere"]
-    count, kind = max(kinds, default=(spheres, "sphere"))
-    advice = (
-        "a box takes the place of six quads"
-        if kind == "quad"
-        else "leave out what the camera and the light do not need"
-    )
     return (
-        f"each ray is compared with {counted(single, 'shape')} one by one, most of them "
-        f"{counted(count, kind)}: only spheres have a tree, from {TREE_FROM} on. With "
-        f"{MOST_AT_ONCE} shapes or fewer in all, spheres too, a sample is several times as fast: "
-        f"{advice}."
+        f"each ray is compared with {counted(planes, 'plane')} one by one: what has no end has no "
+        "place in a tree. Quads have: use them for planes that need not be endless."
     )
 
 

@@ -5,17 +5,20 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from glrt.accel.shape_tree import ShapeTree
 from glrt.errors import RenderError, SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Images, Kernel, Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
-from glrt.methods.features import Contents, contents_of, needs_of
+from glrt.methods.contents import Contents, contents_of
+from glrt.methods.features import needs_of
 from glrt.methods.light_layers import Plan
 from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
+from glrt.rendering.pack_tree import tree_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
@@ -60,12 +63,13 @@ class DeviceScene:
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
         contents = contents_of(plan.scene)
-        self._arrays: Arrays = _packed(plan.scene, contents, before)
+        self._arrays, self._tree = _packed(plan.scene, contents, before)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         needs = needs_of(plan.scene, plan.settings, contents)
         variant = options.variant.constants
-        self._constants = {**needs.constants(), **plan.constants(), **variant}
-        self._has_tree = contents.has_tree  # without one none are lost
+        stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
+        self._constants = {**needs.constants(), **plan.constants(), **stack, **variant}
+        self._has_tree = contents.has_trees  # without one none are lost
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
@@ -114,7 +118,7 @@ class DeviceScene:
     ) -> None:
         """Let a kernel add a part's samples to a film, a picture of `tiles`."""
         numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
-        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers))
+        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, self._tree))
         resources = self._resources
         if self._sky:
             resources = {**resources, ENVIRONMENT: self._sky.texture}
@@ -157,12 +161,17 @@ def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> Im
     return (known and known.shared(image)) or ImageTexture(context, image, "background.image")
 
 
-def _packed(scene: Scene, contents: Contents, before: DeviceScene | None) -> Arrays:
-    """The arrays of a scene; what those from before hold of it is not computed again."""
+def _packed(
+    scene: Scene, contents: Contents, before: DeviceScene | None
+) -> tuple[Arrays, ShapeTree | None]:
+    """The arrays and the tree of a scene; what those from before hold of it is not built again."""
     if before and before._scene == scene:
-        return before._arrays
-    is_elsewhere = before is not None and before._scene.objects == scene.objects
-    return pack_scene(scene, contents, before._arrays["Node"] if before and is_elsewhere else None)
+        return before._arrays, before._tree
+    if before and before._scene.objects == scene.objects:
+        nodes, tree = before._arrays["Node"], before._tree
+        return pack_scene(scene, contents, nodes, tree), tree
+    tree = tree_of(scene, contents)
+    return pack_scene(scene, contents, tree=tree), tree
 
 
 def same_rows(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:

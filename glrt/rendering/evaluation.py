@@ -6,14 +6,17 @@ from typing import Any
 import moderngl
 import numpy as np
 
+from glrt.accel.shape_tree import ShapeTree
 from glrt.gpu.evaluate import Probe, path_files
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
-from glrt.methods.features import contents_of, everything
+from glrt.methods.contents import contents_of
+from glrt.methods.features import everything
 from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
+from glrt.rendering.pack_tree import tree_of
 from glrt.rendering.pipelines import ENVIRONMENT, scene_text, upload
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -36,11 +39,13 @@ def evaluate(
     Every feature is compiled in, and lamps are chosen as in the scene, unless `constants` say
     otherwise. The context must be current.
     """
-    prelude = {**everything(), **(_choice(scene) if scene else {}), **(constants or {})}
-    arrays = pack_scene(scene) if scene else _nothing()
+    tree = tree_of(scene, contents_of(scene)) if scene else None
+    stack = {"TREE_STACK": tree.stack if tree else 0}
+    prelude = {**everything(), **(_choice(scene) if scene else {}), **stack, **(constants or {})}
+    arrays = pack_scene(scene, tree=tree) if scene else _nothing()
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
-    resources = resources_of(gl, scene, arrays)
+    resources = resources_of(gl, scene, arrays, tree)
     try:
         return probe.run(gl, inputs, resources)
     finally:
@@ -48,12 +53,14 @@ def evaluate(
             resource.release()
 
 
-def resources_of(gl: moderngl.Context, scene: Scene | None, arrays: Arrays) -> dict[str, Resource]:
+def resources_of(
+    gl: moderngl.Context, scene: Scene | None, arrays: Arrays, tree: ShapeTree | None = None
+) -> dict[str, Resource]:
     """The buffers and textures that the functions read; a frame of zeros without a scene."""
     frame = bytes(STRUCTS["Frame"].itemsize)
     if scene:
         counts = {struct: len(rows) for struct, rows in arrays.items()}
-        frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1)
+        frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1, tree=tree)
     image = scene.background.image if scene else None
     sky = (
         {} if image is None or image.pixels is None else {ENVIRONMENT: texture_of(gl, image.pixels)}
@@ -67,5 +74,5 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
 
 
 def _nothing() -> dict[str, Array]:
-    structs = (*NUMBERED, "Node", "Material", "Light", "Cluster")
+    structs = (*NUMBERED, "Node", "Slot", "Material", "Light", "Cluster")
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in structs}

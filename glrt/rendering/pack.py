@@ -6,14 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from glrt.accel.shape_tree import ShapeTree
 from glrt.accel.sphere_nodes import pack_nodes
 from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
-from glrt.methods.features import Contents, contents_of
+from glrt.methods.contents import Contents, contents_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_lights import lamps_of, pack_clusters, pack_lights
 from glrt.rendering.pack_materials import pack_materials
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
+from glrt.rendering.pack_tree import frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.values import BLACK
@@ -23,12 +25,15 @@ Array = np.ndarray[Any, Any]
 
 
 def pack_scene(
-    scene: Scene, contents: Contents | None = None, known: Array | None = None
+    scene: Scene,
+    contents: Contents | None = None,
+    known: Array | None = None,
+    tree: ShapeTree | None = None,
 ) -> dict[str, Array]:
     """Arrays for the kernel, keyed by the name of their struct.
 
-    `contents` are those of the scene, if they are counted already. `known` are the nodes of a scene
-    with the same objects: a tree is not built again.
+    `contents` and `tree` are those of the scene, if they are there already. `known` are the nodes
+    of a scene with the same objects: their tree is not built again.
     """
     found = contents or contents_of(scene)
     shapes = in_order(scene)
@@ -37,10 +42,11 @@ def pack_scene(
     materials = {name: row for row, name in enumerate(found.materials)}
     lights = {number: row for row, number in enumerate(lamps.shapes)}
     arrays = pack_shapes(shapes, Placing(eye, materials, lights))
-    spheres = arrays["Sphere"]
+    spheres = arrays["Sphere"][: None if found.has_sphere_tree else 0]
     return {
         **arrays,
-        "Node": pack_nodes(spheres if found.has_tree else spheres[:0], STRUCTS["Node"], known),
+        "Node": pack_nodes(spheres, STRUCTS["Node"], known),
+        "Slot": pack_tree(tree or tree_of(scene, found), arrays),
         "Material": pack_materials(scene, found.materials),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
@@ -73,6 +79,7 @@ def pack_frame(
     first_tile: int = 0,
     tile_stride: int = 1,
     is_empty: bool = True,
+    tree: ShapeTree | None = None,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
@@ -96,5 +103,6 @@ def pack_frame(
         "first_tile": first_tile,
         "tile_stride": tile_stride,
         "is_empty": int(is_empty),
+        **frame_fields(tree, np.array(scene.camera.position, np.float64)),
     }
     return record(STRUCTS["Frame"], frame).tobytes()

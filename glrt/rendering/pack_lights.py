@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
-from glrt.methods.features import MOST_NEAR, SAMPLED, is_light
+from glrt.methods.contents import MOST_NEAR, SAMPLED, is_light
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS, Disk, Quad, Shape, Sphere

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from glrt.errors import SceneError
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.features import Contents, contents_of
+from glrt.methods.contents import Contents, contents_of
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
@@ -70,13 +70,14 @@ def rounds_of_search(
     """Rounds of the loops that find what one ray meets; `contents` are those of the scene.
 
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
-    it finds that there are no more. With a tree over the spheres it is a guess.
+    it finds that there are no more. With a tree it is a guess.
     """
     found = contents or contents_of(scene)
-    kinds = sum(1 for count in found.shapes.values() if count)
-    spheres = found.shapes["sphere"] if found.has_tree else 0
-    by_tree = round(tree_rounds * math.log2(spheres)) if spheres else 0
-    return len(scene.objects) + kinds + by_tree - spheres
+    in_trees = [*found.tree_kinds, *(["sphere"] if found.has_sphere_tree else [])]
+    counts = [found.count_of(found.tree_kinds), found.has_sphere_tree * found.shapes["sphere"]]
+    by_tree = sum(round(tree_rounds * math.log2(count)) for count in counts if count)
+    single = [count for kind, count in found.shapes.items() if count and kind not in in_trees]
+    return sum(single) + len(single) + by_tree
 
 
 def _rounds_of_choice(found: Contents) -> int:

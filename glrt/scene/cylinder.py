@@ -106,6 +106,13 @@ class Cylinder(_Ended):
         return [*self.middle, *axis, self.half, self.radius, float(self.capped)]
 
     @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of its rims."""
+        axis, half, radius = rows[:, 3:6], rows[:, 6:7], rows[:, 7:8]
+        reach = half * np.abs(axis) + radius * np.sqrt(np.maximum(1 - axis**2, 0))
+        return rows[:, :3] - reach, rows[:, :3] + reach
+
+    @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """To the near side; from inside, or through an open end, to the far side."""
         axis, half = rows[:, 3:6], rows[:, 6]

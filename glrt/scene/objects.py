@@ -46,6 +46,11 @@ class Object(Tagged):
 
     @staticmethod
     @abstractmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Corners of axis-aligned boxes around n shapes, (n, 3) each; infinite around what is."""
+
+    @staticmethod
+    @abstractmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
 

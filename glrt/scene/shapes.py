@@ -49,6 +49,11 @@ class Sphere(Object):
         return [*self.center, self.radius]
 
     @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of its ends along the axes."""
+        return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
+
+    @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """To the near side; from inside to the far side."""
         to_center = rows[:, :3] - origin
@@ -90,6 +95,12 @@ class Plane(Object):
     def row(self) -> list[float]:
         """Point and normal."""
         return [*self.point, *self.normal]
+
+    @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Infinite."""
+        endless = np.full((len(rows), 3), math.inf)
+        return -endless, endless
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
@@ -149,6 +160,13 @@ class Quad(Object):
         return [*self.corner, *self.edge_u, *self.edge_v]
 
     @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of its corners."""
+        u, v = rows[:, 3:6], rows[:, 6:]
+        corners = rows[:, :3] + np.stack([0 * u, u, v, u + v])
+        return corners.min(axis=0), corners.max(axis=0)
+
+    @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """From either side."""
         corner, u, v = rows[:, :3], rows[:, 3:6], rows[:, 6:]
@@ -199,6 +217,13 @@ class Disk(Object):
     def row(self) -> list[float]:
         """Centre, normal and radius."""
         return [*self.center, *self.normal, self.radius]
+
+    @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of its rim."""
+        normal = rows[:, 3:6] / np.linalg.norm(rows[:, 3:6], axis=1)[:, None]
+        reach = rows[:, 6:] * np.sqrt(np.maximum(1 - normal**2, 0))
+        return rows[:, :3] - reach, rows[:, :3] + reach
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:

@@ -76,6 +76,12 @@ class Box(Object):
         return [*self.middle, *map(float, self.halves), *map(float, self.axes.ravel())]
 
     @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of its corners."""
+        half = (np.abs(rows[:, 6:].reshape(-1, 3, 3)) * rows[:, 3:6, None]).sum(axis=1)
+        return rows[:, :3] - half, rows[:, :3] + half
+
+    @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """To the near side; from inside to the far side."""
         center, halves, axes = rows[:, :3], rows[:, 3:6], rows[:, 6:].reshape(-1, 3, 3)

@@ -2,6 +2,10 @@
 
 const float FAR = 3.402823466e38;
 
+// As min and max, which look for NaN on llvmpipe: three instructions there, and one for these.
+float lesser(float a, float b) { return a < b ? a : b; }
+float larger(float a, float b) { return a > b ? a : b; }
+
 struct Hit {
     float distance;
     int shape;

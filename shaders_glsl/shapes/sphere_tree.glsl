@@ -7,7 +7,7 @@
 // How far the origin of a ray is taken to lie off, relative to its largest coordinate or that of the
 // grid's corner: 64 times the rounding of a float. Boxes are as wide for the rounding of their own
 // corners.
-const float SLACK = 3.814697265625e-6;
+const float SPHERE_SLACK = 3.814697265625e-6;
 
 // A ray among the cells of the grid.
 struct Slab {
@@ -19,17 +19,13 @@ struct Slab {
 // `grid`: its corner, and the edge of a cell, a power of two.
 Slab slab_of(Ray ray, vec4 grid) {
     precise vec3 size = max(abs(ray.origin), abs(grid.xyz));
-    precise float slack = SLACK * max(size.x, max(size.y, size.z));
+    precise float slack = SPHERE_SLACK * max(size.x, max(size.y, size.z));
     precise float cells = 1.0 / grid.w;  // compilers compute what follows at every node
     precise vec3 above = (ray.origin + slack - grid.xyz) * cells;
     precise vec3 below = (ray.origin - slack - grid.xyz) * cells;
     precise vec3 inverse = clamp(grid.w / ray.direction, vec3(-FAR), vec3(FAR));
     return Slab(above, below, inverse);
 }
-
-// As min and max, which look for NaN on llvmpipe: three instructions there, and one for these.
-float lesser(float a, float b) { return a < b ? a : b; }
-float larger(float a, float b) { return a > b ? a : b; }
 
 // Whether the ray may meet the box of a node before `limit`.
 bool meets_box(Slab slab, uvec3 box, float limit) {

@@ -32,5 +32,8 @@ struct Frame {
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;
     int node_count;
+    int slot_count;
+    vec3 tree_center;       // of its grid, relative to the camera
+    float tree_cell;        // edge of a cell, a power of two
     float background_turn;  // of its image about +y, in turns from 0 to 1
 };

@@ -64,3 +64,19 @@ struct Node {
     uvec4 sphere;  // bits of centre and radius; of the grid: its corner, and the edge of a cell
     uvec4 box;     // along each axis its end << 16 | its start, in cells; nodes below << 16 | sphere
 };
+
+// Of the tree over the other shapes (glrt/accel/wide_tree.py says what its words hold): a node of 8 children,
+// or a leaf.
+struct Slot {
+    uvec4 a;
+    uvec4 b;
+    uvec4 c;
+    uvec4 d;
+};
+
+// Kinds of leaves.
+const int SPHERE = 1;
+const int QUAD = 2;
+const int DISK = 3;
+const int BOX = 4;
+const int CYLINDER = 5;

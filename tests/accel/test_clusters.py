@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 
 from glrt.accel.light_clusters import grouped, light_probabilities
 from glrt.gpu.context import Context
-from glrt.methods import features
-from glrt.methods.features import MOST_NEAR
+from glrt.methods import contents
+from glrt.methods.contents import MOST_NEAR
 from glrt.rendering import pack_lights
 from glrt.rendering.pack import pack_scene
 from glrt.rendering.pack_lights import PARTS, power
@@ -252,7 +252,7 @@ def test_a_corridor_needs_a_third_of_the_samples(
     balls = [sphere([0, 0.8, -1 - step * i], 0.1 * step / 2, "lamp") for i in range(lamps_in_all)]
     corridor = scene_of([*walls, *balls], LAMPS)
     near = rendered(corridor, context, 64, bounces=2)
-    for module in (features, pack_lights):
+    for module in (contents, pack_lights):
         monkeypatch.setattr(module, "MOST_NEAR", 1)
     monkeypatch.setattr(
         pack_lights, "grouped", lambda place, weight, most: [np.arange(len(weight))]

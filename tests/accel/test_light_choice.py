@@ -6,7 +6,8 @@ from numpy.testing import assert_allclose
 
 from glrt.accel.light_clusters import alias_table, light_probabilities
 from glrt.gpu.context import Context
-from glrt.methods.features import MOST_NEAR, needs_of
+from glrt.methods.contents import MOST_NEAR
+from glrt.methods.features import needs_of
 from glrt.rendering.pack import pack_scene
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, settings_for

@@ -7,8 +7,8 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.methods import features
-from glrt.methods.features import TREE_FROM
+from glrt.methods import contents
+from glrt.methods.contents import SPHERES_FROM
 from glrt.rendering.pack import pack_scene
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
@@ -95,7 +95,7 @@ def found(call_glsl: CallGlsl, has_tree: bool, scene: Scene = CROWD, **inputs: A
         "vec3",
         setup=HIT,
         scene=scene,
-        constants={"HAS_TREE": has_tree},
+        constants={"HAS_SPHERE_TREE": has_tree},
         **inputs,
     )
 
@@ -231,7 +231,7 @@ def test_a_ray_finds_by_the_tree_what_float64_says(call_glsl: CallGlsl) -> None:
 def crowd(seed: int, scale: float = 1.0) -> Scene:
     """Every shape and material, and overlapping balls, some of them lamps."""
     rng = np.random.default_rng(seed)
-    many = balls(int(rng.integers(TREE_FROM, 3 * TREE_FROM)), seed)
+    many = balls(int(rng.integers(SPHERES_FROM, 3 * SPHERES_FROM)), seed)
     for ball in many[:: rng.integers(5, 40)]:
         ball["material"] = "lamp"
     objects = [
@@ -251,7 +251,8 @@ def without_tree(
     scene: Scene, context: Context, monkeypatch: pytest.MonkeyPatch, **more: Any
 ) -> Image:
     with monkeypatch.context() as patch:
-        patch.setattr(features, "TREE_FROM", 1 << 30)
+        for name in ("TREE_FROM", "SPHERES_FROM"):
+            patch.setattr(contents, name, 1 << 30)
         return rendered(scene, context, 3, **more)
 
 

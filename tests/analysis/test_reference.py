@@ -21,7 +21,7 @@ from glrt.resources import folder
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, settings_for
 from tests.support.alarms import assert_near
-from tests.support.builders import MATTE, box_of_quads, glass, lamp, quad, scene_of, sphere
+from tests.support.builders import MATTE, box_of_quads, glass, lamp, plane, scene_of, sphere
 from tests.support.renders import assert_agree
 
 BALL = sphere([0, 0, -3], 1, "matte")
@@ -267,8 +267,8 @@ def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> 
 def test_the_loop_limit_of_software_bounds_the_paths(context: Context) -> None:
     if not context.is_software:
         pytest.skip("the driver has no loop limit")
-    tiles = [quad([i, 0, -3], [0.5, 0, 0], [0, 0.5, 0], "lamp") for i in range(400)]
-    scene = scene_of(tiles, {"lamp": lamp()})
+    walls = [plane([0, 0, -3 - i], [0, 0, 1], "lamp") for i in range(400)]
+    scene = scene_of(walls, {"lamp": lamp()})
     truth = reference_for(scene, small(scene), context, 1.0, 0.1)
     assert small(scene).bounces <= truth.bounces < reference.BOUNCES
 

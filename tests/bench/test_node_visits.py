@@ -5,7 +5,7 @@ import pytest
 
 from bench import node_visits
 from bench.node_visits import looks_of, main, per_lanes, per_ray
-from bench.sphere_counts import crowd
+from bench.shape_counts import crowd
 from glrt.gpu.context import Context
 from tests.support.builders import MATTE, scene_of, sphere
 

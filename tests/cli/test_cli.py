@@ -232,8 +232,8 @@ def test_full_disk_exits_4_and_leaves_nothing(tmp_path: Path) -> None:
 def test_scene_beyond_the_loop_limit_is_refused(tmp_path: Path) -> None:
     """On a software driver; a GPU has no such limit."""
     tiles = "\n".join(
-        f'[[objects]]\nshape = "quad"\ncorner = [{i}, 0, -9]\nedge_u = [1, 0, 0]\n'
-        'edge_v = [0, 1, 0]\nmaterial = "m"'
+        f'[[objects]]\nshape = "plane"\npoint = [0, 0, -{9 + i}]\nnormal = [0, 0, 1]\n'
+        'material = "m"'
         for i in range(400)
     )
     scene = tmp_path / "many.toml"

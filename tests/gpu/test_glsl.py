@@ -177,7 +177,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     files = {str(path.relative_to(root)) for path in shader_files()}
     by_structs = re.findall(r'#include "([^"]+)"', read("structs/scene.glsl"))
     assert files == {*FILES, *by_structs} | {
-        *("trace.glsl", "aov.glsl", "integrators/first_hit.glsl"),
+        *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
         "integrators/aov_numbers.glsl",
         *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag"),
         "trace.comp",

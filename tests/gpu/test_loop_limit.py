@@ -7,8 +7,10 @@ import pytest
 
 from glrt.cli.main import main
 from glrt.cli.render import Done
+from glrt.gpu import driver_checks
 from glrt.gpu.context import Context
-from glrt.methods import features
+from glrt.image.sources import load
+from glrt.methods import contents
 from glrt.rendering import schedule
 from glrt.rendering.renderer import Renderer
 from tests.support.builders import MATTE, plane, scene_of, sphere
@@ -38,8 +40,17 @@ def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
         assert renderer.most_samples <= 300 // 2 < before
         assert renderer.nonfinite() == 0
         image = renderer.image()
-    monkeypatch.setattr(features, "TREE_FROM", 1 << 30)
+    for name in ("TREE_FROM", "SPHERES_FROM"):
+        monkeypatch.setattr(contents, name, 1 << 30)
     assert same(image, rendered(scene, context, 300, **settings))
+
+
+def test_a_limit_that_is_measured_late_leaves_the_context_as_it_was(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For paths so long that the known limit may not do, it is measured on the way."""
+    monkeypatch.setattr(driver_checks, "_limits", {})
+    assert rendered(load("weekend"), context, 1, bounces=1000).samples == 1
 
 
 def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context) -> None:

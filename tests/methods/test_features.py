@@ -14,7 +14,8 @@ import pytest
 from glrt.gpu import glsl
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
-from glrt.methods.features import MOST_NEAR, TREE_FROM, Needs, needs_of
+from glrt.methods.contents import MOST_NEAR, SPHERES_FROM, TREE_FROM
+from glrt.methods.features import Needs, needs_of
 from glrt.resources import folder
 from glrt.settings import settings_for
 from tests.support.builders import (
@@ -41,7 +42,12 @@ PROBES = {
     "HAS_DISK": ("shapes/disk.glsl", "dot(p, p)", "dot({} * p, p)"),
     "HAS_BOX": ("shapes/box.glsl", "- face.w)", "- {} * face.w)"),
     "HAS_CYLINDER": ("shapes/cylinder.glsl", "height * cylinder.axis", "{} * cylinder.axis"),
-    "HAS_TREE": ("shapes/sphere_tree.glsl", "lesser(last.z, limit)", "lesser(last.z, {} * limit)"),
+    "HAS_SPHERE_TREE": (
+        "shapes/sphere_tree.glsl",
+        "lesser(last.z, limit)",
+        "lesser(last.z, {} * limit)",
+    ),
+    "HAS_TREE": ("shapes/tree_node.glsl", "lesser(end.z, limit)", "lesser(end.z, {} * limit)"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
@@ -68,7 +74,8 @@ PROBES = {
 LAST_KIND = "table"  # a scene with the last kind of the numbering: nothing ends before it
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
-    "HAS_TREE": {"HAS_SPHERE"},
+    "HAS_SPHERE_TREE": {"HAS_SPHERE"},
+    "HAS_TREE": {"HAS_DISK"},
     "HAS_HORIZON": {"HAS_BACKGROUND"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
@@ -76,11 +83,11 @@ NEEDED_TOO = {
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
-    "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
+    "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD", "HAS_TREE"},
 }
 
 GONE_TOO = {
-    "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_TREE"},
+    "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
@@ -124,6 +131,13 @@ def sky_with(flags: set[str]) -> dict[str, list[float]]:
     )
 
 
+def _flat_shape(flags: set[str]) -> dict[str, Any]:
+    """Of a kind that is there anyway."""
+    if "HAS_DISK" in flags:
+        return disk([0, 0, 0], [1, 0, 0], 1, "matte")
+    return quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")
+
+
 def needs_with(flags: set[str]) -> Needs:
     """What a scene and settings need that ask for these features."""
 
@@ -135,7 +149,9 @@ def needs_with(flags: set[str]) -> Needs:
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []
-    objects += [sphere([9, 9, 9], 1, "matte")] * (TREE_FROM if "HAS_TREE" in flags else 0)
+    ball, flat = sphere([9, 9, 9], 1, "matte"), _flat_shape(flags)
+    objects += [ball] * (SPHERES_FROM if "HAS_SPHERE_TREE" in flags else 0)
+    objects += [flat] * (TREE_FROM if "HAS_TREE" in flags else 0)
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
     objects += [disk([0, 0, 0], [1, 0, 0], 1, "matte")] if "HAS_DISK" in flags else []
@@ -146,7 +162,8 @@ def needs_with(flags: set[str]) -> Needs:
     lit = "HAS_QUAD_LIGHT" in flags
     lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
     lamps += [disk([0, 3, 0], [0, 1, 0], 1, "lamp")] if "HAS_DISK_LIGHT" in flags else []
-    objects += lamps + lamps[-1:] * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
+    many = lamps[-1:] if "HAS_TREE" in flags else lamps[:1]
+    objects += lamps + many * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
     scene = scene_of(
         objects,
         MATERIALS,

@@ -65,8 +65,8 @@ SHAPES = [
         (
             Edit(
                 "shaders_glsl/shapes/sphere_tree.glsl",
-                "const float SLACK = 3.814697265625e-6;",
-                "const float SLACK = 0.0;",
+                "const float SPHERE_SLACK = 3.814697265625e-6;",
+                "const float SPHERE_SLACK = 0.0;",
             ),
             Edit("glrt/accel/sphere_nodes.py", "SLACK = 2.0**-18", "SLACK = 0.0"),
         ),
@@ -81,5 +81,46 @@ SHAPES = [
         "a ray that misses a box of the tree leaves out the node behind it, too",
         edit("shapes/sphere_tree.glsl", "? 1 : 1 + below;", "? 1 : 2 + below;"),
         "accel/test_spheres_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "boxes of the tree over shapes are met where they lie, without room for rounding",
+        edit("shapes/tree_node.glsl", "SLACK * larger(", "0.0 * larger("),
+        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "of equal shapes the tree takes the one that it meets first",
+        edit("shapes/tree.glsl", "t == hit.distance && shape < hit.shape", "false"),
+        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "along an axis a ray with a zero below 0 enters boxes at their far sides",
+        edit("shapes/tree_node.glsl", "lessThan(inverse,", "lessThan(ray.direction,"),
+        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "the stack of the tree forgets its second entry",
+        edit("shapes/tree_stack.glsl", "s.e1 = pushes ? s.e0 : s.e1;", "s.e1 = s.e1;"),
+        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "children that a node does not have are visited from afar",
+        edit("shapes/tree_node.glsl", " && number <= children.last", ""),
+        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+    ),
+    Mutant(
+        "boxes of children end a cell too soon",
+        (
+            Edit(
+                "glrt/accel/wide_tree.py",
+                "end = np.ceil((high[level.child]",
+                "end = np.floor((high[level.child]",
+            ),
+        ),
+        "accel/test_wide_tree.py::test_the_box_of_a_child_holds_all_below_it_and_little_more",
+    ),
+    Mutant(
+        "shadow rays leave out what is left of a node when they go below",
+        edit("shapes/tree.glsl", "bool pushes = enters && group.y != 0u;", "bool pushes = false;"),
+        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
 ]

@@ -27,11 +27,20 @@ ENTRIES = {
     "aov.comp",
     "aov.frag",
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag"}
-NOT_OF_A_PATH = {*ENTRIES, "passes/tonemap.glsl", "trace.glsl", "aov.glsl", "structs/scene.glsl"}
+NOT_OF_A_PATH = {
+    *ENTRIES,
+    "passes/tonemap.glsl",
+    "trace.glsl",
+    "aov.glsl",
+    "structs/scene.glsl",
+} | {"shapes/all_shapes.glsl"}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "1.17549435e-38",  # the smallest normal float: a way of no length, which changes no digit
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
+    "7.62939453125e-6",  # 2^-17: how far off the tree over shapes takes a ray to be
+    "8388608.0",  # 2^23: half of the cells of its grid
+    "1.2379400392853803e27",  # 2^90: slopes beyond it are as good as none
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
     "65536.0",  # 2^16: the chances of roulette
     "1.1920928955078125e-7",  # 2^-23: the last place of a float from its power of two

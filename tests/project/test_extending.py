@@ -102,6 +102,13 @@ assert all((first == other).all() for other in others)
 assert abs(first.mean() / expected - 1) < 0.01, (first.mean(), expected)
 lit = glrt.render(scene, samples=16, width=32, height=32, method="mis")
 assert lit.radiance.mean() > first.mean()
+away = [{**ring, "center": [0.0, float(k), 40.0], "name": None} for k in range(40)]
+data = scene.model_dump(by_alias=True, exclude_none=True)
+many = parse_scene({**data, "objects": [*data["objects"], *away]}, "many rings")
+found = glrt.Renderer(many, width=64, height=64, bounces=0, samples=64).render().image()
+assert (found.radiance == first).all(), "a tree finds what the loop finds"
+aovs = glrt.render(scene, samples=32, width=32, height=32, aov=("depth",)).aovs
+assert abs(float(aovs["depth"].value[16, 24].mean()) - 4.0) < 0.01
 seen = pick(scene, 1.0, 0.5, 0.5 + 0.75 / edge)
 assert seen and seen.number == 0
 assert pick(scene, 1.0, 0.5, 0.5) is None

@@ -16,7 +16,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost
 from tests.support.aov_scenes import heap
-from tests.support.builders import MATTE, quad, scene_of, sphere
+from tests.support.builders import MATTE, plane, scene_of, sphere
 from tests.support.first_hits import ALL, MEANS, same_aovs
 from tests.support.renders import rendered, rendering, same
 
@@ -140,10 +140,9 @@ def test_an_unknown_aov_is_refused_by_its_name(context: Context) -> None:
 
 @cache
 def tiles(count: int) -> Scene:
-    """So many quads, one behind the other, that the first hides."""
-    corners = [[-9, -9, -3 - 0.001 * n] for n in range(count)]
-    quads = [quad(corner, [18, 0, 0], [0, 18, 0], "matte") for corner in corners]
-    return scene_of(quads, {"matte": MATTE}, background={"color": [1, 1, 1]})
+    """So many planes, one behind the other, that the first hides."""
+    walls = [plane([0, 0, -3 - 0.001 * n], [0, 0, 1], "matte") for n in range(count)]
+    return scene_of(walls, {"matte": MATTE}, background={"color": [1, 1, 1]})
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ from glrt.rendering import device_scene, kernel_switch
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings, cost_of
-from tests.support.builders import glass, lamp, quad, sphere
+from tests.support.builders import glass, lamp, plane, sphere
 from tests.support.mixed_scene import EYE, MATERIALS, OBJECTS, everything
 from tests.support.renders import rendered, rendering, same
 
@@ -116,9 +116,8 @@ def test_first_glass_compiles_another_kernel(context: Context) -> None:
 
 
 def too_large() -> Scene:
-    corners = [[i % 40 - 20, i // 40 - 20, -50] for i in range(1600)]
-    tiles = [quad(corner, [1, 0, 0], [0, 1, 0], "white") for corner in corners]
-    return everything([*OBJECTS, *tiles])
+    walls = [plane([0, 0, -50 - i], [0, 0, 1], "white") for i in range(1600)]
+    return everything([*OBJECTS, *walls])
 
 
 def test_scene_beyond_the_loop_limit_is_refused(context: Context) -> None:

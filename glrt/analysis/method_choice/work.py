@@ -11,7 +11,8 @@ from contextlib import contextmanager
 from glrt.analysis.chart.rays import SAMPLES, counting_variant
 from glrt.gpu.context import Context
 from glrt.gpu.program import TILE, tile_count
-from glrt.methods.features import contents_of, needs_of
+from glrt.methods.contents import contents_of
+from glrt.methods.features import needs_of
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.rendering.renderer import Renderer

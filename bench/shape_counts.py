@@ -1,7 +1,7 @@
-"""The speed-up by a tree over the spheres, by their number: spheres on a floor.
+"""The speed-up by a tree over shapes of one kind, by their number: shapes on a floor.
 
-The spheres cover the same share of the floor whatever their number, so that paths are equally long.
-Rounds are interleaved; a ratio is that of two runs of the same round.
+They cover the same share of the floor whatever their number, so that paths are equally long. Rounds
+are interleaved; a ratio is that of two runs of the same round.
 """
 
 import argparse
@@ -10,7 +10,7 @@ import statistics
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from unittest.mock import patch
 
 import numpy as np
@@ -19,20 +19,24 @@ from bench.program import add_rounds, exit_code_of, machine, parser_of
 from glrt.cli.process import peak_bytes
 from glrt.errors import SceneError
 from glrt.gpu.context import Context, open_context
-from glrt.methods import features
+from glrt.methods import contents
 from glrt.rendering import pipelines
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene
+from glrt.text import plural
 
 COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
-FIRST = 485  # number of spheres with which others are compared
-CONSTANTS = 128  # most baked spheres: 3 s of compilation, which grows quadratically
+FIRST = 485  # number of shapes with which others are compared
+CONSTANTS = 128  # most baked shapes: 3 s of compilation, which grows quadratically
+KINDS = ("sphere", "quad", "disk", "box", "cylinder")
+Table = dict[str, Any]
+Array = np.ndarray[Any, Any]
 
 
-def crowd(count: int, seed: int = 1) -> Scene:
-    """A scene of `count` spheres, matte and metal, on a floor of 2 x 2 units under a bright sky."""
+def crowd(count: int, seed: int = 1, kind: str = "sphere") -> Scene:
+    """A scene of `count` shapes, matte and metal, on a floor of 2 x 2 units under a bright sky."""
     rng = np.random.default_rng(seed)
     columns = math.ceil(math.sqrt(count))
     cell = 2 / columns
@@ -40,44 +44,66 @@ def crowd(count: int, seed: int = 1) -> Scene:
     radius = cell * rng.uniform(0.2, 0.35, count)
     center = np.column_stack([cell * (place + 0.5) - 1, radius])[:, [0, 2, 1]]
     center[:, [0, 2]] += cell * rng.uniform(-0.15, 0.15, (count, 2))
-    balls = [
-        {"shape": "sphere", "center": c, "radius": r, "material": ("clay", "brass")[i % 2]}
-        for i, (c, r) in enumerate(zip(center.tolist(), radius.tolist(), strict=True))
+    shapes = [
+        {"shape": kind, "material": ("clay", "brass")[i % 2], **_within(kind, c, r, rng)}
+        for i, (c, r) in enumerate(zip(center, radius.tolist(), strict=True))
     ]
     floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "clay"}
     return parse_scene(
         {
-            "title": f"{count} spheres on a floor",
+            "title": f"{count} shapes on a floor",
             "camera": {"position": [0, 1.5, 2.5], "look_at": [0, 0, 0]},
             "background": {"bottom": [0.9, 0.9, 0.9], "top": [0.5, 0.7, 1.0]},
             "materials": {
                 "clay": {"type": "lambertian", "color": [0.7, 0.6, 0.5]},
                 "brass": {"type": "metal", "color": [0.9, 0.8, 0.5], "roughness": 0.3},
             },
-            "objects": [*balls, floor],
+            "objects": [*shapes, floor],
         },
         "crowd",
     )
 
 
-class Row(NamedTuple):
-    """The figures for one number of spheres; seconds are for one sample of every pixel."""
+def _within(kind: str, center: Array, radius: float, rng: np.random.Generator) -> Table:
+    """A shape of a kind within a ball, turned at random; a ball itself."""
+    if kind == "sphere":
+        return {"center": center.tolist(), "radius": radius}
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0] * radius
+    if kind == "disk":
+        return {"center": center.tolist(), "normal": axes[0].tolist(), "radius": radius}
+    if kind == "quad":
+        corner, edges = center - (axes[0] + axes[1]) / 2**0.5, (2**0.5 * axes[:2]).tolist()
+        return {"corner": corner.tolist(), "edge_u": edges[0], "edge_v": edges[1]}
+    if kind == "box":
+        half, turn = radius / 3**0.5, rng.uniform(0, 90, 3).tolist()
+        return {"min": (center - half).tolist(), "max": (center + half).tolist(), "rotate": turn}
+    end, radius = axes[0] / 2**0.5, radius / 2**0.5
+    return {"from": (center - end).tolist(), "to": (center + end).tolist(), "radius": radius}
 
-    spheres: int
+
+class Row(NamedTuple):
+    """The figures for one number of shapes; seconds are for one sample of every pixel."""
+
+    number: int
     setup_seconds: float  # to pack the scene, build the tree and compile
     tree_seconds: float
     loop_seconds: float | None  # without a tree; None beyond the loop limit of the driver
     gain: tuple[float, float, float] | None  # speed-up by the tree: median and quartiles
-    growth: tuple[float, float, float] | None  # time with the tree over that of FIRST spheres
+    growth: tuple[float, float, float] | None  # time with the tree over that of FIRST shapes
 
 
 def measure(
-    context: Context, counts: Sequence[int], size: int, rounds: int, constants: int = CONSTANTS
+    context: Context,
+    counts: Sequence[int],
+    size: int,
+    rounds: int,
+    constants: int = CONSTANTS,
+    kind: str = "sphere",
 ) -> list[Row]:
     """Measure all `counts` interleaved, with a tree, and without (baked up to `constants`)."""
     tree, loop, setup = {}, {}, {}
     for count in counts:
-        scene = crowd(count)
+        scene = crowd(count, kind=kind)
         start = time.perf_counter()
         tree[count] = _renderer(context, scene, size, tree_from=1)
         setup[count] = time.perf_counter() - start
@@ -99,9 +125,12 @@ def measure(
 def _renderer(
     context: Context, scene: Scene, size: int, tree_from: int, most_baked: int = MOST_BAKED
 ) -> Renderer:
-    """A renderer with a tree from `tree_from` spheres on, baked up to `most_baked` shapes."""
+    """A renderer with a tree from `tree_from` shapes on, baked up to `most_baked` of them.
+
+    Spheres are found by their own.
+    """
     with (
-        patch.object(features, "TREE_FROM", tree_from),
+        patch.multiple(contents, SPHERES_FROM=tree_from, TREE_FROM=tree_from),
         patch.object(pipelines, "MOST_BAKED", most_baked),
     ):
         return Renderer(scene, context=context, tier="baked", width=size, height=size)
@@ -132,18 +161,17 @@ def _ratio(a: Sequence[float], b: Sequence[float]) -> tuple[float, float, float]
     return middle, low, high
 
 
-def table(rows: Sequence[Row], pixels: int) -> Iterator[str]:
+def table(rows: Sequence[Row], pixels: int, kind: str = "sphere") -> Iterator[str]:
     """The rows as Markdown."""
-    yield (
-        "| spheres | set-up | loop over all, million samples/s | tree | speed-up by the tree "
-        f"| time over that of {FIRST} |"
-    )
+    columns = [plural(kind), "set-up", "loop over all, million samples/s", "tree"]
+    columns += ["speed-up by the tree", f"time over that of {FIRST}"]
+    yield f"| {' | '.join(columns)} |"
     yield "|---|---|---|---|---|---|"
     for row in rows:
         loop = f"{pixels / row.loop_seconds / 1e6:.3f}" if row.loop_seconds else "refused"
         rate = f"{pixels / row.tree_seconds / 1e6:.2f}"
         ratios = f"{_text(row.gain)} | {_text(row.growth)}"
-        yield f"| {row.spheres:,} | {row.setup_seconds:.2f} s | {loop} | {rate} | {ratios} |"
+        yield f"| {row.number:,} | {row.setup_seconds:.2f} s | {loop} | {rate} | {ratios} |"
 
 
 def _text(ratio: tuple[float, float, float] | None) -> str:
@@ -151,26 +179,28 @@ def _text(ratio: tuple[float, float, float] | None) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """`python -m bench.sphere_counts`; returns the exit code."""
+    """`python -m bench.shape_counts`; returns the exit code."""
     parsed = _parser().parse_args(arguments)
     return exit_code_of(lambda: _print(parsed))
 
 
 def _print(parsed: argparse.Namespace) -> None:
     context = open_context()
-    rows = measure(context, parsed.spheres, parsed.size, parsed.rounds, parsed.constants)
+    shape: str = parsed.shape
+    rows = measure(context, parsed.counts, parsed.size, parsed.rounds, parsed.constants, kind=shape)
     work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
     print(f"{machine(context.renderer)}, {work}\n")
-    print("\n".join(table(rows, parsed.size**2)))
+    print("\n".join(table(rows, parsed.size**2, shape)))
     print(f"\npeak memory {(peak_bytes() or 0) / 2**20:.0f} MiB")
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = parser_of("sphere_counts", __doc__)
+    parser = parser_of("shape_counts", __doc__)
     add = parser.add_argument
-    add("--spheres", type=int, nargs="+", metavar="N", default=list(COUNTS))
+    add("--shape", choices=KINDS, default="sphere", help="kind of shape (default: sphere)")
+    add("--counts", type=int, nargs="+", metavar="N", default=list(COUNTS))
     add_rounds(parser, size=96, rounds=9)
-    told = f"most spheres to bake for the loop over all (default: {CONSTANTS})"
+    told = f"most shapes to bake for the loop over all (default: {CONSTANTS})"
     add("--constants", type=int, default=CONSTANTS, metavar="N", help=told)
     return parser
 

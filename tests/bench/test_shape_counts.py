@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bench import sphere_counts
-from bench.sphere_counts import FIRST, crowd, main, measure, table
+from bench import shape_counts
+from bench.shape_counts import FIRST, KINDS, crowd, main, measure, table
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.shapes import Sphere
@@ -22,9 +22,18 @@ def test_balls_of_a_crowd_stand_on_the_floor_and_do_not_touch(count: int) -> Non
     assert 0.15 < np.pi * np.square(radius).sum() / 4 < 0.35, "the share of the floor"
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_shapes_of_all_kinds_lie_within_their_balls(kind: str) -> None:
+    balls, shapes = crowd(50).objects[:-1], crowd(50, kind=kind).objects[:-1]
+    assert {shape.shape for shape in shapes} == {kind}
+    for ball, shape in zip(balls, shapes, strict=True):
+        assert np.allclose(ball.middle, shape.middle, atol=0.2)
+        assert shape.reach <= max(other.reach for other in balls) * (1 + 1e-9)
+
+
 def test_each_crowd_is_measured_with_a_tree_and_without(context: Context) -> None:
     rows = measure(context, [40, FIRST], size=8, rounds=3)
-    assert [row.spheres for row in rows] == [40, FIRST]
+    assert [row.number for row in rows] == [40, FIRST]
     for row in rows:
         assert row.loop_seconds
         assert row.gain
@@ -40,21 +49,24 @@ def test_a_crowd_beyond_the_loop_limit_is_measured_with_a_tree_alone(
 ) -> None:
     if not context.is_software:
         pytest.skip("this machine renders on hardware")
-    assert main(["--spheres", "6000", "--size", "8", "--rounds", "2"]) == 0
+    assert main(["--counts", "6000", "--size", "8", "--rounds", "2"]) == 0
     (line,) = (line for line in capsys.readouterr().out.splitlines() if "6,000" in line)
     assert line.split("|")[3].strip() == "refused"
+    quads = ["--shape", "quad", "--counts", "40", "--size", "8", "--rounds", "2"]
+    assert main(quads) == 0
+    assert "| quads | set-up" in capsys.readouterr().out
 
 
 def test_the_loop_is_in_constants_up_to_as_many_balls_as_are_asked_for(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     tiers: list[str] = []
-    seconds = sphere_counts._seconds
+    seconds = shape_counts._seconds
 
     def noted(renderer: Renderer) -> float:
         tiers.append(renderer.tier)
         return seconds(renderer)
 
-    monkeypatch.setattr(sphere_counts, "_seconds", noted)
+    monkeypatch.setattr(shape_counts, "_seconds", noted)
     measure(context, [39, 40], size=8, rounds=2, constants=39)
     assert tiers == 2 * ["generic", "generic", "baked", "generic"]  # by tree, then one by one

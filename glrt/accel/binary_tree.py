@@ -1,0 +1,85 @@
+"""A binary tree over axis-aligned boxes, one in each leaf, built level by level in numpy."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from glrt.accel.binned_splits import Floats, Ints, are_right, halved
+
+
+class BinaryTree(NamedTuple):
+    """2 n - 1 nodes over n boxes, the root first, both children of a node side by side."""
+
+    lower: Floats  # (nodes, 3): corners of the boxes
+    upper: Floats
+    left: Ints  # (nodes,): the left child, which the right one follows; -1 of leaves
+    item: Ints  # (nodes,): the box of a leaf; -1 of others
+
+
+class _Level(NamedTuple):
+    """All nodes of one depth, and the boxes below them."""
+
+    node: Ints
+    size: Ints  # number of boxes of each node
+    items: Ints  # indices of the boxes of all nodes, node after node
+
+    @property
+    def start(self) -> Ints:
+        """Index in `items` of the first box of each node."""
+        return np.cumsum(self.size) - self.size
+
+
+def build(lower: Floats, upper: Floats, halves: bool = False) -> BinaryTree:
+    """The tree over n > 0 boxes with the corners `lower` and `upper`, (n, 3) each.
+
+    With `halves` every node is divided into halves: a worse tree, of the least depth.
+    """
+    total = 2 * len(lower) - 1
+    left, item = np.full(total, -1), np.full(total, -1)
+    level = _Level(np.zeros(1, int), np.array([len(lower)]), np.arange(len(lower)))
+    levels, used = [], 1
+    while len(level.node):
+        levels.append(level.node)
+        is_leaf = level.size == 1
+        item[level.node[is_leaf]] = level.items[level.start[is_leaf]]
+        level = _without(level, is_leaf)
+        left[level.node] = used + 2 * np.arange(len(level.node))
+        used += 2 * len(level.node)
+        level = _children(level, left[level.node], lower, upper, halves)
+    return BinaryTree(*_boxes(levels, left, item, lower, upper), left, item)
+
+
+def _without(level: _Level, gone: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> _Level:
+    """The nodes that are not `gone`, with their boxes."""
+    kept = np.repeat(~gone, level.size)
+    return _Level(level.node[~gone], level.size[~gone], level.items[kept])
+
+
+def _children(level: _Level, left: Ints, lower: Floats, upper: Floats, halves: bool) -> _Level:
+    """The two children of all nodes of a level."""
+    if not len(level.node):
+        return level
+    node = np.repeat(np.arange(len(level.size)), level.size)
+    boxes = lower[level.items], upper[level.items]
+    divided = halved if halves else are_right
+    is_right = divided(level.start, level.size, node, *boxes)
+    right = np.bincount(node, is_right).astype(int)
+    return _Level(
+        np.column_stack([left, left + 1]).ravel(),
+        np.column_stack([level.size - right, right]).ravel(),
+        level.items[np.argsort(2 * node + is_right, kind="stable")],
+    )
+
+
+def _boxes(
+    levels: list[Ints], left: Ints, item: Ints, lower: Floats, upper: Floats
+) -> tuple[Floats, Floats]:
+    """Corners of the boxes of all nodes, from those of the items."""
+    corners = np.empty((2, len(left), 3))
+    leaf = item >= 0
+    for corner, boxes, most in zip(corners, (lower, upper), (np.minimum, np.maximum), strict=True):
+        corner[leaf] = boxes[item[leaf]]
+        for nodes in reversed(levels):
+            inner = nodes[left[nodes] >= 0]
+            corner[inner] = most(corner[left[inner]], corner[left[inner] + 1])
+    return corners[0], corners[1]

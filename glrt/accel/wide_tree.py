@@ -1,0 +1,148 @@
+"""A tree of 8 children a node, in slots of 64 bytes as the kernel reads them (struct Slot).
+
+After "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs" (Ylitie, Karras,
+Laine 2017): the boxes of the children are bytes in cells of their parent's own size. Slot 0 is the
+root; the children of a node follow each other, and its descendants lie in depth-first order. A
+slot is
+
+    a node:  words 0 to 2   the corner of its box on the grid, 24 bits along each axis, and, in the
+                            upper 8 bits, the exponent of its cell
+             words 3 to 14  the boxes of its children in cells: along each axis 8 bytes for their
+                            starts, 8 bytes for their ends
+             word 15        the number of its last child from bit 28 on, and the slot of its first
+    a leaf:  words 0 to 14  what the packer of its shapes writes
+             word 15        LEAF, their kind from bit 28 on, and the number of a shape
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.accel.binary_tree import BinaryTree
+from glrt.accel.binned_splits import Bools, Floats, Ints, surface
+
+Words = NDArray[np.uint32]
+
+WIDTH = 8  # children of a node
+SLOT = 16  # words
+GRID_BITS = 24
+HALF_GRID = 2 ** (GRID_BITS - 1)
+MARGIN = 4  # cells of the grid that nothing reaches into, at its edges
+LINK_BITS = 28  # of slots and of numbers of shapes
+LEAF = 1 << 31
+_BIAS = 127  # of exponents of float32
+
+
+class Grid(NamedTuple):
+    """Where a tree lies: coordinates on the grid are (position - center) / cell."""
+
+    center: Floats  # (3,), float64
+    cell: float  # a power of two
+
+    def cells(self, position: Floats) -> Floats:
+        """Coordinates from 0 to 2^24, (..., 3)."""
+        cells: Floats = (position - self.center) / self.cell + HALF_GRID
+        return cells
+
+
+class WideTree(NamedTuple):
+    """Slots without the content of their leaves."""
+
+    slots: Words  # (n, SLOT)
+    leaf: Ints  # (leaves,): nodes of the binary tree
+    place: Ints  # (leaves,): their slots
+    height: int  # levels of nodes
+
+
+class _Level(NamedTuple):
+    """Wide nodes of one depth, as nodes of the binary tree."""
+
+    node: Ints  # (w,)
+    child: Ints  # (w, WIDTH); -1: none
+    inner: Bools  # (w, WIDTH): which children are nodes again
+
+
+def grid_of(lower: Floats, upper: Floats) -> Grid:
+    """The grid over the box with these corners, (3,) each."""
+    extent = float((upper - lower).max())
+    cells = 2 * (HALF_GRID - MARGIN)
+    exponent = np.frexp(extent / cells)[1] if extent > 0 else -100
+    return Grid((lower + upper) / 2, 2.0 ** max(int(exponent), -100))
+
+
+def collapse(tree: BinaryTree, grid: Grid) -> WideTree:
+    """The wide tree of a binary one."""
+    levels = _levels(tree)
+    below, of_child = _sizes(levels)
+    slots = np.zeros((1 + below, SLOT), np.uint32)
+    leaf, place_of_leaf = [], []
+    place, base = np.zeros(1, int), np.ones(1, int)
+    low, high = grid.cells(tree.lower), grid.cells(tree.upper)
+    for level, of in zip(levels, of_child, strict=True):
+        _write_nodes(slots, place, base, level, low, high)
+        child = base[:, None] + np.arange(WIDTH)
+        is_leaf = (level.child >= 0) & ~level.inner
+        leaf.append(level.child[is_leaf])
+        place_of_leaf.append(child[is_leaf])
+        first = base + (level.child >= 0).sum(axis=1)
+        before = np.cumsum(of, axis=1) - of
+        base, place = (first[:, None] + before)[level.inner], child[level.inner]
+    return WideTree(slots, np.concatenate(leaf), np.concatenate(place_of_leaf), len(levels))
+
+
+def _levels(tree: BinaryTree) -> list[_Level]:
+    """The wide nodes: of the children of a node, the largest is opened until there are WIDTH."""
+    area = surface((tree.upper - tree.lower).T)
+    is_inner = tree.left >= 0
+    levels, node = [], np.zeros(1, int)
+    while len(node):
+        child = np.full((len(node), WIDTH), -1)
+        child[:, 0] = node
+        for many in range(1, WIDTH):
+            can = (child >= 0) & is_inner[child]
+            size = np.where(can, area[child], -1.0)
+            pick = size.argmax(axis=1)
+            row = np.flatnonzero(can.any(axis=1))
+            opened = child[row, pick[row]]
+            child[row, pick[row]] = tree.left[opened]
+            child[row, many] = tree.left[opened] + 1
+        inner = (child >= 0) & is_inner[child]
+        levels.append(_Level(node, child, inner))
+        node = child[inner]
+    return levels
+
+
+def _sizes(levels: list[_Level]) -> tuple[int, list[Ints]]:
+    """How many slots lie below the root, and below each child of each level, (w, WIDTH)."""
+    sizes = np.zeros(0, int)
+    of_child: list[Ints] = []
+    for level in reversed(levels):
+        of = np.zeros(level.child.shape, int)
+        of[level.inner] = sizes
+        of_child.insert(0, of)
+        sizes = (level.child >= 0).sum(axis=1) + of.sum(axis=1)
+    return int(sizes[0]), of_child
+
+
+def _write_nodes(
+    slots: Words, place: Ints, base: Ints, level: _Level, low: Floats, high: Floats
+) -> None:
+    """Fill the slots of nodes; `low` and `high` are corners on the grid, of all binary nodes."""
+    corner = np.floor(low[level.node])
+    extent = high[level.node] - corner
+    exponent = np.ceil(np.log2(np.maximum(extent, 2.0**-100) / 255)).astype(int)
+    exponent += np.exp2(exponent) * 255 < extent
+    cell = np.exp2(exponent)
+    start = np.floor((low[level.child] - corner[:, None]) / cell[:, None])
+    end = np.ceil((high[level.child] - corner[:, None]) / cell[:, None])
+    none = (level.child < 0)[..., None]
+    start, end = np.where(none, 0, start), np.where(none, 0, end)
+    rows = np.zeros((len(place), SLOT), np.uint32)
+    rows[:, :3] = corner.astype(np.uint32) | (exponent + _BIAS).astype(np.uint32) << GRID_BITS
+    bounds = np.stack([start, end], axis=1).astype(np.uint8)  # (w, 2, WIDTH, 3)
+    along = np.ascontiguousarray(bounds.transpose(0, 3, 1, 2)).reshape(len(place), -1)
+    rows[:, 3:15] = along.view(np.uint32)
+    last = (level.child >= 0).sum(axis=1) - 1
+    rows[:, 15] = base | last << LINK_BITS
+    slots[place] = rows

@@ -1,0 +1,15 @@
+// Rays, and all that finds what they meet: what every kernel shares that sends rays.
+
+#include "shapes/ray.glsl"
+#include "shapes/hit.glsl"
+#include "shapes/sphere.glsl"
+#include "shapes/sphere_tree.glsl"
+#include "shapes/plane.glsl"
+#include "shapes/quad.glsl"
+#include "shapes/disk.glsl"
+#include "shapes/box.glsl"
+#include "shapes/cylinder.glsl"
+#include "shapes/tree_stack.glsl"
+#include "shapes/tree_node.glsl"
+#include "shapes/tree.glsl"
+#include "shapes/find_hit.glsl"

@@ -1,0 +1,76 @@
+// A ray against the boxes of the children of a node. A box only says what may be left out, and it is
+// met from farther off than any test of a shape rounds: so the tree gives the hits of the loop over
+// all shapes, bit for bit.
+
+// How far the origin of a ray is taken to lie off, relative to the largest coordinate of that, of the
+// tree's middle or of its grid: 128 times the rounding of a float.
+const float SLACK = 7.62939453125e-6;
+const float HALF_GRID = 8388608.0;  // cells
+const float STEEPEST = 1.2379400392853803e27;  // 2^90: nothing below overflows
+const uint NO_CHILD = 0xFFFFFFFFu;
+
+// A ray among the cells of the grid.
+struct TreeRay {
+    vec3 before;   // the origin, moved by its slack so that boxes are entered sooner
+    vec3 behind;   // and so that they are left later
+    vec3 inverse;  // of the direction, at most STEEPEST
+    bvec3 is_down;
+};
+
+TreeRay tree_ray(Ray ray) {
+    precise vec3 center = frame.tree_center;
+    precise vec3 size = max(abs(ray.origin), abs(center));
+    precise float cells = 1.0 / frame.tree_cell;
+    precise vec3 place = (ray.origin - center) * cells + HALF_GRID;
+    precise float largest = larger(larger(size.x, size.y), size.z) * cells;
+    precise float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
+    precise vec3 inverse = clamp(frame.tree_cell / ray.direction, vec3(-STEEPEST), vec3(STEEPEST));
+    bvec3 is_down = lessThan(inverse, vec3(0.0));  // of zeros of both signs, too
+    precise vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
+    return TreeRay(place + shift, place - shift, inverse, is_down);
+}
+
+// The children of a node as a ray meets them: of all 8, a byte each along each axis.
+struct Children {
+    vec3 cell;        // over the direction
+    vec3 enter_from;  // distance to the start of the first cell, with the slack of each end
+    vec3 leave_from;
+    uvec3 near_low;   // where boxes are entered, of the first four
+    uvec3 near_high;  // and of the others
+    uvec3 far_low;
+    uvec3 far_high;
+    uint last;
+};
+
+Children children_of(Slot slot, TreeRay ray) {
+    precise vec3 corner = vec3(ivec3(slot.a.xyz & 0xFFFFFFu));
+    precise vec3 cell = uintBitsToFloat(slot.a.xyz >> 24u << 23u);
+    uvec3 start_low = uvec3(slot.a.w, slot.b.w, slot.c.w);
+    uvec3 start_high = uvec3(slot.b.x, slot.c.x, slot.d.x);
+    uvec3 end_low = uvec3(slot.b.y, slot.c.y, slot.d.y);
+    uvec3 end_high = uvec3(slot.b.z, slot.c.z, slot.d.z);
+    bvec3 down = ray.is_down;
+    return Children(
+        cell * ray.inverse, (corner - ray.before) * ray.inverse, (corner - ray.behind) * ray.inverse,
+        uvec3(down.x ? end_low.x : start_low.x, down.y ? end_low.y : start_low.y,
+              down.z ? end_low.z : start_low.z),
+        uvec3(down.x ? end_high.x : start_high.x, down.y ? end_high.y : start_high.y,
+              down.z ? end_high.z : start_high.z),
+        uvec3(down.x ? start_low.x : end_low.x, down.y ? start_low.y : end_low.y,
+              down.z ? start_low.z : end_low.z),
+        uvec3(down.x ? start_high.x : end_high.x, down.y ? start_high.y : end_high.y,
+              down.z ? start_high.z : end_high.z),
+        slot.d.w >> 28u & 7u);
+}
+
+// Where the ray enters the box of a child before `limit`: the bits of the distance, which are in its
+// order, with the number of the child in the last three; else NO_CHILD.
+uint meets_child(Children children, uint number, uvec3 near, uvec3 far, float limit) {
+    uint shift = 8u * (number & 3u);
+    precise vec3 start = vec3(ivec3(near >> shift & 255u)) * children.cell + children.enter_from;
+    precise vec3 end = vec3(ivec3(far >> shift & 255u)) * children.cell + children.leave_from;
+    precise float enters = larger(larger(start.x, start.y), larger(start.z, 0.0));
+    precise float leaves = lesser(lesser(end.x, end.y), lesser(end.z, limit));
+    bool is_met = enters <= leaves && number <= children.last;
+    return is_met ? floatBitsToUint(enters) & ~7u | number : NO_CHILD;
+}
