@@ -9,6 +9,7 @@ from glrt.gpu.context import Context
 from glrt.methods import contents
 from glrt.methods.contents import REST_FROM, TREE_FROM, contents_of
 from glrt.scene.scene import Scene
+from glrt.scene.shapes import Disk
 from glrt.settings import Cost
 from tests.conftest import CallGlsl
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
@@ -143,6 +144,23 @@ def test_trees_of_few_levels(
     scene = crowd(count, 7)
     given = {**rays("anywhere"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
     by_tree, without = (found(call_glsl, has_tree, scene, **given) for has_tree in (True, False))
+    assert by_tree.tobytes() == without.tobytes()
+
+
+def test_children_that_a_node_does_not_have_are_not_visited(
+    call_glsl: CallGlsl, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From so far that every box is met: they would lead beyond the last slot, and back."""
+    monkeypatch.setattr(contents, "TREE_FROM", 1)
+    scene = scene_of([disk([k, k, k], [1, 1, 1], 0.5, "white") for k in (0, 3)], MATERIALS)
+    shapes = [item for item in scene.objects if isinstance(item, Disk)]
+    corner = Disk.bounds(np.array([item.row for item in shapes]))[0].min(axis=0)
+    direction = unit(np.random.default_rng(2).normal(size=(64, 3)))
+    none = np.array([-1])
+    rest = {"limit": np.array([3.4e38]), "ignored": none, "leaves": none, "inward": none}
+    given = {"o": corner - 1e9 * direction, "d": direction, **rest}
+    by_tree, without = (found(call_glsl, has_tree, scene, **given) for has_tree in (True, False))
+    assert not by_tree[:, 3].any()
     assert by_tree.tobytes() == without.tobytes()
 
 

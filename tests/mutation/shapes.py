@@ -103,9 +103,9 @@ SHAPES = [
         "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
-        "children that a node does not have are visited from afar",
+        "children that a node does not have are visited",
         edit("shapes/tree_node.glsl", " && number <= children.last", ""),
-        "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
+        "accel/test_shapes_by_tree.py::test_children_that_a_node_does_not_have_are_not_visited",
     ),
     Mutant(
         "boxes of children end a cell too soon",
