@@ -9,7 +9,7 @@ from glrt.scene.shapes import KINDS
 
 TREE_FROM = 33  # bounded shapes: more than are baked, and there a tree pays (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a tree of their own is faster
-REST_FROM = 8  # other shapes beside a tree over spheres, from which on they have one, too
+REST_FROM = 16  # other shapes beside a tree over spheres: from here on a second tree pays
 MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
 SAMPLED = ("sphere", "quad", "disk")  # kinds of lamps; others are found by scattering
 ENDLESS = ("plane",)  # kinds of shapes without bounds
