@@ -10,6 +10,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - steps: variance and time of each step from plain light sampling to the defaults
 - many_lamps: variance and time with lamps chosen by distance, for many lamps
 - shape_counts: the speed-up by a tree over shapes, by their number
+- mesh_sizes: speed and memory by the number of triangles
 - node_visits: the number of nodes of the tree that a ray visits
 - roofline: the speed of the kernel relative to the peak of the machine
 - dispatches: the longest dispatch of a render

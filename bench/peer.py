@@ -21,6 +21,8 @@ from typing import Any
 from bench.processes import Process
 from glrt.errors import GlrtError, RenderError
 from glrt.image.image import Image
+from glrt.scene.assets import AssetFolder
+from glrt.scene.loading import with_files
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene, scene_to_dict
 
@@ -44,6 +46,7 @@ class Request:
     one_sided: bool = False  # quads emit light only on the side of their normal
     finite: bool = False  # planes may be replaced by large polygons
     native: bool = False  # materials may be replaced by similar ones of the renderer's own
+    folder: str = ""  # of the files that the scene names
     batches: int = 1  # parts from which standard errors are estimated; with 1 there are none
 
     @classmethod
@@ -53,7 +56,8 @@ class Request:
 
     def parsed(self) -> Scene:
         """The scene of the request."""
-        return parse_scene(json.loads(self.scene), "request")
+        scene = parse_scene(json.loads(self.scene), "request")
+        return with_files(scene, AssetFolder(Path(self.folder)), "request")
 
 
 class Peer:

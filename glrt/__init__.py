@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from glrt.scene.camera import Camera
     from glrt.scene.cylinder import Cylinder
     from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
+    from glrt.scene.meshes import Mesh
     from glrt.scene.scene import Scene
     from glrt.scene.shapes import Disk, Plane, Quad, Sphere
     from glrt.scene.solids import Box
@@ -62,6 +63,7 @@ __all__ = [
     "Image",
     "Lambertian",
     "Light",
+    "Mesh",
     "Metal",
     "Plane",
     "Quad",
@@ -89,6 +91,7 @@ _HOMES = {
     "Image": "image.image",
     "Lambertian": "scene.materials",
     "Light": "scene.materials",
+    "Mesh": "scene.meshes",
     "Metal": "scene.materials",
     "Plane": "scene.shapes",
     "Quad": "scene.shapes",

@@ -59,7 +59,7 @@ void main() {
     precise Pixel pixel = load_pixel(texel);
     precise Layers layers = load_layers(texel);
     int lost = add_samples(pixel, layers, frame.origin + texel);
-    if ((HAS_SPHERE_TREE || HAS_TREE) && lost > 0) atomicAdd(lost_samples, uint(lost));
+    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));

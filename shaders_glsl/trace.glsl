@@ -16,6 +16,7 @@
 #include "bsdfs/dielectric.glsl"
 #include "bsdfs/material.glsl"
 #include "lights/quad_solid_angle.glsl"
+#include "lights/triangle.glsl"
 #include "lights/sky.glsl"
 #include "lights/choice.glsl"
 #include "lights/sampling.glsl"

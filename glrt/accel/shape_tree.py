@@ -2,6 +2,7 @@
 
 Which boxes lie where is a matter of the shapes alone; what stands in the leaves is relative to the
 camera, as the shapes themselves are. So a camera that moves writes leaves anew, and builds nothing.
+Leaves of triangles are relative to the middle of the grid: those stay.
 """
 
 from collections.abc import Mapping
@@ -33,15 +34,16 @@ class Boxes(NamedTuple):
     first: int  # the kernel's number of the first shape
     lower: Floats  # (n, 3)
     upper: Floats
+    words: Words | None = None  # (n, SLOT): leaves that no camera changes; None: of `slots_of`
 
 
 class ShapeTree(NamedTuple):
-    """A tree without the content of its leaves."""
+    """A tree without the content of those leaves that depend on the camera."""
 
     wide: WideTree
     grid: Grid
-    place: Ints  # (n,): the slots of the shapes, kind after kind
-    boxes: tuple[Boxes, ...]
+    boxes: tuple[Boxes, ...]  # of those
+    place: Ints  # (n,): their slots, box after box
 
     @property
     def stack(self) -> int:
@@ -49,23 +51,35 @@ class ShapeTree(NamedTuple):
         return -(-self.wide.height // STACK_STEP) * STACK_STEP
 
 
-def build(boxes: tuple[Boxes, ...]) -> ShapeTree:
-    """The tree over one or more shapes."""
+def build(boxes: tuple[Boxes, ...], grid: Grid | None = None) -> ShapeTree:
+    """The tree over one or more shapes; `grid` holds them all."""
     lower = np.concatenate([some.lower for some in boxes])
     upper = np.concatenate([some.upper for some in boxes])
-    grid = grid_of(lower.min(axis=0), upper.max(axis=0))
+    grid = grid or grid_of(lower.min(axis=0), upper.max(axis=0))
     tree = binary_tree.build(lower, upper)
-    wide = collapse(tree, grid)
+    wide, leaves = collapse(tree, grid)
     if wide.height > MOST_HEIGHT:
         tree = binary_tree.build(lower, upper, halves=True)
-        wide = collapse(tree, grid)
+        wide, leaves = collapse(tree, grid)
     place = np.empty(len(lower), int)
-    place[tree.item[wide.leaf]] = wide.place
-    return ShapeTree(wide, grid, place, boxes)
+    place[tree.item[leaves.node]] = leaves.place
+    ends = np.cumsum([len(some.lower) for some in boxes])
+    places = np.split(place, ends[:-1])
+    for some, where in zip(boxes, places, strict=True):
+        if some.words is not None:
+            wide.slots[where] = some.words
+    moved = [k for k, some in enumerate(boxes) if some.words is None]
+    of_moved = [np.zeros(0, int), *(places[k] for k in moved)]
+    return ShapeTree(wide, grid, tuple(boxes[k] for k in moved), np.concatenate(of_moved))
 
 
 def slots_of(tree: ShapeTree, arrays: Mapping[str, Array], families: Mapping[str, Family]) -> Words:
-    """The slots with their leaves, of shapes in `arrays` of rows by the names of their structs."""
+    """The slots with their leaves, of shapes in `arrays` of rows by the names of their structs.
+
+    The same array again where no leaf depends on the camera.
+    """
+    if not tree.boxes:
+        return tree.wide.slots
     slots = tree.wide.slots.copy()
     begin = 0
     for some in tree.boxes:

@@ -50,9 +50,14 @@ class WideTree(NamedTuple):
     """Slots without the content of their leaves."""
 
     slots: Words  # (n, SLOT)
-    leaf: Ints  # (leaves,): nodes of the binary tree
-    place: Ints  # (leaves,): their slots
     height: int  # levels of nodes
+
+
+class Leaves(NamedTuple):
+    """Where the leaves of a binary tree lie in a wide one."""
+
+    node: Ints  # (leaves,): of the binary tree
+    place: Ints  # (leaves,): their slots
 
 
 class _Level(NamedTuple):
@@ -71,8 +76,8 @@ def grid_of(lower: Floats, upper: Floats) -> Grid:
     return Grid((lower + upper) / 2, 2.0 ** max(int(exponent), -100))
 
 
-def collapse(tree: BinaryTree, grid: Grid) -> WideTree:
-    """The wide tree of a binary one."""
+def collapse(tree: BinaryTree, grid: Grid) -> tuple[WideTree, Leaves]:
+    """The wide tree of a binary one, and where its leaves lie."""
     levels = _levels(tree)
     below, of_child = _sizes(levels)
     slots = np.zeros((1 + below, SLOT), np.uint32)
@@ -88,7 +93,8 @@ def collapse(tree: BinaryTree, grid: Grid) -> WideTree:
         first = base + (level.child >= 0).sum(axis=1)
         before = np.cumsum(of, axis=1) - of
         base, place = (first[:, None] + before)[level.inner], child[level.inner]
-    return WideTree(slots, np.concatenate(leaf), np.concatenate(place_of_leaf), len(levels))
+    leaves = Leaves(np.concatenate(leaf), np.concatenate(place_of_leaf))
+    return WideTree(slots, len(levels)), leaves
 
 
 def _levels(tree: BinaryTree) -> list[_Level]:

@@ -29,10 +29,12 @@ from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read, shader_files
 from glrt.image.image import Image
+from glrt.methods.contents import contents_of
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
 from glrt.resources import folder
+from glrt.scene.loading import hashes_of
 from glrt.scene.materials import Lambertian, Light, Material, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.toml import scene_to_dict
@@ -123,10 +125,11 @@ def closed_form(scene: Scene) -> float | None:
     """The radiance of a scene if it is the same everywhere, whatever the geometry; else None.
 
     Under a uniform background L a surface is invisible if it emits what it absorbs, e + albedo L =
-    L (white furnace). Glass and rough metal are excluded: radiance is scaled inside glass, and
-    rough metal loses the light of multiple scattering between microfacets.
+    L (white furnace). Glass, rough metal and smooth meshes are excluded: radiance is scaled inside
+    glass, rough metal loses the light of multiple scattering between microfacets, and
+    interpolated normals lose some near the silhouette.
     """
-    if scene.background.image is not None:
+    if scene.background.image is not None or contents_of(scene).is_smooth:
         return None
     levels = {level for color in scene.background_colors for level in color}
     level = min(levels)
@@ -217,7 +220,8 @@ def _key(
     paths = [settings.bounces, BOUNCES, settings.roulette]
     ends = [error, seconds, samples]
     driver = [context.renderer, context.version]
-    parts = [scene_to_dict(scene), frame, paths, SEEDS, SAMPLER, ends, driver, VERSION, shaders]
+    told = {**scene_to_dict(scene), "assets": hashes_of(scene)}
+    parts = [told, frame, paths, SEEDS, SAMPLER, ends, driver, VERSION, shaders]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
 
 

@@ -29,6 +29,7 @@ from glrt.errors import RenderError, UsageError
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
+from glrt.methods.contents import contents_of
 from glrt.methods.omissions import left_out, omissions
 from glrt.methods.slowness import slow_because
 from glrt.rendering.parts import render_parts
@@ -285,5 +286,6 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "error_doubtful": done.image.error_doubtful,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
+        "triangles": contents_of(renderer.scene).triangles,
         "assets": hashes_of(renderer.scene),
     }

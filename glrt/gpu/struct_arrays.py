@@ -42,20 +42,23 @@ def scene_arrays(
     For each struct `sphere_at(index)` and, where the struct Frame counts it, `sphere_count()`.
     Structs that are `numbered` share one numbering, in this order: `first_sphere()` is the number
     of the first, and `up_to_sphere(number)` is true for this kind and those before it. Those that
-    are `constant` are written into the text. Uniform blocks are at most `uniform_bytes` large.
+    are `constant`, or have no rows, are written into the text. Uniform blocks are at most
+    `uniform_bytes` large.
     """
     parts = ["layout(std140) uniform FrameBlock { Frame frame; };"]
     for struct, rows in arrays.items():
-        if struct in constant:
+        if struct in constant or not len(rows):
             parts += [_constants(struct, rows), _count(struct, str(len(rows)))]
         else:
-            in_block = is_uniform(rows, uniform_bytes)
+            in_block = is_uniform(struct, rows, uniform_bytes)
             parts.append(_uniform(struct, rows) if in_block else _texture(struct, rows))
             if struct in (*numbered, *COUNTED):
                 parts.append(_count(struct, f"frame.{struct.lower()}_count"))
     return "\n".join([*parts, *_numbering(arrays, numbered)]) + "\n"
 
 
+# In no block: OpenGL 4.1 grants a kernel 12 of them, and the other structs take those.
+TEXTURED = ("Mesh", "Corner", "Triangle")
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered
 
 
@@ -65,10 +68,10 @@ def upload(
     """The arrays as `scene_arrays` declares them, by the names of their blocks and textures."""
     return {
         block_of(struct): gl.buffer(uniform_content(rows))
-        if is_uniform(rows, uniform_bytes)
+        if is_uniform(struct, rows, uniform_bytes)
         else texture_of(gl, rows)
         for struct, rows in arrays.items()
-        if struct not in constant
+        if struct not in constant and len(rows)
     }
 
 
@@ -77,9 +80,9 @@ def uniform_bytes(gl: moderngl.Context) -> int:
     return min(MOST_UNIFORM_BYTES, int(gl.info["GL_MAX_UNIFORM_BLOCK_SIZE"]))
 
 
-def is_uniform(rows: Array, uniform_bytes: int) -> bool:
+def is_uniform(struct: str, rows: Array, uniform_bytes: int) -> bool:
     """Whether an array that is not constant lies in a uniform block."""
-    return _capacity(rows) * rows.itemsize <= uniform_bytes
+    return struct not in TEXTURED and _capacity(rows) * rows.itemsize <= uniform_bytes
 
 
 def uniform_content(rows: Array) -> bytes:
@@ -89,7 +92,7 @@ def uniform_content(rows: Array) -> bytes:
 
 def texture_of(gl: moderngl.Context, rows: Array) -> moderngl.Texture:
     """The texture of an array."""
-    size, content = texels(rows.tobytes() or bytes(rows.itemsize), rows.itemsize)
+    size, content = texels(rows.tobytes(), rows.itemsize)
     texture = gl.texture(size, 4, content, dtype="u4")
     texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated
     return texture
@@ -190,7 +193,8 @@ def _constructor(struct: str, row: Any) -> str:
 def _literal(value: Any) -> str:
     """A scalar or vector in GLSL, to the last bit: the shortest decimal that rounds to it."""
     if np.ndim(value):
-        return f"vec{len(value)}({', '.join(_literal(part) for part in value)})"
+        prefix = {"f": "", "i": "i", "u": "u"}[value.dtype.kind]
+        return f"{prefix}vec{len(value)}({', '.join(_literal(part) for part in value)})"
     if isinstance(value, np.floating):
         return np.format_float_scientific(value, unique=True, trim="0")
-    return str(value)
+    return f"{value}u" if isinstance(value, np.unsignedinteger) else str(value)

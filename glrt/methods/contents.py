@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from glrt.scene.materials import Material
+from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 
@@ -11,8 +12,10 @@ TREE_FROM = 33  # bounded shapes: more than are baked, and there a tree pays (do
 SPHERES_FROM = 33  # spheres: from here on a tree of their own is faster
 REST_FROM = 16  # other shapes beside a tree over spheres: from here on a second tree pays
 MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
-SAMPLED = ("sphere", "quad", "disk")  # kinds of lamps; others are found by scattering
+SAMPLED = ("sphere", "quad", "disk", "mesh")  # kinds of lamps; others are found by scattering
+MOST_LAMPS = 65_535  # that can be sampled: a triangle keeps the number of its light in 16 bits
 ENDLESS = ("plane",)  # kinds of shapes without bounds
+MESH = "mesh"  # the kind whose triangles rays always find by a tree
 
 
 @dataclass(frozen=True)
@@ -22,11 +25,30 @@ class Contents:
     shapes: dict[str, int]  # how many of each kind
     materials: dict[str, Material]  # those that are used, in the order of the scene file
     lamps: dict[str, int]  # how many of each kind of shape emit
+    triangles: int  # of all meshes
+    bright_triangles: int  # of those that emit
+    is_smooth: bool  # whether some mesh interpolates normals
 
     @property
     def sampled_lamps(self) -> int:
         """How many lamps can be sampled."""
-        return sum(self.lamps[kind] for kind in SAMPLED)
+        return self._lamps_but_triangles + self.lamp_triangles
+
+    @property
+    def lamp_triangles(self) -> int:
+        """How many triangles are sampled as lamps: of those that emit all, or none of too many."""
+        is_room = self._lamps_but_triangles + self.bright_triangles <= MOST_LAMPS
+        return self.bright_triangles if is_room else 0
+
+    @property
+    def sampled(self) -> tuple[str, ...]:
+        """The kinds of lamps that are there and can be sampled."""
+        kinds = [kind for kind in SAMPLED if self.lamps[kind]]
+        return tuple(kind for kind in kinds if kind != MESH or self.lamp_triangles)
+
+    @property
+    def _lamps_but_triangles(self) -> int:
+        return sum(self.lamps[kind] for kind in SAMPLED if kind != MESH)
 
     @property
     def has_sphere_tree(self) -> bool:
@@ -35,17 +57,17 @@ class Contents:
 
     @property
     def tree_kinds(self) -> tuple[str, ...]:
-        """The kinds of shapes that rays are to find by the other tree; none without one."""
-        kinds = [kind for kind in KINDS if kind not in ENDLESS and self.shapes[kind]]
+        """The kinds that rays are to find by the other tree, beside triangles; none without one."""
+        kinds = [kind for kind in KINDS if kind not in (*ENDLESS, MESH) and self.shapes[kind]]
         if self.has_sphere_tree:
             kinds = [kind for kind in kinds if kind != "sphere"]
-        least = REST_FROM if self.has_sphere_tree else TREE_FROM
+        least = REST_FROM if self.has_sphere_tree or self.shapes[MESH] else TREE_FROM
         return tuple(kinds) if self.count_of(kinds) >= least else ()
 
     @property
     def has_trees(self) -> bool:
         """Whether rays are to find some shapes by a tree."""
-        return self.has_sphere_tree or bool(self.tree_kinds)
+        return self.has_sphere_tree or bool(self.tree_kinds) or self.shapes[MESH] > 0
 
     def count_of(self, kinds: Iterable[str]) -> int:
         """How many shapes are of these kinds."""
@@ -69,7 +91,15 @@ def contents_of(scene: Scene) -> Contents:
     for shape in scene.objects:
         shapes[shape.shape] += 1
         lamps[shape.shape] += is_light(scene.materials[shape.material])
-    return Contents(shapes, used_materials(scene), lamps)
+    meshes = [shape for shape in scene.objects if isinstance(shape, Mesh)]
+    triangles = [len(mesh.triangles.faces) for mesh in meshes]
+    bright = [
+        count
+        for mesh, count in zip(meshes, triangles, strict=True)
+        if is_light(scene.materials[mesh.material])
+    ]
+    is_smooth = any(mesh.smooth for mesh in meshes)
+    return Contents(shapes, used_materials(scene), lamps, sum(triangles), sum(bright), is_smooth)
 
 
 def is_light(material: Material) -> bool:

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from glrt.methods.contents import (
     ENDLESS,
+    MESH,
     MOST_NEAR,
     REST_FROM,
     SAMPLED,
@@ -40,6 +41,7 @@ class Needs:
     lamps: frozenset[str]  # kinds that are sampled, or lit by in the classic models
     has_sphere_tree: bool
     has_tree: bool  # over other shapes
+    has_smooth: bool  # meshes whose normals are interpolated
     has_mirror: bool
     has_rough_metal: bool
     has_lens: bool
@@ -99,9 +101,10 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
         materials=frozenset(types),
-        lamps=frozenset(kind for kind in SAMPLED if is_lit and found.lamps[kind]),
+        lamps=frozenset(found.sampled if is_lit else ()),
         has_sphere_tree=found.has_sphere_tree,
         has_tree=bool(found.tree_kinds),
+        has_smooth=found.is_smooth,
         has_mirror=traits.follows
         and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
@@ -149,7 +152,8 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
             needs.has_sphere_tree,
             _of(shapes("sphere"), SPHERES_FROM),
         ),
-        Feature("tree of shapes", needs.has_tree, _tree(found)),
+        Feature("tree of shapes", needs.has_tree or MESH in needs.shapes, _tree(found)),
+        Feature("smooth normals", needs.has_smooth, _smooth(found)),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
         *(
@@ -189,14 +193,19 @@ def _of(count: str, least: int) -> str:
 
 
 def _tree(found: Contents) -> str:
-    if found.tree_kinds:
-        listed = (counted(found.shapes[kind], kind) for kind in found.tree_kinds)
+    if found.tree_kinds or found.triangles:
+        listed = [counted(found.shapes[kind], kind) for kind in found.tree_kinds]
+        listed += [counted(found.triangles, "triangle")] if found.triangles else []
         return f"over {', '.join(listed)}"
-    rest = [kind for kind in KINDS if kind not in ENDLESS]
+    rest = [kind for kind in KINDS if kind not in (*ENDLESS, MESH)]
     if found.has_sphere_tree:
         count = counted(found.count_of(kind for kind in rest if kind != "sphere"), "other shape")
         return _of(count, REST_FROM)
     return _of(counted(found.count_of(rest), "bounded shape"), TREE_FROM)
+
+
+def _smooth(found: Contents) -> str:
+    return "a mesh has smooth = true" if found.is_smooth else "no mesh has smooth = true"
 
 
 def _made_of(names: Iterable[str], kind: str) -> str:
@@ -233,7 +242,7 @@ def _roulette(settings: Settings) -> str:
 
 def _lamps(found: Contents) -> str:
     named = (
-        counted(count, f"{kind} lamp") + ("" if kind in SAMPLED else " (by scattering alone)")
+        counted(count, f"{kind} lamp") + ("" if kind in found.sampled else " (by scattering alone)")
         for kind, count in found.lamps.items()
         if count
     )

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from glrt.methods.contents import SAMPLED, is_light, used_materials
+from glrt.methods.contents import contents_of, is_light, used_materials
 from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -43,8 +43,9 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "rough metal is a mirror"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
+    sampled = contents_of(scene).sampled
     for kind in KINDS:
-        if kind in lamps and kind not in SAMPLED:
+        if kind in lamps and kind not in sampled:
             yield f"{kind} lamps light nothing"
     has_sky = any(map(any, scene.background_colors))
     if has_sky and scene.background.image is not None:

@@ -5,6 +5,8 @@ Modules, each importing only what stands above it:
 - kernel_structs: structs and constants that host and kernel share
 - pack_shapes: shapes as rows, a packer for each kind
 - pack_materials: materials as rows, a packer for each type
+- pack_mesh: triangles of meshes, in the frame of the tree
+- tree_cache: trees over many triangles, kept on the disk
 - pack_tree: the tree over shapes, a packer of leaves for each kind
 - pack_lights: lamps as rows of the kernel's blocks
 - pack: a scene as arrays for the kernel

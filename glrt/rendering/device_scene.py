@@ -5,12 +5,12 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from glrt.accel.shape_tree import ShapeTree
 from glrt.errors import RenderError, SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Images, Kernel, Resource
-from glrt.gpu.struct_arrays import FILE, Arrays
+from glrt.gpu.shared import Shared
+from glrt.gpu.struct_arrays import FILE, Arrays, block_of
 from glrt.methods.contents import Contents, contents_of
 from glrt.methods.features import needs_of
 from glrt.methods.light_layers import Plan
@@ -18,7 +18,7 @@ from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
-from glrt.rendering.pack_tree import tree_of
+from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
@@ -32,6 +32,8 @@ from glrt.rendering.pipelines import (
 from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.scene.loading import check_loaded
 from glrt.scene.scene import Scene
+
+STILL = ("Slot", "Corner", "Triangle")  # arrays that may be large, and that a camera leaves alone
 
 
 class Exposed(Protocol):
@@ -73,11 +75,12 @@ class DeviceScene:
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
+        self._kept: dict[str, Shared] = {}  # arrays that renderers of edited scenes share
         self._sky: ImageTexture | None = None
         check_loaded(plan.scene)
         try:
             with context.checked("the scene"):
-                self._upload()
+                self._upload(before)
                 self._sky = _sky_image(context, plan.scene, before._sky if before else None)
         except (RenderError, SceneError):
             self.release()
@@ -134,16 +137,27 @@ class DeviceScene:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for resource in (*self._resources.values(), self._sky):
+        own = {name: some for name, some in self._resources.items() if name not in self._kept}
+        for resource in (*own.values(), *self._kept.values(), self._sky):
             if resource:
                 resource.release()
 
-    def _upload(self) -> None:
+    def _upload(self, before: "DeviceScene | None") -> None:
         self._frame = self._resources["FrameBlock"] = self._gl.buffer(
             reserve=STRUCTS["Frame"].itemsize
         )
         self._lost = self._resources["Lost"] = self._gl.buffer(bytes(4))
-        self._resources |= upload(self._gl, self._arrays, self.tier)
+        known = before._kept_for(self._arrays) if before else {}
+        rest = {name: rows for name, rows in self._arrays.items() if block_of(name) not in known}
+        self._resources |= upload(self._gl, rest, self.tier)
+        fresh = {block_of(name) for name in STILL} & self._resources.keys()
+        self._kept = known | {name: Shared(self._resources[name]) for name in fresh}
+        self._resources |= {name: some.resource for name, some in self._kept.items()}
+
+    def _kept_for(self, arrays: Arrays) -> dict[str, Shared]:
+        """What holds the same arrays already."""
+        same = (block_of(name) for name in STILL if arrays[name] is self._arrays[name])
+        return {name: self._kept[name].shared() for name in same if name in self._kept}
 
     def _texts_of(self, tier: Tier) -> dict[str, str]:
         """What the kernel depends on, beside constants and files."""
@@ -163,7 +177,7 @@ def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> Im
 
 def _packed(
     scene: Scene, contents: Contents, before: DeviceScene | None
-) -> tuple[Arrays, ShapeTree | None]:
+) -> tuple[Arrays, SceneTree | None]:
     """The arrays and the tree of a scene; what those from before hold of it is not built again."""
     if before and before._scene == scene:
         return before._arrays, before._tree

@@ -6,7 +6,6 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from glrt.accel.shape_tree import ShapeTree
 from glrt.gpu.evaluate import Probe, path_files
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
@@ -16,7 +15,7 @@ from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
-from glrt.rendering.pack_tree import tree_of
+from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.pipelines import ENVIRONMENT, scene_text, upload
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -42,7 +41,7 @@ def evaluate(
     tree = tree_of(scene, contents_of(scene)) if scene else None
     stack = {"TREE_STACK": tree.stack if tree else 0}
     prelude = {**everything(), **(_choice(scene) if scene else {}), **stack, **(constants or {})}
-    arrays = pack_scene(scene, tree=tree) if scene else _nothing()
+    arrays = pack_scene(scene, tree=tree) if scene else no_rows()
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
     resources = resources_of(gl, scene, arrays, tree)
@@ -54,7 +53,7 @@ def evaluate(
 
 
 def resources_of(
-    gl: moderngl.Context, scene: Scene | None, arrays: Arrays, tree: ShapeTree | None = None
+    gl: moderngl.Context, scene: Scene | None, arrays: Arrays, tree: SceneTree | None = None
 ) -> dict[str, Resource]:
     """The buffers and textures that the functions read; a frame of zeros without a scene."""
     frame = bytes(STRUCTS["Frame"].itemsize)
@@ -73,6 +72,7 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
     return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights}
 
 
-def _nothing() -> dict[str, Array]:
-    structs = (*NUMBERED, "Node", "Slot", "Material", "Light", "Cluster")
+def no_rows() -> dict[str, Array]:
+    """The arrays of a scene without anything."""
+    structs = (*NUMBERED, "Node", "Slot", "Corner", "Triangle", "Material", "Light", "Cluster")
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in structs}

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from glrt.accel.shape_tree import ShapeTree
 from glrt.accel.sphere_nodes import pack_nodes
 from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
@@ -15,7 +14,7 @@ from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_lights import lamps_of, pack_clusters, pack_lights
 from glrt.rendering.pack_materials import pack_materials
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
-from glrt.rendering.pack_tree import frame_fields, pack_tree, tree_of
+from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.values import BLACK
@@ -28,7 +27,7 @@ def pack_scene(
     scene: Scene,
     contents: Contents | None = None,
     known: Array | None = None,
-    tree: ShapeTree | None = None,
+    tree: SceneTree | None = None,
 ) -> dict[str, Array]:
     """Arrays for the kernel, keyed by the name of their struct.
 
@@ -38,7 +37,8 @@ def pack_scene(
     found = contents or contents_of(scene)
     shapes = in_order(scene)
     eye = np.array(scene.camera.position, np.float64)
-    lamps = lamps_of(scene, shapes)
+    tree = tree or tree_of(scene, found)
+    lamps = lamps_of(scene, shapes, found, tree)
     materials = {name: row for row, name in enumerate(found.materials)}
     lights = {number: row for row, number in enumerate(lamps.shapes)}
     arrays = pack_shapes(shapes, Placing(eye, materials, lights))
@@ -46,7 +46,8 @@ def pack_scene(
     return {
         **arrays,
         "Node": pack_nodes(spheres, STRUCTS["Node"], known),
-        "Slot": pack_tree(tree or tree_of(scene, found), arrays),
+        **pack_tree(tree, arrays),
+        **({"Triangle": tree.lit_by(lights, len(shapes))} if tree else {}),
         "Material": pack_materials(scene, found.materials),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
@@ -79,7 +80,7 @@ def pack_frame(
     first_tile: int = 0,
     tile_stride: int = 1,
     is_empty: bool = True,
-    tree: ShapeTree | None = None,
+    tree: SceneTree | None = None,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 

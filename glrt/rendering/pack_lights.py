@@ -12,8 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
-from glrt.methods.contents import MOST_NEAR, SAMPLED, is_light
+from glrt.methods.contents import MOST_NEAR, SAMPLED, Contents, is_light
 from glrt.rendering.kernel_structs import CONSTANTS
+from glrt.rendering.pack_tree import SceneTree
+from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS, Disk, Quad, Shape, Sphere
 
@@ -48,14 +50,23 @@ def disk_body(lamp: Disk) -> Body:
     return Body(area, np.array(lamp.center, np.float64), lamp.radius**2 / 2)
 
 
-# The kinds of lamps that are sampled; others are found by scattering alone.
+def triangle_bodies(corner: Array) -> tuple[Array, Array, Array]:
+    """Area, centre and reach2 of triangles with these corners, (n, 3, 3); both sides shine."""
+    across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    center = corner.mean(axis=1)
+    reach2 = np.square(corner - center[:, None]).sum(axis=(1, 2)) / 12
+    return np.linalg.norm(across, axis=1), center, reach2
+
+
+# The kinds of lamps that are sampled, but for triangles, which are many of one mesh. Others are
+# found by scattering alone.
 LAMPS: dict[type, Callable[[Any], Body]] = {
     Sphere: sphere_body,
     Quad: quad_body,
     Disk: disk_body,
 }
 
-if {KINDS[kind] for kind in SAMPLED} != set(LAMPS):
+if {KINDS[kind] for kind in SAMPLED} != {*LAMPS, Mesh}:
     raise TypeError(f"lamps of kinds {SAMPLED} are sampled, and {list(LAMPS)} have a body")
 
 
@@ -69,8 +80,13 @@ class Lamps(NamedTuple):
     parts: list[list[slice]]  # of each cluster
 
 
-def lamps_of(scene: Scene, shapes: Sequence[Shape]) -> Lamps:
-    """The lamps among the shapes that can be sampled; their number is their place in the list."""
+def lamps_of(
+    scene: Scene, shapes: Sequence[Shape], contents: Contents, tree: SceneTree | None
+) -> Lamps:
+    """The lamps among the shapes that can be sampled; their number is their place in the list.
+
+    Triangles of the tree that emit are numbered after all shapes.
+    """
     found = [
         number
         for number, shape in enumerate(shapes)
@@ -79,7 +95,16 @@ def lamps_of(scene: Scene, shapes: Sequence[Shape]) -> Lamps:
     bodies = [LAMPS[type(shapes[number])](shapes[number]) for number in found]
     center = np.array([body.center for body in bodies], np.float64).reshape(-1, 3)
     reach2 = np.array([body.reach2 for body in bodies], np.float64)
-    probability = light_probabilities([power(scene, shapes[number]) for number in found])
+    flux = [power(scene, shapes[number]) for number in found]
+    if tree and contents.lamp_triangles:
+        bright = _bright_triangles(scene, shapes, tree)
+        corner = tree.corner_positions(bright)
+        area, middle, spread = triangle_bodies(corner)
+        emission = _mesh_emission(scene, shapes)[tree.triangles["owner"][bright]]
+        found += [len(shapes) + int(number) for number in bright]
+        flux += list(area * emission)
+        center, reach2 = np.concatenate([center, middle]), np.concatenate([reach2, spread])
+    probability = light_probabilities(flux)
     clusters = [
         [cluster[part] for part in grouped(center[cluster], probability[cluster], PARTS)]
         for cluster in grouped(center, probability, MOST_NEAR)
@@ -93,6 +118,20 @@ def lamps_of(scene: Scene, shapes: Sequence[Shape]) -> Lamps:
         reach2[order],
         [[slice((end := next(ends)) - len(part), end) for part in parts] for parts in clusters],
     )
+
+
+def _mesh_emission(scene: Scene, shapes: Sequence[Shape]) -> Array:
+    """Radiance of each mesh, its channels added."""
+    meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
+    return np.array([sum(scene.emission(mesh.material)) for mesh in meshes])
+
+
+def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) -> Array:
+    """The numbers of the triangles that emit."""
+    meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
+    is_bright = np.array([is_light(scene.materials[mesh.material]) for mesh in meshes])
+    numbers: Array = np.flatnonzero(is_bright[tree.triangles["owner"]])
+    return numbers
 
 
 def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
 from glrt.scene.cylinder import Cylinder
+from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
 from glrt.scene.solids import Box
@@ -99,6 +100,13 @@ def pack_cylinders(
         row["material"] = placing.materials[cylinder.material]
 
 
+def pack_meshes(rows: Array, meshes: Sequence[Mesh], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Mesh; for its triangles see glrt/rendering/pack_mesh.py."""
+    del first  # meshes are no sampled lamps
+    rows["material"] = [placing.materials[mesh.material] for mesh in meshes]
+    rows["is_smooth"] = [mesh.smooth for mesh in meshes]
+
+
 def unit(value: Array) -> Array:
     """A vector of length 1 along another."""
     along: Array = value / np.linalg.norm(value)
@@ -113,6 +121,7 @@ PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
     Disk: pack_disks,
     Box: pack_boxes,
     Cylinder: pack_cylinders,
+    Mesh: pack_meshes,
 }
 NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
 

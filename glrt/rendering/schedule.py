@@ -13,7 +13,7 @@ from typing import NamedTuple
 from glrt.errors import SceneError
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.contents import Contents, contents_of
+from glrt.methods.contents import MESH, Contents, contents_of
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
@@ -74,8 +74,12 @@ def rounds_of_search(
     """
     found = contents or contents_of(scene)
     in_trees = [*found.tree_kinds, *(["sphere"] if found.has_sphere_tree else [])]
-    counts = [found.count_of(found.tree_kinds), found.has_sphere_tree * found.shapes["sphere"]]
+    counts = [
+        found.count_of(found.tree_kinds) + found.triangles,
+        found.has_sphere_tree * found.shapes["sphere"],
+    ]
     by_tree = sum(round(tree_rounds * math.log2(count)) for count in counts if count)
+    in_trees.append(MESH)
     single = [count for kind, count in found.shapes.items() if count and kind not in in_trees]
     return sum(single) + len(single) + by_tree
 

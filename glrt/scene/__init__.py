@@ -7,11 +7,15 @@ Modules, each importing only what stands above it:
 - float_images: Radiance .hdr and OpenEXR files as arrays
 - image_files: images in files, of any format, as arrays of linear values
 - named_images: images that a scene names by a path
+- triangle_meshes: triangle meshes as arrays, checked
+- mesh_formats: files of meshes as arrays
+- named_meshes: meshes that a scene names by a path
 - camera: where a scene is seen from
 - background: light from infinity
 - materials: what surfaces are made of
 - objects: what every shape has
 - solids: shapes with faces that enclose a volume
+- meshes: triangle meshes and their places
 - cylinder: the round one of them, with ends or without
 - shapes: what there is to see
 - contents: the fields of a scene

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
 from glrt.scene.materials import Dielectric
+from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
 from glrt.settings import Settings
@@ -80,7 +81,11 @@ def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
 
 def _glass(scene: Scene) -> list[str]:
     """A paragraph for each way in which glass lies to glass that is seldom meant."""
-    glass = [i for i in range(len(scene.objects)) if _kind(scene, i) == "dielectric"]
+    glass = [
+        i
+        for i, thing in enumerate(scene.objects)
+        if _kind(scene, i) == "dielectric" and not isinstance(thing, Mesh)
+    ]
     eye = np.array(scene.camera.position, np.float64)
     texts: dict[str, str] = {}
     for relation, (first, second) in relations([scene.objects[i] for i in glass], eye):

@@ -166,8 +166,8 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
 
 
 _GLASS_ADVICE = (
-    "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box or a "
-    "cylinder with caps"
+    "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box, a "
+    "cylinder with caps or a closed mesh"
 )
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "

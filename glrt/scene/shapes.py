@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from glrt.scene.cylinder import Cylinder
+from glrt.scene.meshes import Mesh
 from glrt.scene.objects import Array, Object, to_planes
 from glrt.scene.solids import Box
 from glrt.scene.values import Direction, Length, Number, Triple, Vector, are_parallel
@@ -233,7 +234,9 @@ class Disk(Object):
         return np.where(np.linalg.norm(offset, axis=1) <= rows[:, 6], distance, math.inf)
 
 
-Shape = Annotated[Sphere | Plane | Quad | Disk | Box | Cylinder, Field(discriminator="shape")]
+Shape = Annotated[
+    Sphere | Plane | Quad | Disk | Box | Cylinder | Mesh, Field(discriminator="shape")
+]
 
 KINDS: dict[str, Any] = {  # the model of each kind, in the order of the kernel's numbering
     kind.model_fields["shape"].default: kind for kind in get_args(get_args(Shape)[0])

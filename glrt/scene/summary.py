@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from glrt.scene.materials import TYPES
+from glrt.scene.meshes import Mesh
 from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.shapes import KINDS
 from glrt.text import counted, number, shortened
@@ -22,7 +23,14 @@ def summary(scene: Scene) -> list[str]:
 def _objects(scene: Scene) -> Iterator[str]:
     for kind in KINDS:
         if count := sum(thing.shape == kind for thing in scene.objects):
-            yield counted(count, kind)
+            yield counted(count, kind) + _triangles(scene, kind)
+
+
+def _triangles(scene: Scene, kind: str) -> str:
+    if kind != "mesh":
+        return ""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    return f" of {counted(sum(len(mesh.triangles.faces) for mesh in meshes), 'triangle')}"
 
 
 def _materials(scene: Scene) -> Iterator[str]:

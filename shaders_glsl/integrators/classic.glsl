@@ -72,10 +72,15 @@ struct PointLamp {
 };
 
 PointLamp point_lamp(int shape) {
-    if (HAS_SPHERE_LIGHT && (!(HAS_QUAD_LIGHT || HAS_DISK_LIGHT) || up_to_sphere(shape))) {
+    if (HAS_SPHERE_LIGHT && (!(HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT) || up_to_sphere(shape))) {
         precise Sphere sphere = sphere_at(shape);
         precise float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
+    }
+    if (HAS_MESH_LIGHT && is_triangle(shape)) {
+        precise LampTriangle triangle = lamp_triangle(shape);
+        precise vec3 middle = triangle.a + (triangle.edge_b + triangle.edge_c) / 3.0;
+        return PointLamp(middle, 0.0, triangle.across, mesh_at(triangle.mesh).material);
     }
     if (HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(shape))) {
         precise Disk round = disk_at(shape - first_disk());

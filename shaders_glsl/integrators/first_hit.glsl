@@ -31,7 +31,7 @@ Pixel object_of(ivec2 place) {
     precise vec3 unit_direction = normalized(direction);
     precise Hit hit = closest_hit(Ray(vec3(0.0), unit_direction, NO_SHAPE, false));
     precise Pixel pixel = empty_pixel();
-    pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + hit.shape));
+    pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + object_number(hit.shape)));
     pixel.count = 1.0;
     return pixel;
 }

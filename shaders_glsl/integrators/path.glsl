@@ -75,7 +75,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
         precise vec3 sky = unhidden_sky(vertex.frame[2]);
         gather(path, weight * vertex.material.color * sky, BACKGROUND_LAYER, path.depth + 1);
     }
-    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT)) return;
+    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT)) return;
     if (MODEL == COOK) {
         precise LightSample light = sample_light(from, total_weight(from), rng);
         precise vec3 direct = weight * direct_light(vertex, light);
@@ -91,10 +91,23 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
     note_end(i, light_count());
 }
 
+// Around the shading normal, on the side of wo; around the facet's own where the shading normal faces
+// away from wo, or would reflect it through the surface.
+mat3 shading_frame(vec3 facing, vec3 normal, vec3 direction) {
+    if (HAS_SMOOTH) {
+        precise float along = dot(normal, direction);
+        precise vec3 reflected = direction - 2.0 * along * normal;
+        if (along >= 0.0 || dot(reflected, facing) <= 0.0) return frame_around(facing);
+    }
+    return frame_around(normal);
+}
+
 // Scatters at a surface, after gathering direct light there; false when the path ends.
 bool scatter_path(precise inout Path path, Surface surface, Material material, precise inout Sampler rng) {
-    precise float side = dot(path.ray.direction, surface.normal) < 0.0 ? 1.0 : -1.0;  // 1: outer
-    precise mat3 around = frame_around(side * surface.normal);
+    precise vec3 facing = true_normal(surface);
+    precise float side = dot(path.ray.direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
+    facing *= side;
+    precise mat3 around = shading_frame(facing, side * surface.normal, path.ray.direction);
     precise Vertex vertex = Vertex(around, to_local(around, -path.ray.direction), material);
     precise Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
     if (!is_followed(material)) {
@@ -104,10 +117,12 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     precise float lamps = total_weight(ray);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
+        if (HAS_SMOOTH && dot(light.ray.direction, facing) <= 0.0) light.pdf = 0.0;
         precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light);
         gather(path, direct, light.layer, path.depth + 1);
     }
     precise Scattering next = sample_material(vertex, side > 0.0, rng);
+    if (HAS_SMOOTH && (dot(next.direction, facing) < 0.0) != next.crosses) return false;
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return false;
     if (HAS_DIELECTRIC) path.scale *= next.scale;

@@ -1,9 +1,9 @@
-// Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad or a disk, or a direction
+// Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad, a disk or a triangle, or a direction
 // in the cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
 //
 // The density is 0, and scattering alone finds the light, for planes (infinite area), boxes and cylinders,
-// for the background, for the lamp just left, for a sphere that contains the point, and for a quad or a
-// disk whose plane does.
+// for the background, for the lamp just left, for a sphere that contains the point, and for a quad, a
+// disk or a triangle whose plane does.
 
 struct LightSample {
     Ray ray;
@@ -24,10 +24,12 @@ float cone_of_sphere(vec3 to_center, float radius) {
 }
 
 bool is_of_sphere(Light light) {
-    return HAS_SPHERE_LIGHT && (!(HAS_QUAD_LIGHT || HAS_DISK_LIGHT) || up_to_sphere(light.shape));
+    bool has_others = HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT;
+    return HAS_SPHERE_LIGHT && (!has_others || up_to_sphere(light.shape));
 }
 
 bool is_of_disk(Light light) {
+    if (HAS_MESH_LIGHT && is_triangle(light.shape)) return false;
     if (HAS_SPHERE_LIGHT && up_to_sphere(light.shape)) return false;
     return HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(light.shape));
 }
@@ -54,6 +56,7 @@ bool is_sampled(int index, Ray ray) {
         precise Sphere sphere = sphere_at(light.shape);
         return cone_of_sphere(sphere.center - ray.origin, sphere.radius) > 0.0;
     }
+    if (is_of_triangle(light)) return is_beside(lamp_triangle(light.shape), ray.origin);
     if (is_of_disk(light)) return is_beside(disk_of(light), ray.origin);
     return is_beside(quad_of(light), ray.origin);
 }
@@ -90,6 +93,11 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
         precise Sphere sphere = sphere_at(light.shape);
         precise float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
         precise float pdf = choice_pdf(index, ray, lamps) / (2.0 * PI * one_minus_cos);
+        return pdf;
+    }
+    if (is_of_triangle(light)) {
+        precise LampTriangle triangle = lamp_triangle(light.shape);
+        precise float pdf = choice_pdf(index, ray, lamps) * pdf_triangle(triangle, ray, distance);
         return pdf;
     }
     if (is_of_disk(light)) {
@@ -146,6 +154,21 @@ LightSample sample_flat_disk(Ray ray, int index, int shape, vec2 u, float lamps)
     return LightSample(ray, away, pdf, lamp.emission, shape, lamp.layer);
 }
 
+LightSample sample_triangle(Ray ray, int index, int shape, vec2 u, float lamps) {
+    precise LampTriangle triangle = lamp_triangle(shape);
+    precise float root = sqrt(u.x);
+    precise float share_b = root * (1.0 - u.y);
+    precise float share_c = root * u.y;
+    precise vec3 to_point = triangle.a - ray.origin + share_b * triangle.edge_b + share_c * triangle.edge_c;
+    precise float away = length(to_point);
+    if (away == 0.0) return no_light_sample(ray);
+    precise vec3 direction = to_point / away;
+    ray.direction = direction;
+    precise Material lamp = material_at(mesh_at(triangle.mesh).material);
+    precise float pdf = pdf_light(index, ray, away, lamps);
+    return LightSample(ray, away, pdf, lamp.emission, shape, lamp.layer);
+}
+
 // From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.
 LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     precise vec3 choice = vec3(0.0);
@@ -155,6 +178,7 @@ LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     int index = choose_light(ray, lamps, choice);
     precise Light light = light_at(index);
     if (is_of_sphere(light)) return sample_sphere(ray, index, light.shape, u, lamps);
+    if (is_of_triangle(light)) return sample_triangle(ray, index, light.shape, u, lamps);
     if (is_of_disk(light)) return sample_flat_disk(ray, index, light.shape, u, lamps);
     return sample_quad(ray, index, light.shape, u, lamps);
 }

@@ -89,7 +89,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         note_end(i, quad_count());
     }
     if ((HAS_DISK || HAS_BOX || HAS_CYLINDER) && !HAS_TREE) hit = find_among_others(ray, hit, ignored, any);
-    if (!HAS_TREE) return hit;  // the nearest
+    if (!HAS_TREE && !HAS_MESH) return hit;  // the nearest
     if (any) return find_any_by_tree(ray, hit, ignored);
     return find_nearest_by_tree(ray, hit, ignored);
 }
@@ -116,5 +116,6 @@ Surface surface_at(Ray ray, Hit hit) {
     if (HAS_DISK && up_to_disk(hit.shape)) return disk_surface(p, hit.shape);
     if (HAS_BOX && up_to_box(hit.shape)) return box_surface(ray, p, hit.shape);
     if (HAS_CYLINDER && up_to_cylinder(hit.shape)) return cylinder_surface(ray, p, hit.shape);
+    if (HAS_MESH && up_to_mesh(hit.shape)) return mesh_surface(ray, hit.shape);
     return no_surface();
 }

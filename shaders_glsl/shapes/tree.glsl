@@ -12,13 +12,25 @@ Hit nearer(Hit hit, float t, int shape, int ignored) {
 }
 
 // The shape of a leaf; its packer: glrt/rendering/pack_tree.py.
-Hit meet_leaf(Ray ray, Slot slot, Hit hit, int ignored) {
+Hit meet_leaf(Ray ray, ShearedRay turned, Slot slot, Hit hit, int ignored) {
     int kind = int(slot.d.w >> 28u & 7u);
     int shape = int(slot.d.w & LINK);
     precise vec4 a = uintBitsToFloat(slot.a);
     precise vec4 b = uintBitsToFloat(slot.b);
     precise vec4 c = uintBitsToFloat(slot.c);
     precise vec3 d = uintBitsToFloat(slot.d.xyz);
+    if (HAS_MESH && kind == TRIANGLES) {
+        precise vec3 p = sheared_point(turned, a.xyz);
+        precise vec3 q = sheared_point(turned, vec3(a.w, b.xy));
+        precise vec3 r = sheared_point(turned, vec3(b.zw, c.x));
+        precise vec3 s = sheared_point(turned, c.yzw);
+        ivec2 triangles = first_triangle() + ivec2(slot.d.xy);
+        precise float first = triangle_distance(p, q, r);
+        if (triangles.x != ray.origin_shape) hit = nearer(hit, first, triangles.x, ignored);
+        precise float second = triangle_distance(p, r, s);
+        if (triangles.y != ray.origin_shape) hit = nearer(hit, second, triangles.y, ignored);
+    }
+    if (!HAS_TREE) return hit;
     if (HAS_SPHERE && !HAS_SPHERE_TREE && kind == SPHERE) {
         precise float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
         hit = nearer(hit, t, shape, ignored);
@@ -60,6 +72,7 @@ void sort_pair(inout uint a, inout uint b) {
 // slot of its first child.
 Hit find_nearest_by_tree(Ray ray, Hit hit, int ignored) {
     precise TreeRay among = tree_ray(ray);
+    precise ShearedRay turned = sheared(ray);
     precise TreeStack stack = empty_stack();
     int depth = 0;
     int place = 0;
@@ -68,7 +81,7 @@ Hit find_nearest_by_tree(Ray ray, Hit hit, int ignored) {
     while (going) {
         precise Slot slot = slot_at(place);
         bool is_leaf = (slot.d.w & LEAF) != 0u;
-        if (is_leaf) hit = meet_leaf(ray, slot, hit, ignored);
+        if (is_leaf) hit = meet_leaf(ray, turned, slot, hit, ignored);
         precise Children children = children_of(slot, among);
         precise float limit = hit.distance;
         uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
@@ -113,6 +126,7 @@ Hit find_nearest_by_tree(Ray ray, Hit hit, int ignored) {
 // node by bits.
 Hit find_any_by_tree(Ray ray, Hit hit, int ignored) {
     precise TreeRay among = tree_ray(ray);
+    precise ShearedRay turned = sheared(ray);
     precise TreeStack stack = empty_stack();
     int depth = 0;
     int place = 0;
@@ -121,7 +135,7 @@ Hit find_any_by_tree(Ray ray, Hit hit, int ignored) {
     while (going) {
         precise Slot slot = slot_at(place);
         bool is_leaf = (slot.d.w & LEAF) != 0u;
-        if (is_leaf) hit = meet_leaf(ray, slot, hit, ignored);
+        if (is_leaf) hit = meet_leaf(ray, turned, slot, hit, ignored);
         precise Children children = children_of(slot, among);
         precise float limit = hit.distance;
         uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)

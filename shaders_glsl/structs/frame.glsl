@@ -28,6 +28,7 @@ struct Frame {
     int disk_count;
     int box_count;
     int cylinder_count;
+    int mesh_count;
     int light_count;
     int first_tile;         // of this dispatch: see tiles.glsl
     int tile_stride;

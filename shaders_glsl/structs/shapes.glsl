@@ -58,6 +58,26 @@ struct Cylinder {
     int is_capped;
 };
 
+struct Mesh {
+    int material;
+    int is_smooth;  // whether normals are interpolated
+    int spare_a;    // fill the row
+    int spare_b;
+};
+
+// Of the meshes, relative to the middle of the tree over shapes.
+struct Corner {
+    vec3 position;
+    uint normal;  // unit, on an octahedron: see unpacked_normal
+};
+
+struct Triangle {
+    ivec3 corners;
+    uint owner;   // its mesh; from bit 16 on its light + 1, or 0
+    vec3 normal;  // unit; outwards where the mesh encloses a volume
+    float reach;  // the largest coordinate of its corners, without its sign
+};
+
 // Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
 // node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
 struct Node {
@@ -80,3 +100,4 @@ const int QUAD = 2;
 const int DISK = 3;
 const int BOX = 4;
 const int CYLINDER = 5;
+const int TRIANGLES = 7;  // two of a mesh: see glrt/rendering/pack_mesh.py

@@ -25,7 +25,7 @@ SMALL = ("--width", "24", "--height", "16", "--samples", "4")
 KEYS = [
     *("scene", "width", "height", "samples", "bounces", "method", "seed", "pipeline", "context"),
     *("renderer", "seconds", "samples_per_second", "error", "error_doubtful", "nonfinite"),
-    *("peak_bytes", "assets"),
+    *("peak_bytes", "triangles", "assets"),
 ]
 
 

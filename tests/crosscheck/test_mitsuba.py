@@ -33,6 +33,7 @@ from tests.support.builders import (
     scene_of,
     sphere,
 )
+from tests.support.meshes import blob, icosphere, mesh
 from tests.support.renders import rendered
 from tests.support.system_packages import needs_package
 
@@ -165,6 +166,38 @@ def test_a_planted_difference_of_solids_is_found(
 ) -> None:
     found = judged(ours(context, scene), their_solids)
     assert not found, str(found)
+
+
+def meshes() -> Scene:
+    """A matte ball with facets, a metal one without, a glass one, and a lamp of triangles."""
+    fine, coarse = blob(3), icosphere(1)
+    return scene_of(
+        [
+            plane([0, 0, 0], [0, 2, 0], "white"),
+            mesh(blob(2), "white", scale=0.5, translate=[0, 0.6, 0.4], smooth=False),
+            mesh(
+                fine, "rough", scale=[0.5, 0.6, 0.4], translate=[1.1, 0.7, 0.2], rotate=[0, 30, 0]
+            ),
+            mesh(coarse, "glass", scale=0.5, translate=[-1.1, 0.55, 0.2], smooth=False),
+            mesh(coarse, "bulb", scale=[-0.2, 0.3, 0.2], translate=[0.5, 1.5, -0.6], smooth=False),
+        ],
+        MATERIALS,
+        CAMERA,
+        background=SKY,
+    )
+
+
+def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer, tmp_path: Path) -> None:
+    scene = meshes()
+    scene.save(tmp_path / "scene.toml")
+    picture = theirs(mitsuba, scene, folder=str(tmp_path))
+    found = judged(ours(context, scene), picture)
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    objects = [*scene.objects]
+    objects[2] = objects[2].model_copy(update={"rotate": (0.0, 40.0, 0.0)})
+    turned = scene.model_copy(update={"objects": tuple(objects)})
+    assert not judged(ours(context, turned), picture)
 
 
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

@@ -10,6 +10,7 @@ from glrt.gpu.context import Context
 from glrt.gpu.struct_arrays import FILE, uniform_content
 from glrt.image.sources import load
 from glrt.rendering import pipelines
+from glrt.rendering.evaluation import no_rows
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pipelines import MOST_BAKED, Tier
 from glrt.rendering.renderer import Renderer
@@ -20,6 +21,7 @@ from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.kernel_text import written_for
 from tests.support.renders import SAMPLERS
 
+ARRAYS = no_rows()
 SMALL: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
 
 
@@ -57,6 +59,16 @@ def test_arrays_are_constants_uniform_blocks_or_textures() -> None:
     assert "uniform MaterialRows" in baked
     assert "usampler2D QuadRows" in written_for("cornell", uniform_bytes=0)[FILE]
     assert not any("buffer" in text for text in (uniform, baked))
+
+
+def test_a_kernel_has_no_more_blocks_than_opengl_grants() -> None:
+    """12 (`GL_MAX_FRAGMENT_UNIFORM_BLOCKS` of OpenGL 4.1); blocks that nothing reads count too."""
+    full = {name: np.zeros(1, dtype) for name, dtype in STRUCTS.items() if name in ARRAYS}
+    text = pipelines.text_of(full, "generic", struct_arrays.MOST_UNIFORM_BYTES)
+    assert text.count("layout(std140) uniform") <= 12
+    nothing = {name: rows[:0] for name, rows in full.items()}
+    text = pipelines.text_of(nothing, "generic", struct_arrays.MOST_UNIFORM_BYTES)
+    assert text.count("layout(std140) uniform") == 1, "what is not there has no block"
 
 
 def test_shapes_share_one_numbering() -> None:

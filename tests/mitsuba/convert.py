@@ -9,6 +9,7 @@ import numpy as np
 from glrt.errors import SceneError
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.materials import Dielectric, Light, Metal
+from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Disk, Plane, Quad, Sphere
 from glrt.scene.solids import Box
@@ -124,6 +125,8 @@ def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> 
             yield _face(mi, surface, item, at, lift)
     elif isinstance(item, Box | Cylinder):
         yield from _solid(mi, scene, surface, item, at)
+    elif isinstance(item, Mesh):
+        yield _triangles(mi, scene, surface, item, at)
     else:
         raise SceneError(f"shape '{item.shape}': the converter to Mitsuba does not know it.")
 
@@ -211,14 +214,31 @@ def _solid(
         yield {**wall, "radius": radius - GAP, "flip_normals": True}
 
 
-def _mesh(mi: Any, surface: Words, points: Vector, triangles: list[list[int]]) -> Any:
+def _triangles(mi: Any, scene: Scene, surface: Words, item: Mesh, at: Near) -> Any:
+    """A mesh; a lamp shines outwards."""
+    faces = item.triangles.faces if item.is_upright else item.triangles.faces[:, ::-1]
+    if any(scene.emission(item.material)) and item.triangles.opening:
+        raise SceneError(f"material '{item.material}': Mitsuba's lamp would shine on one side.")
+    normals = None
+    if item.smooth:
+        normals = item.world_normals
+        normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    return _mesh(mi, surface, at.point(item.world_vertices), faces, normals)
+
+
+def _mesh(
+    mi: Any, surface: Words, points: Vector, triangles: Any, normals: Vector | None = None
+) -> Any:
     properties = mi.Properties()
     for name, part in surface.items():
         properties[name] = mi.load_dict(part)
-    mesh = mi.Mesh("mesh", len(points), len(triangles), properties)
+    is_smooth = normals is not None
+    mesh = mi.Mesh("mesh", len(points), len(triangles), properties, has_vertex_normals=is_smooth)
     parameters = mi.traverse(mesh)
     parameters["vertex_positions"] = np.ravel(points)
     parameters["faces"] = np.ravel(triangles)
+    if normals is not None:
+        parameters["vertex_normals"] = np.ravel(normals)
     parameters.update()
     return mesh
 

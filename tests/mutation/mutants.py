@@ -8,8 +8,9 @@ from tests.mutation.aovs import AOVS
 from tests.mutation.comparing import COMPARING
 from tests.mutation.film import FILM
 from tests.mutation.merging import MERGING
+from tests.mutation.meshes import MESHES
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.transport import TRANSPORT
 
-MUTANTS = [*TRANSPORT, *SHAPES, *SAMPLING, *FILM, *AOVS, *MERGING, *COMPARING]
+MUTANTS = [*TRANSPORT, *SHAPES, *MESHES, *SAMPLING, *FILM, *AOVS, *MERGING, *COMPARING]

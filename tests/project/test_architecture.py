@@ -14,7 +14,7 @@ PACKAGE = Path(glrt.__file__).parent
 ROOT = PACKAGE.parent
 # Packages whose modules may use moderngl; the others go through them.
 KNOW_OPENGL = {"gpu", "rendering", "view", "analysis"}
-SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich"}
+SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich", "trimesh"}
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60
 
@@ -39,6 +39,9 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "1.17549435e-38",  # the smallest normal float: a way of no length, which changes no digit
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
     "7.62939453125e-6",  # 2^-17: how far off the tree over shapes takes a ray to be
+    "9.5367431640625e-7",  # 2^-20: how far off its triangle a ray starts
+    "32767.0",  # steps of a coordinate of a normal
+    "1.0e-6",  # of the squared length of a mean of unit normals
     "8388608.0",  # 2^23: half of the cells of its grid
     "1.2379400392853803e27",  # 2^90: slopes beyond it are as good as none
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval

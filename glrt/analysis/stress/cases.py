@@ -1,6 +1,6 @@
 """Every case of `glrt stress`, by name."""
 
-from glrt.analysis.stress import glass, lamps, rays, sums, views
+from glrt.analysis.stress import glass, lamps, rays, sums, triangles, views
 from glrt.analysis.stress.sweep import Case
 
 _ALL = (
@@ -8,6 +8,8 @@ _ALL = (
     Case("scale", "Large and small spheres", rays.scale),
     Case("offset", "A scene far from the origin", views.offset),
     Case("grazing", "A floor at grazing angles", rays.grazing),
+    Case("edges", "Rays at the edge that two triangles share", triangles.edges),
+    Case("leave", "Rays that leave a triangle", triangles.leave),
     Case("fov", "Narrow and wide fields of view", views.fov),
     Case("ior", "Glass with an index near 1", glass.ior),
     Case("lamp", "A small lamp", lamps.lamp),

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 
 from glrt.errors import RenderError
+from glrt.methods.contents import contents_of
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.idle_compile import TrialCompile
@@ -55,7 +56,9 @@ class IdleKernel:
         self._rehearsal = None
 
     def _rehearse(self, renderer: Renderer) -> None:
-        if len(renderer.plan.scene.objects) > MOST_BAKED:
+        scene = renderer.plan.scene
+        # The other process has no meshes, and their triangles are never constants.
+        if len(scene.objects) > MOST_BAKED or contents_of(scene).triangles:
             self._is_decided = True
         elif self._clock() - self._since >= PAUSE:
             try:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from glrt.rendering.pack import pack_camera
 from glrt.scene.camera import Camera
+from glrt.scene.meshes import Mesh
 from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
@@ -41,6 +42,9 @@ def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
     origin, direction = ray_through(scene.camera, aspect, x, y)
     with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
         distances = _distances(_tables(scene.objects), len(scene.objects), origin, direction)
+        for number, shape in enumerate(scene.objects):
+            if isinstance(shape, Mesh) and distances[number] < math.inf:  # its ball is met
+                distances[number] = shape.distance(origin, direction)
     if not len(distances) or distances.min() == math.inf:
         return None
     index = int(np.argmin(distances))

@@ -1,0 +1,79 @@
+"""Triangles side by side, two in a leaf: a round of the loop then tests twice as many.
+
+Each triangle is matched with the neighbour beyond its longest free edge, where both agree: pairs
+that share long edges have small boxes.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from glrt.accel.binned_splits import Floats, Ints
+
+_ROUNDS = 12  # of matching, after which few triangles that could be matched are left
+
+
+class Pairs(NamedTuple):
+    """Two triangles each, a b c and a c d; of a single one d is a, so the other is empty."""
+
+    corner: Ints  # (m, 4): numbers of vertices
+    triangle: Ints  # (m, 2): numbers of triangles; the second of a single one is the first again
+
+
+class _Shared(NamedTuple):
+    """Edges that two triangles share."""
+
+    first: Ints  # (e,): the triangles
+    second: Ints
+    start: Ints  # vertices, in the order of the first
+    end: Ints
+    apex: Ints  # the third vertex of the first
+    other: Ints  # and of the second
+
+
+def paired(vertices: Floats, faces: Ints) -> Pairs:
+    """Pairs of the triangles `faces`, (n, 3), numbers of `vertices`, (v, 3)."""
+    shared = _shared_edges(faces, len(vertices))
+    by = _matched(shared, vertices, len(faces))
+    corner = np.stack([shared.end[by], shared.apex[by], shared.start[by], shared.other[by]], axis=1)
+    triangle = np.stack([shared.first[by], shared.second[by]], axis=1)
+    is_single = np.ones(len(faces), bool)
+    is_single[triangle] = False
+    single = np.flatnonzero(is_single)
+    return Pairs(
+        np.concatenate([corner, faces[single][:, [0, 1, 2, 0]]]),
+        np.concatenate([triangle, np.stack([single, single], axis=1)]),
+    )
+
+
+def _shared_edges(faces: Ints, vertices: int) -> _Shared:
+    start = faces.T.ravel()
+    end, apex = np.roll(faces, -1, axis=1).T.ravel(), np.roll(faces, -2, axis=1).T.ravel()
+    triangle = np.tile(np.arange(len(faces)), 3)
+    key = np.minimum(start, end) * vertices + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    same = np.flatnonzero(key[order][1:] == key[order][:-1])
+    p, q = order[same], order[same + 1]
+    return _Shared(triangle[p], triangle[q], start[p], end[p], apex[p], apex[q])
+
+
+def _matched(shared: _Shared, vertices: Floats, triangles: int) -> Ints:
+    """The edges across which triangles are matched."""
+    length = np.linalg.norm(vertices[shared.start] - vertices[shared.end], axis=1)
+    rank = np.empty(len(length), int)  # no two alike, so that both can agree
+    rank[np.argsort(length, kind="stable")] = np.arange(1, len(length) + 1)
+    is_free = np.ones(triangles, bool)
+    live, chosen = np.arange(len(length)), [np.zeros(0, int)]
+    for _ in range(_ROUNDS):
+        live = live[is_free[shared.first[live]] & is_free[shared.second[live]]]
+        if not len(live):
+            break
+        best = np.zeros(triangles, int)
+        np.maximum.at(best, shared.first[live], rank[live])
+        np.maximum.at(best, shared.second[live], rank[live])
+        agree = rank[live] >= best[shared.first[live]]
+        agree &= rank[live] >= best[shared.second[live]]
+        chosen.append(live[agree])
+        is_free[shared.first[chosen[-1]]] = False
+        is_free[shared.second[chosen[-1]]] = False
+    return np.concatenate(chosen)

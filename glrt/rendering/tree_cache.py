@@ -1,0 +1,89 @@
+"""Trees over many triangles, kept in the user's cache folder: they are read faster than built.
+
+A tree is known by a hash of all that it was built from, and of the code that builds trees.
+"""
+
+import hashlib
+import os
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from glrt import accel, files
+from glrt.errors import RenderError
+
+Array = np.ndarray[Any, Any]
+Arrays = Mapping[str, Array]
+
+LEAST = 20_000  # triangles whose tree is kept: smaller ones are built as fast
+MOST_BYTES = 1 << 30  # of all files together; the ones used longest ago go
+
+
+def kept(parts: Sequence[Array], build: Callable[[], Arrays]) -> Arrays:
+    """What `build` makes of `parts`, from the cache if it is there; failures to write are ignored.
+
+    `build` must give the same arrays for the same parts, without Python objects in them.
+    """
+    path = _folder() / f"{_key(parts)}.npz"
+    found = _read(path)
+    if found is not None:
+        with suppress(OSError):
+            os.utime(path)
+        return found
+    made = build()
+    with suppress(OSError, RenderError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        files.write_whole(path, lambda file: _write(file, made))
+        _drop_oldest(path)
+    return made
+
+
+def _write(path: Path, arrays: Arrays) -> None:
+    with path.open("wb") as file:
+        np.savez(file, allow_pickle=False, **arrays)
+
+
+def _read(path: Path) -> Arrays | None:
+    try:
+        with path.open("rb") as file, np.load(file) as arrays:
+            return {name: arrays[name] for name in arrays.files}
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        return None
+
+
+def _drop_oldest(newest: Path) -> None:
+    known = [(file.stat(), file) for file in newest.parent.glob("*.npz")]
+    total = sum(status.st_size for status, _ in known)
+    for status, file in sorted(known, key=lambda pair: pair[0].st_mtime_ns):
+        if total <= MOST_BYTES:
+            break
+        file.unlink()
+        total -= status.st_size
+
+
+def _folder() -> Path:
+    """In the user's cache (XDG base directory specification)."""
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "glrt" / "trees"
+
+
+def _key(parts: Sequence[Array]) -> str:
+    digest = hashlib.blake2b(_code(), digest_size=16)
+    for part in parts:
+        digest.update(f"{part.dtype.str} {part.shape}\n".encode())
+        digest.update(np.ascontiguousarray(part).tobytes())
+    return digest.hexdigest()
+
+
+@cache
+def _code() -> bytes:
+    """The modules that build and pack."""
+    here = Path(__file__).parent
+    modules = sorted(Path(accel.__file__).parent.glob("*.py"))
+    texts = [module.read_bytes() for module in (*modules, here / "pack_mesh.py")]
+    return b"\0".join([*texts, np.__version__.encode()])

@@ -1,0 +1,103 @@
+"""Files of triangle meshes as arrays: PLY, OBJ and STL, read by trimesh."""
+
+import logging
+import warnings
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import PurePosixPath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.errors import SceneError
+from glrt.scene.triangle_meshes import TriangleMesh, checked
+from glrt.text import quoted
+
+FORMATS = (".ply", ".obj", ".stl")
+
+
+def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
+    """The mesh in what a file holds; the suffix of its path tells the format.
+
+    Polygons are divided into triangles. Materials, colours and texture coordinates are not read.
+    Raises `SceneError`, which begins with `where`, for what is no mesh.
+    """
+    suffix = PurePosixPath(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise SceneError(
+            f"{where}: {quoted(path)} is no file of a mesh that glrt reads, which end in .ply, "
+            ".obj or .stl. Convert it to one of them."
+        )
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
+            tables = _reader(suffix)(BytesIO(content))
+        return _mesh(tables)
+    except MemoryError:
+        problem = "it says that it is larger than the memory"
+    except Exception as error:  # trimesh raises whatever its parts do
+        problem = _reason(error)
+    raise SceneError(
+        f"{where}: {quoted(path)} is damaged, or no {suffix[1:].upper()} file: {problem}. Export "
+        "it again."
+    )
+
+
+def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
+    """Importing trimesh takes 0.3 s, which scenes without meshes do not pay."""
+    from trimesh.exchange.obj import load_obj
+    from trimesh.exchange.ply import load_ply
+    from trimesh.exchange.stl import load_stl
+
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL + 1)  # what is wrong is told once
+
+    def obj(file: Any) -> dict[str, Any]:
+        return dict(load_obj(file, skip_materials=True, group_material=False))
+
+    def ply(file: Any) -> dict[str, Any]:
+        return dict(load_ply(file, skip_materials=True))
+
+    readers: dict[str, Callable[[Any], dict[str, Any]]] = {
+        ".obj": obj,
+        ".ply": ply,
+        ".stl": load_stl,
+    }
+    return readers[suffix]
+
+
+def _mesh(tables: dict[str, Any]) -> TriangleMesh:
+    """Of what trimesh read: a mesh, or several by name."""
+    parts = list(tables["geometry"].values()) if "geometry" in tables else [tables]
+    vertices, faces, first = [], [], 0
+    normals: list[Any] = []
+    for part in parts:
+        points = np.asarray(part["vertices"], np.float64).reshape(-1, 3)
+        vertices.append(points)
+        faces.append(_fans(np.asarray(part.get("faces", ()), np.int64)) + first)
+        normals.append(part.get("vertex_normals"))
+        first += len(points)
+    if not vertices:
+        raise ValueError("it has no triangles")
+    has_normals = all(turned is not None for turned in normals)
+    return checked(
+        np.concatenate(vertices),
+        np.concatenate(faces),
+        np.concatenate(normals) if has_normals else None,
+    )
+
+
+def _fans(polygons: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Polygons of k corners each, (n, k), as triangles around their first corners."""
+    if not polygons.size:
+        return polygons.reshape(-1, 3)
+    if polygons.ndim != 2 or polygons.shape[1] < 3:
+        raise ValueError("its faces have fewer than three corners")
+    corners = range(1, polygons.shape[1] - 1)
+    fans = np.stack([polygons[:, [0, k, k + 1]] for k in corners], axis=1)
+    return fans.reshape(-1, 3)
+
+
+def _reason(error: Exception) -> str:
+    text = str(error).split("\n")[0].strip().rstrip(".")
+    return text[:200] or type(error).__name__

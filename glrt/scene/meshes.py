@@ -1,0 +1,178 @@
+"""Triangle meshes in a scene: which, where, and with which normals."""
+
+import math
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+
+from glrt.scene.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
+from glrt.scene.objects import Array, Object
+from glrt.scene.solids import rotation
+from glrt.scene.triangle_meshes import TriangleMesh
+from glrt.scene.values import LARGEST, SMALLEST, Number, Triple, Vector
+from glrt.settings import Cost, Editable
+
+
+def _three(value: Any) -> Any:
+    return (value, value, value) if isinstance(value, float | int) else value
+
+
+def _without_zeros(value: Vector) -> Vector:
+    if min(map(abs, value)) < SMALLEST:
+        raise ValueError(
+            f"must be numbers of at least {SMALLEST:g}, or below -{SMALLEST:g} to mirror: 0 makes "
+            "the mesh flat"
+        )
+    return value
+
+
+_NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
+_FACTORS = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems": 3, "maxItems": 3}]}
+Factors = Annotated[
+    Vector,
+    BeforeValidator(_three),
+    AfterValidator(_without_zeros),
+    WithJsonSchema(_FACTORS),
+]
+
+
+class Mesh(Object):
+    """Triangles of a file, or of arrays: scaled, then turned, then moved."""
+
+    shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
+    file: NamedMesh = Field(
+        description="path of a file of triangles or polygons, .ply, .obj or .stl"
+    )
+    translate: Vector = Field((0.0, 0.0, 0.0), description="where the origin of the file lies")
+    rotate: Vector = Field(
+        (0.0, 0.0, 0.0),
+        description="angles in degrees about the x, then the y, then the z axis, through that "
+        "origin",
+    )
+    scale: Factors = Field(
+        (1.0, 1.0, 1.0),
+        description="a factor of its size, or one along each axis of the file; negative: mirrored",
+    )
+    smooth: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+        True,
+        description="whether normals are interpolated across triangles, those of the file or, "
+        "where it has none, means at each vertex; false: flat facets",
+    )
+
+    has_inside = True
+    anchor = "translate"
+    extents = ("scale",)
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            vertices: Any = None,
+            faces: Any = None,
+            normals: Any = None,
+            *,
+            file: MeshFile | str | None = None,
+            translate: Triple = (0, 0, 0),
+            rotate: Triple = (0, 0, 0),
+            scale: Number | Triple = 1,
+            smooth: bool = True,
+            material: str,
+            name: str | None = None,
+        ) -> None: ...
+
+    else:
+
+        def __init__(self, vertices=None, faces=None, normals=None, **fields):
+            """A mesh of arrays, (v, 3), (n, 3) and (v, 3), or of `file`.
+
+            `faces` holds numbers of vertices from 0, counter-clockwise seen from outside. Raises
+            ValueError, which says what is wrong with which row.
+            """
+            if vertices is not None or faces is not None:
+                if "file" in fields:
+                    raise ValueError("a mesh is given by arrays or by a file, not by both")
+                fields["file"] = mesh_of_arrays(vertices, faces, normals)
+            super().__init__(**fields)
+
+    @property
+    def triangles(self) -> TriangleMesh:
+        """In the coordinates of the file; ValueError before it is read."""
+        if self.file.triangles is None:
+            raise ValueError(f"the file {self.file.file} was not read")
+        return self.file.triangles
+
+    @property
+    def matrix(self) -> Array:
+        """(3, 3): from the axes of the file to those of the scene, before it is moved."""
+        turned: Array = rotation(self.rotate) * np.array(self.scale)
+        return turned
+
+    @property
+    def world_vertices(self) -> Array:
+        """(v, 3), in scene units."""
+        vertices: Array = self.triangles.vertices @ self.matrix.T + np.array(self.translate)
+        return vertices
+
+    @property
+    def world_normals(self) -> Array:
+        """(v, 3), of any length: normals turn by the inverse, transposed; outwards as they were."""
+        turned: Array = self.triangles.shading_normals @ np.linalg.inv(self.matrix)
+        return turned
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether it is not mirrored."""
+        return bool(np.prod(np.sign(self.scale)) > 0)
+
+    @property
+    def middle(self) -> Vector:
+        """The middle of the box around it, in its own axes; before it is read, its origin."""
+        center = np.array(self.translate)
+        if self.file.triangles is not None:
+            low, high = self.file.triangles.box
+            center = self.matrix @ ((low + high) / 2) + center
+        x, y, z = (float(value) for value in center)
+        return (x, y, z)
+
+    @property
+    def reach(self) -> float:
+        """To the farthest corner of that box."""
+        if self.file.triangles is None:
+            return 0.0
+        low, high = self.file.triangles.box
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        corners = (signs * (high - low) / 2) @ self.matrix.T
+        return float(np.linalg.norm(corners, axis=1).max())
+
+    @property
+    def row(self) -> list[float]:
+        """Middle and radius of a ball that holds it."""
+        return [*self.middle, self.reach]
+
+    @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of the ball."""
+        return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """To where rays enter the ball, 0 from inside: see `distance` for the triangles."""
+        to_center = rows[:, :3] - origin
+        along = to_center @ direction
+        aside = to_center - along[:, None] * direction
+        rest = np.sqrt(rows[:, 3] ** 2 - np.square(aside).sum(axis=1))  # NaN beside the ball
+        return np.where(along + rest > 0, np.maximum(along - rest, 0), math.inf)
+
+    def distance(self, origin: Array, direction: Array) -> float:
+        """How far a ray goes to the nearest triangle; inf for a miss."""
+        inverse = np.linalg.inv(self.matrix)
+        start, along = inverse @ (origin - np.array(self.translate)), inverse @ direction
+        mesh = self.triangles
+        a, b, c = (mesh.vertices[mesh.faces[:, k]] - start for k in range(3))
+        u, v, w = (np.cross(x, y) @ along for x, y in ((c, b), (a, c), (b, a)))
+        with np.errstate(all="ignore"):
+            normal = np.cross(b - a, c - a)
+            t = (a * normal).sum(axis=1) / (normal @ along)
+            same = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
+            return float(np.where(same & (t > 0), t, math.inf).min())

@@ -1,0 +1,163 @@
+"""Triangle meshes as arrays: checked, with normals, and whether they enclose a volume."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.scene.values import LARGEST
+from glrt.text import counted, number
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+MOST_TRIANGLES = 4_000_000  # of a scene
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """Triangles in the coordinates of their file, counter-clockwise seen from outside."""
+
+    vertices: Floats  # (v, 3)
+    faces: Ints  # (n, 3): numbers of vertices
+    normals: Floats | None  # (v, 3), of any length above 0; None: none were given
+
+    @cached_property
+    def box(self) -> tuple[Floats, Floats]:
+        """Its lowest and highest coordinates, (3,) each."""
+        used = self.vertices[self.faces.ravel()]
+        return used.min(axis=0), used.max(axis=0)
+
+    @cached_property
+    def shading_normals(self) -> Floats:
+        """(v, 3), unit: those that were given, else means of the triangles around each vertex.
+
+        Triangles weigh by their angle there (Thuermer and Wuethrich, "Computing Vertex Normals
+        from Polygonal Facets", 1998). Vertices in the same place share theirs.
+        """
+        given = self.normals if self.normals is not None else self._mean_normals()
+        length = np.linalg.norm(given, axis=1, keepdims=True)
+        unit: Floats = np.divide(given, length, out=np.zeros_like(given), where=length > 0)
+        return unit
+
+    @cached_property
+    def opening(self) -> str:
+        """Why this encloses no volume, in words; empty if it encloses one."""
+        place = _places(self.vertices)
+        face: Ints = place[self.faces]
+        face = face[(face != np.roll(face, 1, axis=1)).all(axis=1)]
+        start, end = face.ravel(), np.roll(face, -1, axis=1).ravel()
+        forth = np.sort(start * len(place) + end)
+        back = np.sort(end * len(place) + start)
+        if (twice := int((forth[1:] == forth[:-1]).sum())) > 0:
+            edges = counted(twice, "edge")
+            return f"at {edges} neighbouring triangles face opposite ways, or more than two meet"
+        if not np.array_equal(forth, back):
+            lonely = int((~np.isin(forth, back, assume_unique=True)).sum())
+            return f"{counted(lonely, 'edge')} belong{'s' if lonely == 1 else ''} to one triangle"
+        return ""
+
+    @cached_property
+    def outward(self) -> "TriangleMesh":
+        """The same, with the triangles of a closed mesh turned over if they face inwards."""
+        if self.opening or self._volume() >= 0:
+            return self
+        return TriangleMesh(self.vertices, self.faces[:, ::-1].copy(), self.normals)
+
+    def _volume(self) -> float:
+        a, b, c = (self.vertices[self.faces[:, k]] - self.box[0] for k in range(3))
+        return float((a * np.cross(b, c)).sum() / 6)
+
+    def _mean_normals(self) -> Floats:
+        place = _places(self.vertices)
+        corners = self.vertices[self.faces]
+        edges = np.roll(corners, -1, axis=1) - corners
+        length = np.linalg.norm(edges, axis=2, keepdims=True)
+        along = np.divide(edges, length, out=np.zeros_like(edges), where=length > 0)
+        cosine = -(along * np.roll(along, 1, axis=1)).sum(axis=2)
+        angle = np.arccos(np.clip(cosine, -1, 1))
+        across = np.cross(along[:, 0], along[:, 1])
+        length = np.linalg.norm(across, axis=1, keepdims=True)
+        facing = np.divide(across, length, out=np.zeros_like(across), where=length > 0)
+        at = place[self.faces].ravel()
+        weighted = (angle[:, :, None] * facing[:, None]).reshape(-1, 3)
+        sums = [np.bincount(at, weighted[:, axis], len(place)) for axis in range(3)]
+        mean: Floats = np.stack(sums, axis=1).astype(np.float64)[place]
+        return mean
+
+
+def checked(vertices: Any, faces: Any, normals: Any = None) -> TriangleMesh:
+    """A mesh of arrays, (v, 3), (n, 3) and (v, 3); triangles of two equal corners are left out.
+
+    Raises ValueError, which says what is wrong with which row.
+    """
+    points = _table(vertices, "vertices", np.float64)
+    triangles = _table(faces, "faces", np.int64)
+    turned = None if normals is None else _table(normals, "normals", np.float64)
+    problem = next(_problems(points, triangles, turned), None)
+    if problem:
+        raise ValueError(problem)
+    equal = triangles == np.roll(triangles, 1, axis=1)
+    kept = triangles[~equal.any(axis=1)]
+    if not len(kept):
+        raise ValueError("it has no triangle with three corners")
+    used = np.zeros(len(points), bool)
+    used[kept] = True
+    rank = np.cumsum(used) - 1
+    return TriangleMesh(points[used], rank[kept], None if turned is None else turned[used])
+
+
+def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
+    try:
+        found = np.asarray(value)
+    except ValueError:
+        raise ValueError(f"{name} must be an array of shape (n, 3)") from None
+    if found.ndim != 2 or found.shape[1] != 3 or found.dtype.kind not in "fiu":
+        raise ValueError(
+            f"{name} must be an array of numbers of shape (n, 3), got one of shape {found.shape}"
+        )
+    if dtype is np.int64 and found.dtype.kind == "f":
+        raise ValueError(f"{name} must be whole numbers, the numbers of vertices")
+    return np.ascontiguousarray(found, dtype)
+
+
+def _problems(vertices: Floats, faces: Ints, normals: Floats | None) -> Iterator[str]:
+    if not len(faces):
+        yield "it has no triangles"
+    if len(faces) > MOST_TRIANGLES:
+        yield f"it has {len(faces):,} triangles, and a scene may have {MOST_TRIANGLES:,}"
+    outside = ((faces < 0) | (faces >= len(vertices))).any(axis=1)
+    if outside.any():
+        row = int(outside.argmax())
+        corners = ", ".join(map(str, faces[row]))
+        yield (
+            f"triangle {row} has the corners {corners}, and there are {len(vertices):,} vertices, "
+            "numbered from 0"
+        )
+        return
+    used = np.zeros(len(vertices), bool)
+    used[faces] = True
+    wrong = used & ~(np.abs(vertices) <= LARGEST).all(axis=1)
+    if wrong.any():
+        row = int(wrong.argmax())
+        yield f"vertex {row} has a coordinate that is no number from {_range()}"
+    if normals is not None and len(normals) != len(vertices):
+        yield f"it has {len(normals):,} normals for {len(vertices):,} vertices"
+    elif normals is not None and not np.isfinite(normals[used]).all():
+        row = int((used & ~np.isfinite(normals).all(axis=1)).argmax())
+        yield f"the normal of vertex {row} is not finite"
+
+
+def _range() -> str:
+    return f"{number(-LARGEST)} to {number(LARGEST)}"
+
+
+def _places(vertices: Floats) -> Ints:
+    """(v,): the number of the first vertex in the same place."""
+    rows = np.ascontiguousarray(vertices + 0.0)  # without negative zeros
+    whole = rows.view(np.dtype((np.void, rows.itemsize * 3))).ravel()
+    _, first, inverse = np.unique(whole, return_index=True, return_inverse=True)
+    return first[inverse]

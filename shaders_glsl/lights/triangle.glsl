@@ -1,0 +1,36 @@
+// Triangles of meshes as lamps: points on them, even in area.
+
+bool is_of_triangle(Light light) {
+    return HAS_MESH_LIGHT && is_triangle(light.shape);
+}
+
+// A triangle that emits, relative to the camera.
+struct LampTriangle {
+    vec3 a;
+    vec3 edge_b;  // from a to the others
+    vec3 edge_c;
+    vec3 across;  // along the normal, as long as the area
+    int mesh;
+};
+
+LampTriangle lamp_triangle(int shape) {
+    precise Triangle triangle = triangle_of(shape);
+    precise vec3 a = corner_at(triangle.corners.x).position;
+    precise vec3 edge_b = corner_at(triangle.corners.y).position - a;
+    precise vec3 edge_c = corner_at(triangle.corners.z).position - a;
+    precise vec3 across = 0.5 * cross(edge_b, edge_c);
+    return LampTriangle(a + frame.tree_center, edge_b, edge_c, across, mesh_of(triangle));
+}
+
+bool is_beside(LampTriangle triangle, vec3 origin) {
+    precise float z = dot(triangle.a - origin, triangle.across);
+    return abs(z) > 0.0;
+}
+
+// Points even in area, in every method.
+float pdf_triangle(LampTriangle triangle, Ray ray, float distance) {
+    precise float facing = abs(dot(ray.direction, triangle.across));  // the area that it shows
+    if (facing == 0.0) return 0.0;
+    precise float pdf = distance / facing * distance;
+    return pdf;
+}

@@ -1,0 +1,85 @@
+"""Bugs of triangle meshes: gaps, leaks, wrong sides, lost lamps."""
+
+from tests.mutation.mutant import Edit, Mutant, edit
+
+_HITS = "rendering/test_mesh_hits.py"
+_TRUTHS = "truths/test_meshes.py"
+
+MESHES = [
+    Mutant(
+        "a ray through an edge meets neither triangle",
+        edit(
+            "shapes/mesh.glsl",
+            "shares.x >= 0.0 && shares.y >= 0.0 && shares.z >= 0.0",
+            "shares.x > 0.0 && shares.y > 0.0 && shares.z > 0.0",
+        ),
+        f"{_HITS}::test_no_ray_from_inside_gets_out_at_an_edge",
+    ),
+    Mutant(
+        "a ray leaves its triangle from where it was hit, not clear of it",
+        edit("shapes/mesh.glsl", "return place + shift * left.normal;", "return place;"),
+        f"{_HITS}::test_a_ray_leaves_its_triangle_and_its_neighbours",
+    ),
+    Mutant(
+        "a ray always leaves on the outer side of its triangle",
+        edit(
+            "shapes/mesh.glsl",
+            "< 0.0 ? -CLEARANCE * largest : CLEARANCE",
+            "< 0.0 ? CLEARANCE * largest : CLEARANCE",
+        ),
+        f"{_TRUTHS}::test_clear_glass_of_index_1_is_not_seen",
+    ),
+    Mutant(
+        "rays start a fixed distance off triangles",
+        edit("shapes/mesh.glsl", "larger(away.z, left.reach));", "1.0);"),
+        f"{_TRUTHS}::test_meshes_scaled_by_a_power_of_two_keep_their_bits",
+    ),
+    Mutant(
+        "the second triangle of a leaf is not tested",
+        edit("shapes/tree.glsl", "if (triangles.y != ray.origin_shape) hit", "if (false) hit"),
+        f"{_HITS}::test_rays_find_what_arithmetic_in_float64_finds",
+    ),
+    Mutant(
+        "a box that is cut loses its far half",
+        (
+            Edit("glrt/accel/split_boxes.py", "([lower, far_low])", "([lower, near_low])"),
+            Edit("glrt/accel/split_boxes.py", "([upper, far_high])", "([upper, near_high])"),
+        ),
+        f"{_HITS}::test_rays_find_what_arithmetic_in_float64_finds",
+    ),
+    Mutant(
+        "normals of meshes are stretched with them",
+        (
+            Edit(
+                "glrt/scene/meshes.py",
+                "self.triangles.shading_normals @ np.linalg.inv(self.matrix)",
+                "self.triangles.shading_normals @ self.matrix.T",
+            ),
+        ),
+        "scene/test_triangle_meshes.py::test_normals_stay_across_and_outside_of_what_is_stretched_or_mirrored",
+    ),
+    Mutant(
+        "a triangle's light is that of its neighbour in the list",
+        (Edit("glrt/rendering/pack_tree.py", "|= (light + 1) << 16", "|= (light + 2) << 16"),),
+        f"{_TRUTHS}::test_many_triangles_that_emit_light_alike_by_all_methods",
+    ),
+    Mutant(
+        "the density of a point on a triangle is that of a parallelogram",
+        edit("lights/triangle.glsl", "0.5 * cross(edge_b, edge_c)", "cross(edge_b, edge_c)"),
+        f"{_TRUTHS}::test_a_lamp_of_triangles_lights_as_one_of_a_quad",
+    ),
+    Mutant(
+        "points on triangles are dense at one corner",
+        edit("lights/sampling.glsl", "float root = sqrt(u.x);", "float root = u.x;"),
+        f"{_TRUTHS}::test_a_lamp_of_triangles_lights_as_one_of_a_quad",
+    ),
+    Mutant(
+        "the shading normal decides which side is outside",
+        edit(
+            "integrators/path.glsl",
+            "precise vec3 facing = true_normal(surface);",
+            "precise vec3 facing = surface.normal;",
+        ),
+        f"{_TRUTHS}::test_smooth_normals_lose_little_of_a_white_sky",
+    ),
+]
