@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
-from glrt.scene import background, camera, cylinder, materials, scene, shapes, solids
+from glrt.scene import background, camera, cylinder, materials, meshes, scene, shapes, solids
 from glrt.settings import RenderSettings, editable_of
 
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
@@ -24,6 +24,11 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[[objects]] of shape disk", "", shapes.Disk),
     ("[[objects]] of shape box", "", solids.Box),
     ("[[objects]] of shape cylinder", "", cylinder.Cylinder),
+    (
+        "[[objects]] of shape mesh",
+        "[Put a 3D model into a scene](../how-to/models.md).",
+        meshes.Mesh,
+    ),
 ]
 
 
@@ -73,6 +78,8 @@ def keys(model: type[BaseModel]) -> str:
 
 def kind(part: dict[str, Any]) -> str:
     """The type of a value in words."""
+    if part.get("anyOf", [{}])[-1].get("type") == "array":
+        return " or ".join(kind(option) for option in part["anyOf"])
     if "anyOf" in part:
         return kind(next(p for p in part["anyOf"] if p.get("type") != "null"))
     if "const" in part:
@@ -83,7 +90,7 @@ def kind(part: dict[str, Any]) -> str:
         words = {"integer": "whole numbers", "number": "numbers"}
         return f"{len(part['prefixItems'])} {words[part['prefixItems'][0]['type']]}"
     if part.get("type") == "array":
-        return "list of tables"
+        return f"{part['maxItems']} numbers" if "minItems" in part else "list of tables"
     if part.get("type") == "object" or "$ref" in part or "allOf" in part:
         return "table"
     return WORDS[str(part["type"])]

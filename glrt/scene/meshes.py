@@ -38,7 +38,12 @@ Factors = Annotated[
 
 
 class Mesh(Object):
-    """Triangles of a file, or of arrays: scaled, then turned, then moved."""
+    """Triangles of a file: scaled, then turned, then moved.
+
+    Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, material=...)`:
+    places of vertices, (v, 3); the numbers of those of each triangle, (n, 3), counter-clockwise
+    seen from outside; and normals at the vertices, (v, 3). Such a mesh is saved beside its scene.
+    """
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
     file: NamedMesh = Field(
@@ -84,11 +89,7 @@ class Mesh(Object):
     else:
 
         def __init__(self, vertices=None, faces=None, normals=None, **fields):
-            """A mesh of arrays, (v, 3), (n, 3) and (v, 3), or of `file`.
-
-            `faces` holds numbers of vertices from 0, counter-clockwise seen from outside. Raises
-            ValueError, which says what is wrong with which row.
-            """
+            """Raises ValueError, which says what is wrong with which row of an array."""
             if vertices is not None or faces is not None:
                 if "file" in fields:
                     raise ValueError("a mesh is given by arrays or by a file, not by both")
