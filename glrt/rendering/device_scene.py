@@ -156,7 +156,7 @@ class DeviceScene:
 
     def _kept_for(self, arrays: Arrays) -> dict[str, Shared]:
         """What holds the same arrays already."""
-        same = (block_of(name) for name in STILL if arrays[name] is self._arrays[name])
+        same = (block_of(name) for name in STILL if _equal(arrays[name], self._arrays[name]))
         return {name: self._kept[name].shared() for name in same if name in self._kept}
 
     def _texts_of(self, tier: Tier) -> dict[str, str]:
@@ -186,6 +186,13 @@ def _packed(
         return pack_scene(scene, contents, nodes, tree), tree
     tree = tree_of(scene, contents)
     return pack_scene(scene, contents, tree=tree), tree
+
+
+def _equal(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:
+    """As `same_rows`, without copies: of a million triangles they take a tenth of a second."""
+    if left is right or left.shape != right.shape:
+        return left is right
+    return np.array_equal(left.view(np.uint8), right.view(np.uint8))
 
 
 def same_rows(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:
