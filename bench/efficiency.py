@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bench import mesh_sizes
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from bench.shader_edits import Edit, edited
 from glrt.error.estimate import DARK
@@ -112,7 +113,12 @@ def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer
 
 
 def scene_of(name: str) -> Scene:
-    """A scene by name; `room` is `cornell` with a white sphere instead of glass: no caustic."""
+    """A scene by name; `room` is `cornell` with a white sphere instead of glass: no caustic.
+
+    `mesh_K` is a displaced ball of 20 * 4^K triangles (`bench.mesh_sizes`).
+    """
+    if name.startswith("mesh_"):
+        return mesh_sizes.of_steps(int(name.removeprefix("mesh_")))
     if name != "room":
         return load(name)
     cornell = load("cornell")

@@ -61,6 +61,11 @@ def scene_of(mesh: Mesh) -> Scene:
     )
 
 
+def of_steps(steps: int) -> Scene:
+    """The scene of a ball of 20 * 4^steps triangles."""
+    return scene_of(Mesh(*displaced(steps), material="clay"))
+
+
 class Row(NamedTuple):
     """The figures for one mesh."""
 

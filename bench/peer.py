@@ -5,6 +5,7 @@ process of the benchmark imports none of the others, and a crash of one does not
 """
 
 import ctypes
+import hashlib
 import json
 import os
 import shutil
@@ -22,11 +23,12 @@ from bench.processes import Process
 from glrt.errors import GlrtError, RenderError
 from glrt.image.image import Image
 from glrt.scene.assets import AssetFolder
-from glrt.scene.loading import with_files
+from glrt.scene.loading import copy_files, files_of, hashes_of, with_files
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene, scene_to_dict
 
 PREFIX = "glrt-peer-"  # of the temporary folders in which pictures are passed
+_FILES = tempfile.TemporaryDirectory(prefix=PREFIX)
 FORGOTTEN = 24 * 3600.0  # seconds since the last picture after which a folder is removed
 
 
@@ -52,12 +54,21 @@ class Request:
     @classmethod
     def of(cls, scene: Scene, **settings: Any) -> "Request":
         """A request for `scene` with the fields `settings`."""
-        return cls(scene=json.dumps(scene_to_dict(scene)), **settings)
+        files = {"folder": str(_folder_of(scene))} if files_of(scene) else {}
+        return cls(scene=json.dumps(scene_to_dict(scene)), **{**files, **settings})
 
     def parsed(self) -> Scene:
         """The scene of the request."""
         scene = parse_scene(json.loads(self.scene), "request")
         return with_files(scene, AssetFolder(Path(self.folder)), "request")
+
+
+def _folder_of(scene: Scene) -> Path:
+    """A folder with the files of a scene, until this process ends."""
+    folder = Path(_FILES.name, hashlib.sha256(json.dumps(hashes_of(scene)).encode()).hexdigest())
+    folder.mkdir(exist_ok=True)
+    copy_files(scene, folder)
+    return folder
 
 
 class Peer:

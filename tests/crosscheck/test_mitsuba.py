@@ -187,10 +187,9 @@ def meshes() -> Scene:
     )
 
 
-def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer, tmp_path: Path) -> None:
+def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     scene = meshes()
-    scene.save(tmp_path / "scene.toml")
-    picture = theirs(mitsuba, scene, folder=str(tmp_path))
+    picture = theirs(mitsuba, scene)
     found = judged(ours(context, scene), picture)
     assert found, str(found)
     assert found.sensitivity.light < 0.03
