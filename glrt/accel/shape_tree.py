@@ -51,16 +51,16 @@ class ShapeTree(NamedTuple):
         return -(-self.wide.height // STACK_STEP) * STACK_STEP
 
 
-def build(boxes: tuple[Boxes, ...], grid: Grid | None = None) -> ShapeTree:
-    """The tree over one or more shapes; `grid` holds them all."""
+def build(boxes: tuple[Boxes, ...], grid: Grid | None = None, least: int = 0) -> ShapeTree:
+    """The tree over one or more shapes, of `least` slots or more; `grid` holds them all."""
     lower = np.concatenate([some.lower for some in boxes])
     upper = np.concatenate([some.upper for some in boxes])
     grid = grid or grid_of(lower.min(axis=0), upper.max(axis=0))
     tree = binary_tree.build(lower, upper)
-    wide, leaves = collapse(tree, grid)
+    wide, leaves = collapse(tree, grid, least)
     if wide.height > MOST_HEIGHT:
         tree = binary_tree.build(lower, upper, halves=True)
-        wide, leaves = collapse(tree, grid)
+        wide, leaves = collapse(tree, grid, least)
     place = np.empty(len(lower), int)
     place[tree.item[leaves.node]] = leaves.place
     ends = np.cumsum([len(some.lower) for some in boxes])

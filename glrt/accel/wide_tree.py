@@ -76,11 +76,11 @@ def grid_of(lower: Floats, upper: Floats) -> Grid:
     return Grid((lower + upper) / 2, 2.0 ** max(int(exponent), -100))
 
 
-def collapse(tree: BinaryTree, grid: Grid) -> tuple[WideTree, Leaves]:
-    """The wide tree of a binary one, and where its leaves lie."""
+def collapse(tree: BinaryTree, grid: Grid, least: int = 0) -> tuple[WideTree, Leaves]:
+    """The wide tree of a binary one, of `least` slots or more, and where its leaves lie."""
     levels = _levels(tree)
     below, of_child = _sizes(levels)
-    slots = np.zeros((1 + below, SLOT), np.uint32)
+    slots = np.zeros((max(1 + below, least), SLOT), np.uint32)
     leaf, place_of_leaf = [], []
     place, base = np.zeros(1, int), np.ones(1, int)
     low, high = grid.cells(tree.lower), grid.cells(tree.upper)

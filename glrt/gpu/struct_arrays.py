@@ -22,6 +22,7 @@ Arrays = Mapping[str, Array]  # rows, by the name of their struct
 FILE = "scene_arrays.glsl"
 MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit: quads 1.05 times as fast as in a texture
 LEAST_ROWS = 32
+MOST_DOUBLED = 64  # rows of a texture that grows to powers of two: those of meshes take less
 
 _BITS = 9
 ROWS = 1 << _BITS  # structs along a texture: with 7 texels each within the 16,384 that 4.1 grants
@@ -173,8 +174,10 @@ def _capacity(rows: Array) -> int:
 
 
 def _height(count: int) -> int:
-    """Of the texture for so many structs: a power of two."""
-    return 1 << (max(count - 1, 0) >> _BITS).bit_length()
+    """Of the texture for so many structs: a power of two, or of more an eighth of one."""
+    rows = -(-count // ROWS)
+    step = max(1 << max((rows - 1).bit_length() - 1, 0) >> 2, 1) if rows > MOST_DOUBLED else 0
+    return -(-rows // step) * step if step else 1 << max(rows - 1, 0).bit_length()
 
 
 def _field(dtype: np.dtype[Any], offset: int) -> str:

@@ -65,7 +65,8 @@ def pack_triangles(found: Triangles, grid: Grid) -> PackedTriangles:
     words[:, :12] = local[pairs.corner[around.pair]].reshape(-1, 12).view(np.uint32)
     words[:, 12:14] = pairs.triangle[around.pair]
     words[:, 15] = LEAF | CONSTANTS["TRIANGLES"] << LINK_BITS
-    boxes = Boxes("Triangle", 0, around.lower + grid.center, around.upper + grid.center, words)
+    corners = around.lower + grid.center, around.upper + grid.center
+    boxes = Boxes("Triangle", 0, *corners, words)
     return PackedTriangles(boxes, _corners(local, found.normal), _triangles(exact, found))
 
 

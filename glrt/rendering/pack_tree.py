@@ -3,6 +3,7 @@
 docs/extending.md says how a kind is added.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -19,6 +20,9 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 
 Array = np.ndarray[Any, Any]
+
+SLOTS_OF_SHAPE, SLOTS_OF_TRIANGLE = 1.5, 0.8  # in a tree over many
+FEW = 2048  # slots: nodes of small trees are less full
 
 # By the name of the struct; those that are not here have no bounds, and stay outside.
 FAMILIES = {
@@ -76,8 +80,11 @@ def tree_of(scene: Scene, contents: Contents) -> SceneTree | None:
     """The tree that rays find shapes by; None where they are compared one by one."""
     boxes = list(_boxes(scene, contents))
     corners, triangles = np.zeros(0, STRUCTS["Corner"]), np.zeros(0, STRUCTS["Triangle"])
+    others = sum(len(some.lower) for some in boxes)
     if not contents.shapes[MESH]:
-        return SceneTree(build(tuple(boxes)), corners, triangles) if boxes else None
+        if not boxes:
+            return None
+        return SceneTree(build(tuple(boxes), None, _room_for(others, 0)), corners, triangles)
     found = triangles_of(scene)
     lows = [some.lower.min(axis=0) for some in boxes] + [found.position.min(axis=0)]
     highs = [some.upper.max(axis=0) for some in boxes] + [found.position.max(axis=0)]
@@ -85,7 +92,7 @@ def tree_of(scene: Scene, contents: Contents) -> SceneTree | None:
 
     def built() -> dict[str, Array]:
         packed = pack_triangles(found, grid)
-        tree = build((*boxes, packed.boxes), grid)
+        tree = build((*boxes, packed.boxes), grid, _room_for(others, len(found.face)))
         return {
             "slots": tree.wide.slots,
             "place": tree.place,
@@ -102,6 +109,15 @@ def tree_of(scene: Scene, contents: Contents) -> SceneTree | None:
     wide = WideTree(parts["slots"], int(parts["height"]))
     shapes = ShapeTree(wide, grid, tuple(boxes), parts["place"])
     return SceneTree(shapes, parts["corners"], parts["triangles"])
+
+
+def _room_for(shapes: int, triangles: int) -> int:
+    """Slots of a tree over so many: rarely more are needed, wherever they lie.
+
+    So a kernel does for the tree after shapes are moved.
+    """
+    few = min((shapes + triangles) / 2, FEW)
+    return math.ceil(SLOTS_OF_SHAPE * shapes + SLOTS_OF_TRIANGLE * triangles + few)
 
 
 def _boxes(scene: Scene, contents: Contents) -> Iterator[Boxes]:

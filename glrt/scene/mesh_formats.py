@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.errors import SceneError
-from glrt.scene.triangle_meshes import TriangleMesh, checked
+from glrt.scene.triangle_meshes import TriangleMesh, checked, places
 from glrt.text import quoted
 
 FORMATS = (".ply", ".obj", ".stl")
@@ -33,7 +33,7 @@ def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
             tables = _reader(suffix)(BytesIO(content))
-        return _mesh(tables)
+        return _mesh(tables, is_loose=suffix == ".stl")
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except Exception as error:  # trimesh raises whatever its parts do
@@ -66,8 +66,8 @@ def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
     return readers[suffix]
 
 
-def _mesh(tables: dict[str, Any]) -> TriangleMesh:
-    """Of what trimesh read: a mesh, or several by name."""
+def _mesh(tables: dict[str, Any], is_loose: bool) -> TriangleMesh:
+    """Of what trimesh read: a mesh, or several by name; `is_loose`: no triangles share vertices."""
     parts = list(tables["geometry"].values()) if "geometry" in tables else [tables]
     vertices, faces, first = [], [], 0
     normals: list[Any] = []
@@ -79,12 +79,11 @@ def _mesh(tables: dict[str, Any]) -> TriangleMesh:
         first += len(points)
     if not vertices:
         raise ValueError("it has no triangles")
+    points, triangles = np.concatenate(vertices), np.concatenate(faces)
+    if is_loose:
+        return checked(points, places(points)[triangles])
     has_normals = all(turned is not None for turned in normals)
-    return checked(
-        np.concatenate(vertices),
-        np.concatenate(faces),
-        np.concatenate(normals) if has_normals else None,
-    )
+    return checked(points, triangles, np.concatenate(normals) if has_normals else None)
 
 
 def _fans(polygons: NDArray[np.int64]) -> NDArray[np.int64]:

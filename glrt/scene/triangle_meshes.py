@@ -46,7 +46,7 @@ class TriangleMesh:
     @cached_property
     def opening(self) -> str:
         """Why this encloses no volume, in words; empty if it encloses one."""
-        place = _places(self.vertices)
+        place = places(self.vertices)
         face: Ints = place[self.faces]
         face = face[(face != np.roll(face, 1, axis=1)).all(axis=1)]
         start, end = face.ravel(), np.roll(face, -1, axis=1).ravel()
@@ -72,7 +72,7 @@ class TriangleMesh:
         return float((a * np.cross(b, c)).sum() / 6)
 
     def _mean_normals(self) -> Floats:
-        place = _places(self.vertices)
+        place = places(self.vertices)
         corners = self.vertices[self.faces]
         edges = np.roll(corners, -1, axis=1) - corners
         length = np.linalg.norm(edges, axis=2, keepdims=True)
@@ -155,7 +155,7 @@ def _range() -> str:
     return f"{number(-LARGEST)} to {number(LARGEST)}"
 
 
-def _places(vertices: Floats) -> Ints:
+def places(vertices: Floats) -> Ints:
     """(v,): the number of the first vertex in the same place."""
     rows = np.ascontiguousarray(vertices + 0.0)  # without negative zeros
     whole = rows.view(np.dtype((np.void, rows.itemsize * 3))).ravel()

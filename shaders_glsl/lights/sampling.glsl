@@ -159,10 +159,10 @@ LightSample sample_triangle(Ray ray, int index, int shape, vec2 u, float lamps) 
     precise float root = sqrt(u.x);
     precise float share_b = root * (1.0 - u.y);
     precise float share_c = root * u.y;
-    precise vec3 to_point = triangle.a - ray.origin + share_b * triangle.edge_b + share_c * triangle.edge_c;
-    precise float away = length(to_point);
+    precise vec3 offset = triangle.a - ray.origin + share_b * triangle.edge_b + share_c * triangle.edge_c;
+    precise float away = length(offset);
     if (away == 0.0) return no_light_sample(ray);
-    precise vec3 direction = to_point / away;
+    precise vec3 direction = offset / away;
     ray.direction = direction;
     precise Material lamp = material_at(mesh_at(triangle.mesh).material);
     precise float pdf = pdf_light(index, ray, away, lamps);

@@ -36,7 +36,8 @@ vec3 start_among_triangles(Ray ray) {
     precise vec3 away = abs(frame.tree_center);
     precise float largest = larger(larger(away.x, away.y), larger(away.z, left.reach));
     precise float shift = dot(left.normal, ray.direction) < 0.0 ? -CLEARANCE * largest : CLEARANCE * largest;
-    return place + shift * left.normal;
+    place += shift * left.normal;
+    return place;
 }
 
 ShearedRay sheared(Ray ray) {

@@ -14,7 +14,6 @@ Hit nearer(Hit hit, float t, int shape, int ignored) {
 // The shape of a leaf; its packer: glrt/rendering/pack_tree.py.
 Hit meet_leaf(Ray ray, ShearedRay turned, Slot slot, Hit hit, int ignored) {
     int kind = int(slot.d.w >> 28u & 7u);
-    int shape = int(slot.d.w & LINK);
     precise vec4 a = uintBitsToFloat(slot.a);
     precise vec4 b = uintBitsToFloat(slot.b);
     precise vec4 c = uintBitsToFloat(slot.c);
@@ -31,6 +30,7 @@ Hit meet_leaf(Ray ray, ShearedRay turned, Slot slot, Hit hit, int ignored) {
         if (triangles.y != ray.origin_shape) hit = nearer(hit, second, triangles.y, ignored);
     }
     if (!HAS_TREE) return hit;
+    int shape = int(slot.d.w & LINK);
     if (HAS_SPHERE && !HAS_SPHERE_TREE && kind == SPHERE) {
         precise float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
         hit = nearer(hit, t, shape, ignored);

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import moderngl
+import numpy as np
 import pytest
 
 from glrt.gpu import glsl
@@ -32,6 +33,7 @@ from tests.support.builders import (
     sphere,
 )
 from tests.support.kernel_text import written_for
+from tests.support.meshes import mesh
 
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
 # Of each feature: its file, an expression that it computes, and that expression with the probe.
@@ -47,7 +49,9 @@ PROBES = {
         "lesser(last.z, limit)",
         "lesser(last.z, {} * limit)",
     ),
-    "HAS_TREE": ("shapes/tree_node.glsl", "lesser(end.z, limit)", "lesser(end.z, {} * limit)"),
+    "HAS_TREE": ("shapes/tree.glsl", "int(slot.d.w & LINK)", "int({} * float(slot.d.w & LINK))"),
+    "HAS_MESH": ("shapes/mesh.glsl", "shares.y * b.z", "{} * shares.y * b.z"),
+    "HAS_SMOOTH": ("shapes/mesh.glsl", "shares.y * normalized(", "{} * shares.y * normalized("),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
@@ -61,6 +65,7 @@ PROBES = {
     "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
     "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "length(to_point)", "length({} * to_point)"),
     "HAS_DISK_LIGHT": ("lights/sampling.glsl", "length(to_place)", "length({} * to_place)"),
+    "HAS_MESH_LIGHT": ("lights/sampling.glsl", "length(offset)", "length({} * offset)"),
     "SAMPLE_LIGHTS": (
         "integrators/path.glsl",
         "weight * light.radiance",
@@ -71,11 +76,13 @@ PROBES = {
     "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
     "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
 }
-LAST_KIND = "table"  # a scene with the last kind of the numbering: nothing ends before it
+LAST_KIND = "spot"  # a scene with the last kind of the numbering: nothing ends before it
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
     "HAS_TREE": {"HAS_DISK"},
+    "HAS_SMOOTH": {"HAS_MESH"},
+    "HAS_MESH_LIGHT": {"HAS_MESH", "SAMPLE_LIGHTS"},
     "HAS_HORIZON": {"HAS_BACKGROUND"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
     "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
@@ -92,10 +99,11 @@ GONE_TOO = {
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},
+    "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH"},
     "WEIGHT_BOTH": {"QUADS_BY_AREA"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
-    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT"},
+    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT"},
 }
 
 
@@ -138,6 +146,11 @@ def _flat_shape(flags: set[str]) -> dict[str, Any]:
     return quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")
 
 
+def _triangle(material: str, flags: set[str]) -> dict[str, Any]:
+    faces = np.eye(3), np.array([[0, 1, 2]])
+    return mesh(faces, material, smooth="HAS_SMOOTH" in flags)
+
+
 def needs_with(flags: set[str]) -> Needs:
     """What a scene and settings need that ask for these features."""
 
@@ -158,7 +171,9 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [box([0, 0, 0], [1, 1, 1], "matte")] if "HAS_BOX" in flags else []
     tube = cylinder([0, 0, 0], [1, 1, 1], 1, "matte")
     objects += [tube] if "HAS_CYLINDER" in flags else []
+    objects += [_triangle("matte", flags)] if "HAS_MESH" in flags else []
     lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
+    lamps += [_triangle("lamp", flags)] if "HAS_MESH_LIGHT" in flags else []
     lit = "HAS_QUAD_LIGHT" in flags
     lamps += [quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp")] if lit else []
     lamps += [disk([0, 3, 0], [0, 1, 0], 1, "lamp")] if "HAS_DISK_LIGHT" in flags else []

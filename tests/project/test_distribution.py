@@ -17,7 +17,11 @@ from glrt.version import VERSION
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOLDERS = ("glrt", "shaders_glsl", "scenes")
-SUFFIXES = {"glrt": {".py", ".typed"}, "shaders_glsl": {".glsl", ".comp", ".vert", ".frag"}}
+SUFFIXES = {
+    "glrt": {".py", ".typed"},
+    "shaders_glsl": {".glsl", ".comp", ".vert", ".frag"},
+    "scenes": {".toml", ".ply"},
+}
 EXTRA = re.compile(r"glrt\[(\w+)\]")  # as in `pip install 'glrt[view]'`
 INFO = f"glrt-{VERSION}.dist-info"
 
@@ -61,7 +65,7 @@ def metadata(wheel: zipfile.ZipFile) -> Message:
 def test_what_glrt_needs_is_code_shaders_and_scenes() -> None:
     for name in sources():
         top, suffix = name.split("/")[0], Path(name).suffix
-        assert suffix in SUFFIXES.get(top, {".toml"}), name
+        assert suffix in SUFFIXES[top], name
 
 
 def test_the_wheel_holds_code_shaders_and_scenes_and_nothing_else(wheel: zipfile.ZipFile) -> None:

@@ -25,7 +25,7 @@ from tests.support.builders import lamp, scene_of, sphere
 def test_what_is_written_is_read_back(name: str, tmp_path: Path) -> None:
     scene = load(name)
     write_scene(scene, tmp_path / "scene.toml")
-    assert read_scene(tmp_path / "scene.toml") == scene
+    assert load(tmp_path / "scene.toml") == scene
 
 
 def test_odd_names_and_numbers_survive(tmp_path: Path) -> None:
