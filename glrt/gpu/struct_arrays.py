@@ -48,7 +48,9 @@ def scene_arrays(
     """
     parts = ["layout(std140) uniform FrameBlock { Frame frame; };"]
     for struct, rows in arrays.items():
-        if struct in constant or not len(rows):
+        if not len(rows):
+            parts += [_nothing(struct, rows), _count(struct, "0")]
+        elif struct in constant:
             parts += [_constants(struct, rows), _count(struct, str(len(rows)))]
         else:
             in_block = is_uniform(struct, rows, uniform_bytes)
@@ -128,10 +130,15 @@ def _getter(struct: str) -> str:
     return f"{struct} {name}_at(int index) {{ return {name}_rows[index]; }}"
 
 
+def _nothing(struct: str, rows: Array) -> str:
+    """No array can be empty: what nothing reads is zero."""
+    zero = _constructor(struct, np.zeros(1, rows.dtype)[0])
+    return f"{struct} {struct.lower()}_at(int index) {{ return {zero}; }}"
+
+
 def _constants(struct: str, rows: Array) -> str:
-    values = rows if len(rows) else np.zeros(1, rows.dtype)  # an array cannot be empty
-    listed = ",\n    ".join(_constructor(struct, row) for row in values)
-    kind, name = f"{struct}[{len(values)}]", f"{struct.lower()}_rows[{len(values)}]"
+    listed = ",\n    ".join(_constructor(struct, row) for row in rows)
+    kind, name = f"{struct}[{len(rows)}]", f"{struct.lower()}_rows[{len(rows)}]"
     return f"const {struct} {name} = {kind}(\n    {listed});\n{_getter(struct)}"
 
 

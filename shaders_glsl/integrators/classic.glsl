@@ -77,7 +77,8 @@ PointLamp point_lamp(int shape) {
         precise float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
     }
-    if (HAS_MESH_LIGHT && is_triangle(shape)) {
+    bool has_others = HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT;
+    if (HAS_MESH_LIGHT && (!has_others || is_triangle(shape))) {
         precise LampTriangle triangle = lamp_triangle(shape);
         precise vec3 middle = triangle.a + (triangle.edge_b + triangle.edge_c) / 3.0;
         return PointLamp(middle, 0.0, triangle.across, mesh_at(triangle.mesh).material);

@@ -32,7 +32,7 @@ from tests.support.builders import (
     scene_of,
     sphere,
 )
-from tests.support.kernel_text import written_for
+from tests.support.kernel_text import written_for_everything
 from tests.support.meshes import mesh
 
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
@@ -76,7 +76,6 @@ PROBES = {
     "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
     "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
 }
-LAST_KIND = "spot"  # a scene with the last kind of the numbering: nothing ends before it
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
@@ -221,7 +220,8 @@ def test_a_feature_is_compiled_in_exactly_if_the_scene_uses_it(
     ctx: moderngl.Context, name: str
 ) -> None:
     kernel = Kernel(
-        ctx, Source("trace.comp", needs_with(SETS[name]).constants(), texts=written_for(LAST_KIND))
+        ctx,
+        Source("trace.comp", needs_with(SETS[name]).constants(), texts=written_for_everything()),
     )
     found = {member for member in kernel.names if member.startswith("probe_")}
     kernel.release()

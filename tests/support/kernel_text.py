@@ -1,7 +1,10 @@
 """The shader file that is written for a scene, as the kernel of each tier gets it."""
 
+import numpy as np
+
 from glrt.gpu.struct_arrays import FILE, MOST_UNIFORM_BYTES
 from glrt.image.sources import load
+from glrt.rendering.evaluation import no_rows
 from glrt.rendering.pack import pack_scene
 from glrt.rendering.pipelines import Tier, text_of
 
@@ -11,3 +14,9 @@ def written_for(
 ) -> dict[str, str]:
     """By its name, as `Source` takes it."""
     return {FILE: text_of(pack_scene(load(scene)), tier, uniform_bytes)}
+
+
+def written_for_everything() -> dict[str, str]:
+    """Of a scene with one of each thing: nothing is left out because there is none of it."""
+    rows = {name: np.zeros(1, empty.dtype) for name, empty in no_rows().items()}
+    return {FILE: text_of(rows, "generic", MOST_UNIFORM_BYTES)}
