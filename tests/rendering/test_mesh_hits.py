@@ -74,12 +74,23 @@ def slivers(count: int, aspect: float) -> Faces:
     return corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3)
 
 
+def large_and_small() -> Faces:
+    """Triangles whose boxes are mostly empty, which are cut, around many small ones."""
+    draw = np.random.default_rng(7)
+    points, faces = blob(3)
+    large = draw.uniform(-1, 1, (24, 3))
+    return np.concatenate([0.2 * points, large]), np.concatenate(
+        [faces, len(points) + np.arange(24).reshape(-1, 3)]
+    )
+
+
 MESHES = {
     "blob": blob(4),
     "ball": icosphere(3),
     "box": box_mesh([-1, -0.5, -0.7], [0.6, 1, 0.8]),
     "slivers": slivers(500, 1000.0),
     "one triangle": (np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])),
+    "large and small": large_and_small(),
     "a heap": (blob(3)[0] * 0.3, blob(3)[1]),
 }
 
@@ -217,6 +228,8 @@ def test_a_ray_leaves_its_triangle_and_its_neighbours(call_glsl: CallGlsl) -> No
     assert not (out[:, 1] >= 0).any()
     back = found(call_glsl, scene, origin, -direction, leaves=leaves)
     assert (back[:, 1] >= 0).all()
+    steep = (direction * normal).sum(axis=1) > 0.3
+    assert back[steep, 0].min() > 0.3, "the other side, not a neighbour"
 
 
 def test_meshes_and_shapes_in_one_tree(call_glsl: CallGlsl) -> None:

@@ -208,6 +208,34 @@ def test_many_triangles_that_emit_light_alike_by_all_methods(context: Context, s
     assert_agree(pictures[0], pictures[2], 0.05)
 
 
+def test_each_triangle_that_emits_has_its_own_density(context: Context) -> None:
+    """A large one, and a small one that stands across."""
+    large = [[-1.5, 1, -1.5], [1.5, 1, -1.5], [0, 1, 1.5]]
+    small = [[0.9, -0.6, -0.5], [1.0, -0.6, -0.5], [0.9, -0.5, -0.4]]
+    lamps = np.array([*large, *small]), np.arange(6).reshape(2, 3)
+    floor = plane([0, -1, 0], [0, 1, 0], "white")
+    scene = scene_of([mesh(lamps, "lamp"), floor], MATERIALS, AHEAD)
+    pictures = [
+        rendered(scene, context, 4096, method=method, bounces=1, seed=seed)
+        for seed, method in enumerate(METHODS)
+    ]
+    assert_agree(pictures[0], pictures[1], 0.02)
+    assert_agree(pictures[0], pictures[2], 0.02)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_light_from_behind_a_triangle_does_not_light_it(context: Context, method: str) -> None:
+    """Though the normals at its corners lean over its edge, towards a lamp below it."""
+    floor = quads([[-3, -1, -3], [0, 0, 6], [6, 0, 0]])
+    leaning = np.tile([0.95, 0.3, 0.0], (4, 1))
+    lamp_below = quad([3.5, -3, -1], [0, 1.5, 0], [0, 0, 2], "lamp")
+    scene = scene_of([mesh(floor, "white", normals=leaning), lamp_below], MATERIALS, AHEAD)
+    eye = {"position": [0, 1, 0.01], "look_at": [0, -1, 0]}
+    above = scene.model_copy(update={"camera": scene.camera.model_copy(update=eye)})
+    image = rendered(above, context, 64, method=method, bounces=1)
+    assert (image.radiance == 0).all()
+
+
 def test_no_light_leaks_out_of_a_closed_room_of_triangles(context: Context) -> None:
     """A room that reflects all, seen from inside, under a sky that would show."""
     points, faces = box([-1, -1, -1], [1, 1, 1])
