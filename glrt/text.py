@@ -64,5 +64,5 @@ def counted(number: int, noun: str) -> str:
 
 
 def plural(noun: str) -> str:
-    """Lamps, boxes."""
-    return f"{noun}{'es' if noun.endswith('x') else 's'}"
+    """Lamps, boxes, meshes."""
+    return f"{noun}{'es' if noun.endswith(('x', 'sh')) else 's'}"

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 import glrt
 from glrt.errors import SceneError
 from glrt.scene.triangle_meshes import checked
+from glrt.text import counted
 from tests.support.meshes import blob, box, icosphere
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -179,3 +180,7 @@ def test_a_ray_is_followed_to_the_nearest_triangle() -> None:
     assert ball.distance(np.array([1.001, 2.002, 3.0]), along) == pytest.approx(1, rel=0.01)
     assert ball.distance(np.array([4.0, 2.0, 9.0]), along) == np.inf
     assert ball.distance(np.array([1.0, 2.0, 0.0]), along) == np.inf
+
+
+def test_two_of_them_are_meshes() -> None:
+    assert [counted(count, "mesh") for count in (0, 1, 2)] == ["no meshes", "1 mesh", "2 meshes"]
