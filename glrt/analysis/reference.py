@@ -9,7 +9,6 @@ error.
 
 import hashlib
 import json
-import os
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -33,7 +32,7 @@ from glrt.methods.contents import contents_of
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
-from glrt.resources import folder
+from glrt.resources import cache_folder, folder
 from glrt.scene.loading import hashes_of
 from glrt.scene.materials import Lambertian, Light, Material, Metal
 from glrt.scene.scene import Scene
@@ -108,7 +107,10 @@ def reference_for(
         width, height = settings.size
         whole = np.full((height, width, 3), radiance)
         return Reference(whole, whole, 0, BOUNCES)
-    path = _cache_folder() / f"{_key(scene, settings, context, error, seconds, samples)}.npz"
+    path = (
+        cache_folder("references")
+        / f"{_key(scene, settings, context, error, seconds, samples)}.npz"
+    )
     found = _loaded(path)
     if found is None:
         halves = _halves(scene, settings, context)
@@ -201,12 +203,6 @@ def _is_doubtful(halves: list[Image]) -> bool:
     radiance = 0.5 * (first.radiance + second.radiance)
     stderr = 0.5 * np.hypot(first.stderr, second.stderr)
     return bool(is_doubtful(radiance, stderr, first.samples + second.samples))
-
-
-def _cache_folder() -> Path:
-    """The folder of references in the user's cache (XDG base directory specification)."""
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "glrt" / "references"
 
 
 def _key(

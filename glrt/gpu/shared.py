@@ -1,5 +1,7 @@
 """Buffers and textures that several users hold, freed by the last."""
 
+from typing import Self
+
 import moderngl
 
 
@@ -10,7 +12,7 @@ class Shared:
         """For one user."""
         self.resource, self._users = resource, 1
 
-    def shared(self) -> "Shared":
+    def shared(self) -> Self:
         """This, for one more user."""
         self._users += 1
         return self

@@ -124,7 +124,7 @@ class DeviceScene:
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, self._tree))
         resources = self._resources
         if self._sky:
-            resources = {**resources, ENVIRONMENT: self._sky.texture}
+            resources = {**resources, ENVIRONMENT: self._sky.resource}
         kernel.bind(resources, film.images())
         kernel.run_tiles(part.tiles)
 
@@ -172,7 +172,9 @@ def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> Im
     image = scene.background.image
     if image is None:
         return None
-    return (known and known.shared(image)) or ImageTexture(context, image, "background.image")
+    if known and known.shows(image):
+        return known.shared()
+    return ImageTexture(context, image, "background.image")
 
 
 def _packed(

@@ -5,6 +5,7 @@ import numpy as np
 
 from glrt.errors import SceneError
 from glrt.gpu.context import Context
+from glrt.gpu.shared import Shared
 from glrt.scene.named_images import ImageFile, Pixels
 
 
@@ -17,7 +18,7 @@ def texture_of(gl: moderngl.Context, pixels: Pixels) -> moderngl.Texture:
     return texture
 
 
-class ImageTexture:
+class ImageTexture(Shared):
     """The pixels of an image on the driver, RGB in float32, freed by its last user."""
 
     def __init__(self, context: Context, image: ImageFile, key: str) -> None:
@@ -30,18 +31,9 @@ class ImageTexture:
                 f"{key}: {image.file} has {width} x {height} pixels, and a texture of this driver "
                 f"{most} on a side at most. Scale the image down."
             )
-        self._image, self._users = image, 1
-        self.texture = texture_of(context.gl, image.pixels)
+        super().__init__(texture_of(context.gl, image.pixels))
+        self._image = image
 
-    def shared(self, image: ImageFile) -> "ImageTexture | None":
-        """This, for one more user, if it is of this image."""
-        if image != self._image:
-            return None
-        self._users += 1
-        return self
-
-    def release(self) -> None:
-        """One user less."""
-        self._users -= 1
-        if self._users == 0:
-            self.texture.release()
+    def shows(self, image: ImageFile) -> bool:
+        """Whether it is of this image."""
+        return self._image == image

@@ -16,6 +16,7 @@ import numpy as np
 
 from glrt import accel, files
 from glrt.errors import RenderError
+from glrt.resources import cache_folder
 
 Array = np.ndarray[Any, Any]
 Arrays = Mapping[str, Array]
@@ -29,7 +30,7 @@ def kept(parts: Sequence[Array], build: Callable[[], Arrays]) -> Arrays:
 
     `build` must give the same arrays for the same parts, without Python objects in them.
     """
-    path = _folder() / f"{_key(parts)}.npz"
+    path = cache_folder("trees") / f"{_key(parts)}.npz"
     found = _read(path)
     if found is not None:
         with suppress(OSError):
@@ -64,12 +65,6 @@ def _drop_oldest(newest: Path) -> None:
             break
         file.unlink()
         total -= status.st_size
-
-
-def _folder() -> Path:
-    """In the user's cache (XDG base directory specification)."""
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "glrt" / "trees"
 
 
 def _key(parts: Sequence[Array]) -> str:

@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - assets: files that a scene names, held to its folder and hashed
 - float_images: Radiance .hdr and OpenEXR files as arrays
 - image_files: images in files, of any format, as arrays of linear values
+- named_files: files that a scene names by a path
 - named_images: images that a scene names by a path
 - triangle_meshes: triangle meshes as arrays, checked
 - mesh_formats: files of meshes as arrays

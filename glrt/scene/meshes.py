@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from glrt.scene.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
-from glrt.scene.objects import Array, Object
+from glrt.scene.objects import Array, Object, along_and_rest
 from glrt.scene.solids import rotation
 from glrt.scene.triangle_meshes import TriangleMesh
 from glrt.scene.values import LARGEST, SMALLEST, Number, Triple, Vector
@@ -159,10 +159,7 @@ class Mesh(Object):
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """To where rays enter the ball, 0 from inside: see `distance` for the triangles."""
-        to_center = rows[:, :3] - origin
-        along = to_center @ direction
-        aside = to_center - along[:, None] * direction
-        rest = np.sqrt(rows[:, 3] ** 2 - np.square(aside).sum(axis=1))  # NaN beside the ball
+        along, rest = along_and_rest(rows, origin, direction)
         return np.where(along + rest > 0, np.maximum(along - rest, 0), math.inf)
 
     def distance(self, origin: Array, direction: Array) -> float:

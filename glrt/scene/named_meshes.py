@@ -6,36 +6,22 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BeforeValidator, Field, PlainSerializer, PrivateAttr, WithJsonSchema
+from pydantic import BeforeValidator, PlainSerializer, PrivateAttr, WithJsonSchema
 
+from glrt.scene.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
 from glrt.scene.triangle_meshes import TriangleMesh, checked
-from glrt.scene.values import Name
-from glrt.settings import Frozen
-
-_LONGEST = 1000  # characters of a path
 
 
-class MeshFile(Frozen):
-    """A mesh in a file; equal to another if path and content are."""
-
-    file: Annotated[Name, Field(max_length=_LONGEST)] = Field(
-        description="path with '/', relative to the folder of the scene"
-    )
-    sha256: str | None = Field(None, description="of the content, in hex, where it is known")
+class MeshFile(NamedFile):
+    """A mesh in a file, or of arrays, under the name of the file that it is saved as."""
 
     _triangles: TriangleMesh | None = PrivateAttr(None)
-    _origin: Path | None = PrivateAttr(None)
     _content: bytes | None = PrivateAttr(None)
 
     @property
     def triangles(self) -> TriangleMesh | None:
         """None before the file is read."""
         return self._triangles
-
-    @property
-    def origin(self) -> Path | None:
-        """The file that was read; None for a mesh from arrays."""
-        return self._origin
 
     @property
     def content(self) -> bytes | None:
@@ -47,13 +33,6 @@ class MeshFile(Frozen):
         found = MeshFile(file=self.file, sha256=sha256)
         found._triangles, found._origin = triangles.outward, origin
         return found
-
-    def __eq__(self, other: object) -> bool:
-        same = isinstance(other, MeshFile)
-        return same and (self.file, self.sha256) == (other.file, other.sha256)  # type: ignore[attr-defined]
-
-    def __hash__(self) -> int:
-        return hash((self.file, self.sha256))
 
 
 def mesh_of_arrays(vertices: Any, faces: Any, normals: Any = None) -> MeshFile:
@@ -92,22 +71,10 @@ def _ply(mesh: TriangleMesh) -> bytes:
     return out.getvalue()
 
 
-def _of_path(value: Any) -> Any:
-    if isinstance(value, MeshFile):
-        return value
-    if not isinstance(value, str):
-        raise ValueError("must be the path of a file, a text")
-    return MeshFile.model_validate({"file": value})
-
-
-def _to_path(mesh: MeshFile) -> str:
-    return mesh.file
-
-
 # In a scene file, the path alone.
 NamedMesh = Annotated[
     MeshFile,
-    BeforeValidator(_of_path),
-    PlainSerializer(_to_path, return_type=str),
-    WithJsonSchema({"type": "string", "minLength": 1, "maxLength": _LONGEST}),
+    BeforeValidator(by_path(MeshFile)),
+    PlainSerializer(to_path, return_type=str),
+    WithJsonSchema(PATH_SCHEMA),
 ]

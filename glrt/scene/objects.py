@@ -55,6 +55,17 @@ class Object(Tagged):
         """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
 
 
+def along_and_rest(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array]:
+    """(n,): how far a ray goes to the middle of its chord through n balls, and half the chord.
+
+    `rows` are centre and radius; the half chord is NaN beside a ball.
+    """
+    to_center = rows[:, :3] - origin
+    along: Array = to_center @ direction
+    aside = to_center - along[:, None] * direction
+    return along, np.sqrt(rows[:, 3] ** 2 - np.square(aside).sum(axis=1))
+
+
 def to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
     """(n,): how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
     distances: Array = ((points - origin) * normals).sum(axis=1) / (normals @ direction)

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.meshes import Mesh
-from glrt.scene.objects import Array, Object, to_planes
+from glrt.scene.objects import Array, Object, along_and_rest, to_planes
 from glrt.scene.solids import Box
 from glrt.scene.values import Direction, Length, Number, Triple, Vector, are_parallel
 
@@ -57,10 +57,7 @@ class Sphere(Object):
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """To the near side; from inside to the far side."""
-        to_center = rows[:, :3] - origin
-        along = to_center @ direction
-        aside = to_center - along[:, None] * direction
-        rest = np.sqrt(rows[:, 3] ** 2 - np.square(aside).sum(axis=1))  # NaN beside the sphere
+        along, rest = along_and_rest(rows, origin, direction)
         near, far = along - rest, along + rest
         return np.where(near > 0, near, np.where(far > 0, far, math.inf))
 
