@@ -137,7 +137,7 @@ def result(
 
 def _about(scene: Scene) -> str:
     """What is in a scene, in a few words."""
-    lamps = sum(any(scene.emission(item.material)) for item in scene.objects)
+    lamps = sum(any(scene.emission_of(item)) for item in scene.objects)
     kinds = {scene.materials[item.material].type for item in scene.objects}
     names = {"metal": "metal", "dielectric": "glass"}
     words = [f"{len(scene.objects)} shapes", f"{lamps} lamps"]

@@ -15,6 +15,7 @@
 #include "bsdfs/metal.glsl"
 #include "bsdfs/dielectric.glsl"
 #include "bsdfs/material.glsl"
+#include "lights/emission.glsl"
 #include "lights/quad_solid_angle.glsl"
 #include "lights/triangle.glsl"
 #include "lights/sky.glsl"

@@ -34,8 +34,8 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
 from glrt.resources import cache_folder, folder
 from glrt.scene.loading import hashes_of
-from glrt.scene.materials import Lambertian, Light, Material, Metal
-from glrt.scene.scene import Scene
+from glrt.scene.materials import Lambertian, Light, Metal
+from glrt.scene.scene import Finish, Scene
 from glrt.scene.toml import scene_to_dict
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 from glrt.version import VERSION
@@ -137,17 +137,18 @@ def closed_form(scene: Scene) -> float | None:
     level = min(levels)
     if level == 0 or len(levels) > 1:
         return None
-    parts = [(scene.materials[shape.material], shape.material) for shape in scene.objects]
-    hidden = all(_is_invisible(material, scene.emission(name), level) for material, name in parts)
-    return level if hidden else None
+    return level if all(_is_invisible(scene, it, level) for it in scene.finishes) else None
 
 
-def _is_invisible(material: Material, emission: tuple[float, ...], level: float) -> bool:
+def _is_invisible(scene: Scene, finish: Finish, level: float) -> bool:
+    material = scene.materials[finish.material]
     if not isinstance(material, Lambertian | Light | Metal):
         return False
     if isinstance(material, Metal) and material.roughness:
         return False
-    pairs = zip(emission, material.color, strict=True)
+    if finish.group and (material.cone or finish.is_one_sided):
+        return False
+    pairs = zip(scene.emission(finish), material.color, strict=True)
     return all(emitted + albedo * level == level for emitted, albedo in pairs)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from glrt.scene.materials import Material
 from glrt.scene.meshes import Mesh
-from glrt.scene.scene import Scene
+from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS
 
 TREE_FROM = 33  # bounded shapes: more than are baked, and there a tree pays (docs/results/speed.md)
@@ -24,6 +24,7 @@ class Contents:
 
     shapes: dict[str, int]  # how many of each kind
     materials: dict[str, Material]  # those that are used, in the order of the scene file
+    finishes: tuple[Finish, ...]  # of what surfaces are, in the order of their materials
     lamps: dict[str, int]  # how many of each kind of shape emit
     triangles: int  # of all meshes
     bright_triangles: int  # of those that emit
@@ -74,6 +75,18 @@ class Contents:
         return sum(self.shapes[kind] for kind in kinds)
 
     @property
+    def cones(self) -> list[str]:
+        """The materials of lamps whose emission has a cone."""
+        lit = (finish.material for finish in self.finishes if finish.group)
+        return [name for name in dict.fromkeys(lit) if getattr(self.materials[name], "cone", None)]
+
+    @property
+    def one_sided(self) -> list[str]:
+        """The materials of lamps that emit from their front alone."""
+        lit = (finish.material for finish in self.finishes if finish.is_one_sided)
+        return list(dict.fromkeys(lit))
+
+    @property
     def has_many_lights(self) -> bool:
         """Whether there are more lamps than are weighed one by one."""
         return self.sampled_lamps > MOST_NEAR
@@ -88,26 +101,14 @@ def contents_of(scene: Scene) -> Contents:
     """Count what is in a scene."""
     shapes = dict.fromkeys(KINDS, 0)
     lamps = dict.fromkeys(KINDS, 0)
-    for shape in scene.objects:
+    emits = {name: material.emits for name, material in scene.materials.items()}
+    for shape in scene.visible:
         shapes[shape.shape] += 1
-        lamps[shape.shape] += is_light(scene.materials[shape.material])
-    meshes = [shape for shape in scene.objects if isinstance(shape, Mesh)]
+        lamps[shape.shape] += emits[shape.material]
+    meshes = [shape for shape in scene.visible if isinstance(shape, Mesh)]
     triangles = [len(mesh.triangles.faces) for mesh in meshes]
-    bright = [
-        count
-        for mesh, count in zip(meshes, triangles, strict=True)
-        if is_light(scene.materials[mesh.material])
-    ]
+    bright = [count for mesh, count in zip(meshes, triangles, strict=True) if emits[mesh.material]]
     is_smooth = any(mesh.smooth for mesh in meshes)
-    return Contents(shapes, used_materials(scene), lamps, sum(triangles), sum(bright), is_smooth)
-
-
-def is_light(material: Material) -> bool:
-    """Whether a material emits."""
-    return material.type == "light"
-
-
-def used_materials(scene: Scene) -> dict[str, Material]:
-    """The materials that some object is made of, in the order of the scene file."""
-    names = {shape.material for shape in scene.objects}
-    return {name: material for name, material in scene.materials.items() if name in names}
+    finishes = tuple(scene.finishes)
+    used = {finish.material: scene.materials[finish.material] for finish in finishes}
+    return Contents(shapes, used, finishes, lamps, sum(triangles), sum(bright), is_smooth)

@@ -45,6 +45,8 @@ class Needs:
     has_mirror: bool
     has_rough_metal: bool
     has_lens: bool
+    has_cone: bool  # lamps that light a cone of directions
+    has_one_sided: bool  # lamps that emit from their front alone
     has_background: bool
     has_horizon: bool  # a background of two gradients
     has_environment: bool  # a background in an image
@@ -109,6 +111,8 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
+        has_cone=bool(found.cones),
+        has_one_sided=bool(found.one_sided),
         has_background=any(map(any, scene.background_colors)),
         has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
         has_environment=any(map(any, scene.background_colors)) and bool(scene.background.image),
@@ -162,6 +166,8 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
             if name not in _WITHOUT_OWN_FLAG
         ),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
+        Feature("cones", needs.has_cone, _lamps_with("a cone", found.cones)),
+        Feature("one-sided lamps", needs.has_one_sided, _lamps_with("one side", found.one_sided)),
         Feature("background", needs.has_background, _background(scene)),
         Feature("horizon", needs.has_horizon, _horizon(scene)),
         Feature("image of the sky", needs.has_environment, _environment(scene)),
@@ -211,6 +217,10 @@ def _smooth(found: Contents) -> str:
 def _made_of(names: Iterable[str], kind: str) -> str:
     listed = few(names)
     return f"{kind}: {listed}" if listed else f"nothing is {kind}"
+
+
+def _lamps_with(what: str, names: list[str]) -> str:
+    return f"emission with {what}: {few(names)}" if names else f"no lamp emits with {what}"
 
 
 def _background(scene: Scene) -> str:

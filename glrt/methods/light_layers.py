@@ -10,9 +10,8 @@ from typing import Literal
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.contents import used_materials
 from glrt.methods.features import needs_of
-from glrt.scene.materials import Light
+from glrt.scene.materials import Opaque
 from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings, cost_of_change
@@ -95,9 +94,10 @@ def emitters(scene: Scene) -> dict[str, list[Radiance]]:
     Lamps that are black count, so that the kernel is the same when they shine.
     """
     found: dict[str, list[Radiance]] = {}
-    for name, material in used_materials(scene).items():
-        if isinstance(material, Light):
-            found.setdefault(material.group or name, []).append(material.emission)
+    for finish in scene.finishes:
+        material = scene.materials[finish.material]
+        if finish.group and isinstance(material, Opaque):
+            found.setdefault(finish.group, []).append(material.emission)
     if any(map(any, scene.background.gradient)):
         found[SKY_GROUP] = list(scene.background.gradient)
     return found
@@ -174,7 +174,7 @@ def _tints(traced: list[Radiance], wanted: list[Radiance]) -> Iterator[Weight | 
 def _unlit(scene: Scene) -> Scene:
     """The scene less all that a change of light may change; which lamps there are stays."""
     materials = {
-        name: m.model_copy(update={"emission": NONE}) if isinstance(m, Light) else m
+        name: m.model_copy(update={"emission": ONE}) if m.emits else m
         for name, m in scene.materials.items()
     }
     ends = ("bottom", "horizon", "top")

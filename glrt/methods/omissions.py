@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from glrt.methods.contents import contents_of, is_light, used_materials
+from glrt.methods.contents import contents_of
 from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -19,11 +19,12 @@ def omissions(scene: Scene, settings: Settings) -> list[str]:
 
 def _omissions(scene: Scene, method: str) -> Iterator[str]:
     """From what usually weighs most to what weighs least."""
-    materials = used_materials(scene).values()
+    contents = contents_of(scene)
+    materials = contents.materials.values()
     kinds = {material.type for material in materials}
     metals = [material for material in materials if material.type == "metal"]
     is_local = not METHODS[method].follows
-    lamps = {shape.shape for shape in scene.objects if is_light(scene.materials[shape.material])}
+    lamps = {shape.shape for shape in scene.visible if scene.finish(shape).group}
     traits = METHODS[method]
     reflects = any(
         not material.is_transparent and (material.type != "light" or any(material.color))
@@ -35,7 +36,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "glass is black"
     if reflects:
         yield "no indirect light"
-    if is_local and lamps and len(scene.objects) > 1:
+    if is_local and lamps and len(scene.visible) > 1:
         yield "no shadows"
     if traits.follows and not traits.chooses_lights and lamps:
         yield "hard shadows: lamps are points"
@@ -43,14 +44,13 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "rough metal is a mirror"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
-    sampled = contents_of(scene).sampled
     for kind in KINDS:
-        if kind in lamps and kind not in sampled:
+        if kind in lamps and kind not in contents.sampled:
             yield f"{kind} lamps light nothing"
     has_sky = any(map(any, scene.background_colors))
     if has_sky and scene.background.image is not None:
         yield "the image of the sky lights nothing"
-    elif has_sky and len(scene.objects) > 1:
+    elif has_sky and len(scene.visible) > 1:
         yield "nothing hides the sky"
     if not traits.has_lens and scene.camera.defocus_angle > 0:
         yield "everything is in focus"

@@ -8,6 +8,7 @@ Modules, each importing only what stands above it:
 - pack_mesh: triangles of meshes, in the frame of the tree
 - tree_cache: trees over many triangles, kept on the disk
 - pack_tree: the tree over shapes, a packer of leaves for each kind
+- lamp_power: what the choice among lamps knows of each
 - pack_lights: lamps as rows of the kernel's blocks
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values

@@ -74,5 +74,5 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
 
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
-    structs = (*NUMBERED, "Node", "Slot", "Corner", "Triangle", "Material", "Light", "Cluster")
-    return {struct: np.zeros(0, STRUCTS[struct]) for struct in structs}
+    others = ("Node", "Slot", "Corner", "Triangle", "Material", "Emitter", "Light", "Cluster")
+    return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -12,7 +12,7 @@ from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_lights import lamps_of, pack_clusters, pack_lights
-from glrt.rendering.pack_materials import pack_materials
+from glrt.rendering.pack_materials import pack_emitters, pack_materials
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
@@ -39,16 +39,17 @@ def pack_scene(
     eye = np.array(scene.camera.position, np.float64)
     tree = tree or tree_of(scene, found)
     lamps = lamps_of(scene, shapes, found, tree)
-    materials = {name: row for row, name in enumerate(found.materials)}
+    rows = {finish: row for row, finish in enumerate(found.finishes)}
     lights = {number: row for row, number in enumerate(lamps.shapes)}
-    arrays = pack_shapes(shapes, Placing(eye, materials, lights))
+    arrays = pack_shapes(shapes, Placing(eye, scene, rows, lights))
     spheres = arrays["Sphere"][: None if found.has_sphere_tree else 0]
     return {
         **arrays,
         "Node": pack_nodes(spheres, STRUCTS["Node"], known),
         **pack_tree(tree, arrays),
         **({"Triangle": tree.lit_by(lights, len(shapes))} if tree else {}),
-        "Material": pack_materials(scene, found.materials),
+        "Material": pack_materials(scene, found.finishes),
+        "Emitter": pack_emitters(scene, found.finishes),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
     }

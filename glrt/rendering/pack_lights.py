@@ -4,70 +4,31 @@ Few lamps are weighed one by one at each point, so each is a cluster of its own.
 place into clusters, and these into parts, which are weighed; within a part a table chooses by flux.
 """
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import accumulate, chain
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
-from glrt.methods.contents import MOST_NEAR, SAMPLED, Contents, is_light
+from glrt.methods.contents import MOST_NEAR, Contents
 from glrt.rendering.kernel_structs import CONSTANTS
+from glrt.rendering.lamp_power import (
+    LAMPS,
+    body_of,
+    emitted_share,
+    power,
+    radiance,
+    triangle_bodies,
+)
 from glrt.rendering.pack_tree import SceneTree
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import KINDS, Disk, Quad, Shape, Sphere
+from glrt.scene.shapes import Shape
 
 Array = np.ndarray[Any, Any]
 
 PARTS, SEVERAL = CONSTANTS["PARTS"], CONSTANTS["SEVERAL"]
-
-
-class Body(NamedTuple):
-    """What the choice among lamps knows of one."""
-
-    area: float  # of its bright sides
-    center: Array  # (3,), float64
-    reach2: float  # mean squared distance of its points from the center
-
-
-def sphere_body(lamp: Sphere) -> Body:
-    """It shines outwards."""
-    return Body(4 * math.pi * lamp.radius**2, np.array(lamp.center, np.float64), lamp.radius**2)
-
-
-def quad_body(lamp: Quad) -> Body:
-    """It shines on both sides."""
-    u, v = np.array(lamp.edge_u, np.float64), np.array(lamp.edge_v, np.float64)
-    center = np.array(lamp.corner, np.float64) + (u + v) / 2
-    return Body(2 * float(np.linalg.norm(np.cross(u, v))), center, float(u @ u + v @ v) / 12)
-
-
-def disk_body(lamp: Disk) -> Body:
-    """It shines on both sides."""
-    area = 2 * math.pi * lamp.radius**2
-    return Body(area, np.array(lamp.center, np.float64), lamp.radius**2 / 2)
-
-
-def triangle_bodies(corner: Array) -> tuple[Array, Array, Array]:
-    """Area, centre and reach2 of triangles with these corners, (n, 3, 3); both sides shine."""
-    across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    center = corner.mean(axis=1)
-    reach2 = np.square(corner - center[:, None]).sum(axis=(1, 2)) / 12
-    return np.linalg.norm(across, axis=1), center, reach2
-
-
-# The kinds of lamps that are sampled, but for triangles, which are many of one mesh. Others are
-# found by scattering alone.
-LAMPS: dict[type, Callable[[Any], Body]] = {
-    Sphere: sphere_body,
-    Quad: quad_body,
-    Disk: disk_body,
-}
-
-if {KINDS[kind] for kind in SAMPLED} != {*LAMPS, Mesh}:
-    raise TypeError(f"lamps of kinds {SAMPLED} are sampled, and {list(LAMPS)} have a body")
 
 
 class Lamps(NamedTuple):
@@ -90,19 +51,18 @@ def lamps_of(
     found = [
         number
         for number, shape in enumerate(shapes)
-        if type(shape) in LAMPS and is_light(scene.materials[shape.material])
+        if type(shape) in LAMPS and scene.finish(shape).group
     ]
-    bodies = [LAMPS[type(shapes[number])](shapes[number]) for number in found]
+    bodies = [body_of(shapes[number]) for number in found]
     center = np.array([body.center for body in bodies], np.float64).reshape(-1, 3)
     reach2 = np.array([body.reach2 for body in bodies], np.float64)
-    flux = [power(scene, shapes[number]) for number in found]
+    flux = [power(scene, shapes[number], body) for number, body in zip(found, bodies, strict=True)]
     if tree and contents.lamp_triangles:
         bright = _bright_triangles(scene, shapes, tree)
         corner = tree.corner_positions(bright)
-        area, middle, spread = triangle_bodies(corner)
-        emission = _mesh_emission(scene, shapes)[tree.triangles["owner"][bright]]
+        across, middle, spread = triangle_bodies(corner)
         found += [len(shapes) + int(number) for number in bright]
-        flux += list(area * emission)
+        flux += list(_triangle_power(scene, shapes, across, tree.triangles["owner"][bright]))
         center, reach2 = np.concatenate([center, middle]), np.concatenate([reach2, spread])
     probability = light_probabilities(flux)
     clusters = [
@@ -120,16 +80,21 @@ def lamps_of(
     )
 
 
-def _mesh_emission(scene: Scene, shapes: Sequence[Shape]) -> Array:
-    """Radiance of each mesh, its channels added."""
+def _triangle_power(scene: Scene, shapes: Sequence[Shape], across: Array, owners: Array) -> Array:
+    """As `power`, of triangles with these normals, as long as their areas, of these meshes."""
+    found: Array = np.zeros(len(across))
     meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
-    return np.array([sum(scene.emission(mesh.material)) for mesh in meshes])
+    for number, mesh in enumerate(meshes):
+        own = owners == number
+        area = np.linalg.norm(across[own], axis=1)
+        found[own] = 2 * area * emitted_share(scene, mesh, across[own]) * radiance(scene, mesh)
+    return found
 
 
 def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) -> Array:
     """The numbers of the triangles that emit."""
     meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
-    is_bright = np.array([is_light(scene.materials[mesh.material]) for mesh in meshes])
+    is_bright = np.array([bool(scene.finish(mesh).group) for mesh in meshes])
     numbers: Array = np.flatnonzero(is_bright[tree.triangles["owner"]])
     return numbers
 
@@ -172,8 +137,3 @@ def _fill(row: Any, lamps: Lamps, members: slice, eye: Array) -> None:
     row["probability"] = lamps.probability[members].sum()
     row["first"], row["count"] = members.start, len(share)
     row["shape"] = lamps.shapes[members.start] if len(share) == 1 else SEVERAL
-
-
-def power(scene: Scene, shape: Shape) -> float:
-    """Flux of a lamp, up to a factor common to all: area of its bright sides times radiance."""
-    return LAMPS[type(shape)](shape).area * sum(scene.emission(shape.material))

@@ -3,15 +3,16 @@
 docs/extending.md says how a type is added.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from glrt.methods.light_layers import layer_of_group
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
-from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Material, Metal
-from glrt.scene.scene import Scene
+from glrt.scene.cone import Cone
+from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque
+from glrt.scene.scene import Finish, Scene
 
 Array = np.ndarray[Any, Any]
 
@@ -47,13 +48,50 @@ if set(PACKERS) != set(TYPES.values()):
     raise TypeError(f"materials have packers {list(PACKERS)}, and models {list(TYPES.values())}")
 
 
-def pack_materials(scene: Scene, used: Mapping[str, Material]) -> Array:
-    """Rows of the struct Material, in the order of `used`."""
+def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the struct Material, one for each finish."""
     layers = layer_of_group(scene)
-    rows = np.zeros(len(used), STRUCTS["Material"])
+    rows = np.zeros(len(finishes), STRUCTS["Material"])
     rows["ior"] = 1.0
-    for row, (name, material) in zip(rows, used.items(), strict=True):
+    for row, finish in zip(rows, finishes, strict=True):
+        material = scene.materials[finish.material]
         PACKERS[type(material)](row, material)
-        row["layer"] = layers.get(getattr(material, "group", None) or name, 0)
-        row["emission"] = scene.emission(name)
+        row["layer"] = layers.get(finish.group, 0)
+        row["emission"] = scene.emission(finish)
+    shapes = _emitters(scene, finishes)
+    places = {emitter: place for place, emitter in enumerate(shapes)}
+    rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]
     return rows
+
+
+def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the struct Emitter: none where all lamps emit evenly to both sides."""
+    found = _emitters(scene, finishes)
+    rows = np.zeros(len(found), STRUCTS["Emitter"])
+    rows["outer"], rows["slope"] = ALL_DIRECTIONS
+    for row, (cone, is_one_sided) in zip(rows, found, strict=True):
+        row["is_one_sided"] = is_one_sided
+        if cone:
+            inner, outer = cone.versines
+            row["axis"], row["outer"] = cone.unit_axis, outer
+            row["slope"] = min(1 / (outer - inner), STEEPEST) if outer > inner else STEEPEST
+    return rows
+
+
+Emission = tuple[Cone | None, bool]  # whether it is from the front alone
+
+ALL_DIRECTIONS = 4.0, 1.0  # outer and slope of a share that is 1 everywhere: versines end at 2
+STEEPEST = 1e30  # for an edge without a width
+
+
+def _emitters(scene: Scene, finishes: Sequence[Finish]) -> list[Emission]:
+    """The ways in which lamps emit, that to all sides first; none where it is the only one."""
+    evenly: Emission = (None, False)
+    found = dict.fromkeys([evenly, *(_emitter(scene, finish) for finish in finishes)])
+    return list(found) if len(found) > 1 else []
+
+
+def _emitter(scene: Scene, finish: Finish) -> Emission:
+    material = scene.materials[finish.material]
+    cone = material.cone if finish.group and isinstance(material, Opaque) else None
+    return (cone, finish.is_one_sided)

@@ -33,7 +33,7 @@ class Triangles(NamedTuple):
 def triangles_of(scene: Scene) -> Triangles:
     """The triangles of a scene, mesh after mesh."""
     position, normal, face, mesh, first = [], [], [], [], 0
-    for number, shape in enumerate(s for s in scene.objects if isinstance(s, Mesh)):
+    for number, shape in enumerate(s for s in scene.visible if isinstance(s, Mesh)):
         points, faces = shape.world_vertices, shape.triangles.faces
         position.append(points)
         normal.append(_unit(shape.world_normals))

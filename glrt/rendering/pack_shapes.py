@@ -12,7 +12,7 @@ import numpy as np
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.meshes import Mesh
-from glrt.scene.scene import Scene
+from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
 from glrt.scene.solids import Box
 
@@ -23,8 +23,13 @@ class Placing(NamedTuple):
     """What a packer must know beside its shapes."""
 
     eye: Array  # position of the camera, float64
-    materials: Mapping[str, int]  # row of each material
+    scene: Scene
+    finishes: Mapping[Finish, int]  # row of each material, as it is on some objects
     lights: Mapping[int, int]  # row of each sampled lamp, by the kernel's number of its shape
+
+    def material(self, thing: Shape) -> int:
+        """The row of an object's material."""
+        return self.finishes[self.scene.finish(thing)]
 
     def light(self, number: int) -> int:
         """The row of a lamp, or NO_LIGHT."""
@@ -35,7 +40,7 @@ def pack_spheres(rows: Array, spheres: Sequence[Sphere], placing: Placing, first
     """Fill rows of the struct Sphere; `first` is the kernel's number of the first."""
     rows["center"] = np.array([s.center for s in spheres], np.float64) - placing.eye
     rows["radius"] = [s.radius for s in spheres]
-    rows["material"] = [placing.materials[s.material] for s in spheres]
+    rows["material"] = [placing.material(s) for s in spheres]
     rows["light"] = [placing.light(first + i) for i in range(len(spheres))]
 
 
@@ -47,7 +52,7 @@ def pack_planes(rows: Array, planes: Sequence[Plane], placing: Placing, first: i
         offset = np.dot(normal, np.array(plane.point, np.float64) - placing.eye)
         row["point"] = normal * offset  # nearest to the eye
         row["normal"] = normal
-        row["material"] = placing.materials[plane.material]
+        row["material"] = placing.material(plane)
 
 
 def pack_quads(rows: Array, quads: Sequence[Quad], placing: Placing, first: int) -> None:
@@ -64,7 +69,7 @@ def pack_quads(rows: Array, quads: Sequence[Quad], placing: Placing, first: int)
         row["width"], row["shear"] = area / length, np.dot(u, v) / length
         row["dual_u"] = np.cross(v, np.cross(u, v)) / area**2
         row["dual_v"] = np.cross(np.cross(u, v), u) / area**2
-        row["material"] = placing.materials[quad.material]
+        row["material"] = placing.material(quad)
         row["light"] = placing.light(first + index)
 
 
@@ -74,7 +79,7 @@ def pack_disks(rows: Array, disks: Sequence[Disk], placing: Placing, first: int)
         row["center"] = np.array(disk.center, np.float64) - placing.eye
         row["normal"] = unit(np.array(disk.normal, np.float64))
         row["radius"] = disk.radius
-        row["material"] = placing.materials[disk.material]
+        row["material"] = placing.material(disk)
         row["light"] = placing.light(first + index)
 
 
@@ -85,7 +90,7 @@ def pack_boxes(rows: Array, boxes: Sequence[Box], placing: Placing, first: int) 
         row["center"] = np.array(box.middle, np.float64) - placing.eye
         for name, axis, half in zip("xyz", box.axes, box.halves, strict=True):
             row[f"axis_{name}"], row[f"half_{name}"] = axis, half
-        row["material"] = placing.materials[box.material]
+        row["material"] = placing.material(box)
 
 
 def pack_cylinders(
@@ -97,13 +102,13 @@ def pack_cylinders(
         row["center"] = np.array(cylinder.middle, np.float64) - placing.eye
         row["axis"], row["radius"] = cylinder.axis, cylinder.radius
         row["half_height"], row["is_capped"] = cylinder.half, cylinder.capped
-        row["material"] = placing.materials[cylinder.material]
+        row["material"] = placing.material(cylinder)
 
 
 def pack_meshes(rows: Array, meshes: Sequence[Mesh], placing: Placing, first: int) -> None:
     """Fill rows of the struct Mesh; for its triangles see glrt/rendering/pack_mesh.py."""
     del first  # meshes are no sampled lamps
-    rows["material"] = [placing.materials[mesh.material] for mesh in meshes]
+    rows["material"] = [placing.material(mesh) for mesh in meshes]
     rows["is_smooth"] = [mesh.smooth for mesh in meshes]
 
 
@@ -130,13 +135,13 @@ if list(PACKERS) != list(KINDS.values()):
 
 
 def order_of_kernel(scene: Scene) -> list[int]:
-    """Places of the objects in the scene, in the kernel's order: by kind, each as in the file."""
-    objects = scene.objects
-    return [n for kind in PACKERS for n, shape in enumerate(objects) if type(shape) is kind]
+    """Places of the visible objects in the scene, by kind, each as in the file."""
+    visible = [(n, shape) for n, shape in enumerate(scene.objects) if not shape.hidden]
+    return [n for kind in PACKERS for n, shape in visible if type(shape) is kind]
 
 
 def in_order(scene: Scene) -> list[Shape]:
-    """The objects as the kernel numbers them."""
+    """The visible objects as the kernel numbers them."""
     return [scene.objects[number] for number in order_of_kernel(scene)]
 
 

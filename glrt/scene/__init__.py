@@ -13,8 +13,9 @@ Modules, each importing only what stands above it:
 - named_meshes: meshes that a scene names by a path
 - camera: where a scene is seen from
 - background: light from infinity
-- materials: what surfaces are made of
 - objects: what every shape has
+- cone: the directions that a lamp lights
+- materials: what surfaces are made of
 - solids: shapes with faces that enclose a volume
 - meshes: triangle meshes and their places
 - cylinder: the round one of them, with ends or without

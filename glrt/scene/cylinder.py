@@ -48,6 +48,8 @@ class Cylinder(_Ended):
             capped: bool = True,
             material: str,
             name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
         ) -> None: ...
 
     @model_validator(mode="before")

@@ -84,7 +84,7 @@ def _glass(scene: Scene) -> list[str]:
     glass = [
         i
         for i, thing in enumerate(scene.objects)
-        if _kind(scene, i) == "dielectric" and not isinstance(thing, Mesh)
+        if _kind(scene, i) == "dielectric" and not isinstance(thing, Mesh) and not thing.hidden
     ]
     eye = np.array(scene.camera.position, np.float64)
     texts: dict[str, str] = {}
@@ -134,7 +134,7 @@ def _walled_in(scene: Scene) -> str:
     walls = [i for i in _balls(scene) if _kind(scene, i) != "dielectric"]
     center, radius = _places(scene, walls)
     around = np.flatnonzero(np.linalg.norm(center, axis=1) < radius)
-    lamps = [thing for thing in scene.objects if any(scene.emission(thing.material))]
+    lamps = [thing for thing in scene.visible if any(scene.emission_of(thing))]
     for index in [walls[i] for i in around]:
         ball = scene.objects[index]
         assert isinstance(ball, Sphere)
@@ -149,11 +149,11 @@ def _walled_in(scene: Scene) -> str:
 
 def _dark(scene: Scene) -> str:
     """Nothing that emits: the picture is black, and sure of it."""
-    used = {thing.material for thing in scene.objects}
-    emits = any(any(scene.emission(name)) for name in used)
+    finishes = scene.finishes
+    emits = any(any(scene.emission(finish)) for finish in finishes)
     if emits or any(map(any, scene.background_colors)):
         return ""
-    lamps = any(scene.materials[name].type == "light" for name in used)
+    lamps = any(finish.group for finish in finishes)
     remedy = (
         "Raise the emission of a lamp, or the intensity of its group under [lights] or with --light"
         if lamps
@@ -178,7 +178,8 @@ def _reaches_into(ball: Sphere, lamp: Shape) -> bool:
 
 
 def _balls(scene: Scene) -> list[int]:
-    return [index for index, thing in enumerate(scene.objects) if isinstance(thing, Sphere)]
+    things = enumerate(scene.objects)
+    return [index for index, thing in things if isinstance(thing, Sphere) and not thing.hidden]
 
 
 def _places(scene: Scene, balls: list[int]) -> tuple[Floats, Floats]:

@@ -4,10 +4,12 @@ What the kernel knows of a type stands in shaders_glsl/bsdfs/ and glrt/rendering
 docs/extending.md says how a type is added.
 """
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
 from pydantic import Field
 
+from glrt.scene.cone import Cone
 from glrt.scene.values import (
     BLACK,
     Color,
@@ -28,26 +30,63 @@ SMOOTHEST = 1e-8
 class Surface(Tagged):
     """What every material has."""
 
+    type: str = Field(description="the kind of material")
+
     is_transparent: ClassVar[bool]  # nothing is seen of it but by following light through it
 
+    @property
+    def emits(self) -> bool:
+        """Whether an object of this material is a lamp."""
+        return False
 
-class Lambertian(Surface):
+
+class Opaque(Surface):
+    """What every material has that light does not pass."""
+
+    color: Color = Field(description="share of light that is reflected")
+    emission: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
+        BLACK, description="radiance at intensity 1, from both sides of the surface, 0 or more each"
+    )
+    group: Name | None = Field(
+        None,
+        description="light group whose intensity its emission follows; default: the name of the "
+        "material",
+    )
+    cone: Annotated[Cone | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="directions that its emission lights, `{ axis, inner, outer }`; default: all",
+    )
+
+    is_transparent = False
+
+    @property
+    def emits(self) -> bool:
+        """Whether some of its emission is not black."""
+        return any(self.emission)
+
+
+class Lambertian(Opaque):
     """A matte (Lambertian) surface."""
 
     type: Literal["lambertian"] = Field("lambertian", description="the kind of material")
-    is_transparent = False
     color: Color = Field(description="albedo, 0 to 1 each")
 
     if TYPE_CHECKING:
 
-        def __init__(self, *, color: Triple) -> None: ...
+        def __init__(
+            self,
+            *,
+            color: Triple,
+            emission: Triple = BLACK,
+            group: str | None = None,
+            cone: Cone | Mapping[str, Any] | None = None,
+        ) -> None: ...
 
 
-class Metal(Surface):
+class Metal(Opaque):
     """Metal, smooth or rough (GGX)."""
 
     type: Literal["metal"] = Field("metal", description="the kind of material")
-    is_transparent = False
     color: Color = Field(description="reflectance, the same at all angles, 0 to 1 each")
     roughness: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         0.0,
@@ -56,7 +95,15 @@ class Metal(Surface):
 
     if TYPE_CHECKING:
 
-        def __init__(self, *, color: Triple, roughness: Number = 0.0) -> None: ...
+        def __init__(
+            self,
+            *,
+            color: Triple,
+            roughness: Number = 0.0,
+            emission: Triple = BLACK,
+            group: str | None = None,
+            cone: Cone | Mapping[str, Any] | None = None,
+        ) -> None: ...
 
     @property
     def alpha(self) -> float:
@@ -80,22 +127,30 @@ class Dielectric(Surface):
         def __init__(self, *, ior: Number = 1.5) -> None: ...
 
 
-class Light(Surface):
-    """An area light: it emits evenly in all directions, from both sides of its surface."""
+class Light(Opaque):
+    """An area light, evenly bright in all directions unless it has a cone."""
 
     type: Literal["light"] = Field("light", description="the kind of material")
-    is_transparent = False
-    emission: Radiance = Field(description="radiance at intensity 1, 0 or more each")
     color: Color = Field(BLACK, description="albedo of the lamp itself")
-    group: Name | None = Field(
-        None, description="light group whose intensity it follows; default: the material's name"
+    emission: Radiance = Field(
+        description="radiance at intensity 1, from both sides of the surface, 0 or more each"
     )
 
     if TYPE_CHECKING:
 
         def __init__(
-            self, *, emission: Triple, color: Triple = BLACK, group: str | None = None
+            self,
+            *,
+            emission: Triple,
+            color: Triple = BLACK,
+            group: str | None = None,
+            cone: Cone | Mapping[str, Any] | None = None,
         ) -> None: ...
+
+    @property
+    def emits(self) -> bool:
+        """It stays a lamp where its emission is black."""
+        return True
 
 
 Material = Annotated[Lambertian | Metal | Dielectric | Light, Field(discriminator="type")]

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from glrt.scene.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
-from glrt.scene.objects import Array, Object, along_and_rest
+from glrt.scene.objects import Array, Sided, along_and_rest
 from glrt.scene.solids import rotation
 from glrt.scene.triangle_meshes import TriangleMesh
 from glrt.scene.values import LARGEST, SMALLEST, Number, Triple, Vector
@@ -37,7 +37,7 @@ Factors = Annotated[
 ]
 
 
-class Mesh(Object):
+class Mesh(Sided):
     """Triangles of a file: scaled, then turned, then moved.
 
     Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, material=...)`:
@@ -84,6 +84,9 @@ class Mesh(Object):
             smooth: bool = True,
             material: str,
             name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
+            emission_side: Literal["both", "front"] = "both",
         ) -> None: ...
 
     else:

@@ -2,13 +2,14 @@
 
 import math
 from abc import abstractmethod
-from typing import ClassVar
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from glrt.scene.values import Name, Tagged, Vector
+from glrt.settings import Cost, Editable
 
 Array = NDArray[np.float64]
 
@@ -18,11 +19,24 @@ class Object(Tagged):
 
     name: Name | None = Field(None, description="name of the object in messages and the window")
     material: Name = Field(description="name of one of the materials")
+    group: Name | None = Field(
+        None,
+        description="light group whose intensity its emission follows; default: that of its "
+        "material",
+    )
+    hidden: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+        False, description="whether it is left out of the picture"
+    )
 
     has_inside: ClassVar[bool]  # whether it can be of glass
     anchor: ClassVar[str]  # the field that holds a point of it: moving the shape moves that
     points: ClassVar[tuple[str, ...]] = ()  # fields with further points, which move along
     extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
+
+    @property
+    def is_one_sided(self) -> bool:
+        """Whether it emits from its front alone."""
+        return False
 
     @property
     def encloses(self) -> bool:
@@ -53,6 +67,20 @@ class Object(Tagged):
     @abstractmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
+
+
+class Sided(Object):
+    """What every shape has whose front can emit alone."""
+
+    emission_side: Annotated[Literal["both", "front"], Editable(Cost.RECOMPILE)] = Field(
+        "both",
+        description="side that emits: both, or the front alone, to which the normal points",
+    )
+
+    @property
+    def is_one_sided(self) -> bool:
+        """Whether it emits from its front alone."""
+        return self.emission_side == "front"
 
 
 def along_and_rest(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array]:

@@ -6,7 +6,7 @@ files.
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 from pydantic import model_validator
 
@@ -17,7 +17,8 @@ from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.contents import Contents
 from glrt.scene.loading import copy_files, with_files
-from glrt.scene.materials import Dielectric, Light, Material
+from glrt.scene.materials import Dielectric, Material, Opaque
+from glrt.scene.objects import Object
 from glrt.scene.shapes import Shape
 from glrt.scene.tables import to_tables, toml_text
 from glrt.scene.validation import MisfitError, Place, validated
@@ -26,6 +27,14 @@ from glrt.settings import RenderSettings
 from glrt.text import number, quoted, unknown
 
 SKY_GROUP = "background"
+
+
+class Finish(NamedTuple):
+    """What the surface of an object is like: of one material there may be several."""
+
+    material: str
+    group: str = ""  # light group of what it emits; empty for what emits nothing
+    is_one_sided: bool = False  # emits from its front alone
 
 
 class Scene(Contents):
@@ -77,6 +86,26 @@ class Scene(Contents):
         write_text(file, toml_text(self))
 
     @property
+    def visible(self) -> tuple[Shape, ...]:
+        """The objects that are not hidden."""
+        return tuple(thing for thing in self.objects if not thing.hidden)
+
+    def finish(self, thing: Object) -> Finish:
+        """What the surface of an object is like."""
+        material = self.materials.get(thing.material)  # one that is missing is told elsewhere
+        if not isinstance(material, Opaque) or not material.emits:
+            return Finish(thing.material)
+        group = thing.group or material.group or thing.material
+        return Finish(thing.material, group, thing.is_one_sided)
+
+    @property
+    def finishes(self) -> list[Finish]:
+        """Those of the visible objects, each once, by material in the order of the file."""
+        places = {name: place for place, name in enumerate(self.materials)}
+        found = dict.fromkeys(map(self.finish, self.visible))
+        return sorted(found, key=lambda finish: places.get(finish.material, -1))
+
+    @property
     def light_groups(self) -> dict[str, float]:
         """Intensity of every light group: those of the lamps in their order, then the sky's."""
         return {group: self._intensity(group) for group in [*self._lamp_groups(), SKY_GROUP]}
@@ -87,20 +116,29 @@ class Scene(Contents):
         intensity = self._intensity(SKY_GROUP)
         return tuple(_scaled(color, intensity) for color in self.background.gradient)
 
-    def emission(self, material_name: str) -> Radiance:
-        """Radiance of a material, intensity of its group included; black for one without light."""
-        material = self.materials[material_name]
-        if not isinstance(material, Light):
+    def emission(self, finish: Finish) -> Radiance:
+        """Radiance of a surface, intensity of its group included; black for one without light."""
+        material = self.materials[finish.material]
+        if not finish.group or not isinstance(material, Opaque):
             return BLACK
-        return _scaled(material.emission, self._intensity(material.group or material_name))
+        return _scaled(material.emission, self._intensity(finish.group))
+
+    def emission_of(self, thing: Object) -> Radiance:
+        """Radiance of an object, intensity of its light group included."""
+        return self.emission(self.finish(thing))
 
     def _intensity(self, group: str) -> float:
         return self.lights.get(group, 1.0)
 
     def _lamp_groups(self) -> Iterator[str]:
+        """By material; a lamp that no object is made of has a group, too."""
+        found: dict[str, dict[str, None]] = {name: {} for name in self.materials}
+        for thing in self.objects:
+            if group := self.finish(thing).group:
+                found[thing.material][group] = None
         for name, material in self.materials.items():
-            if isinstance(material, Light):
-                yield material.group or name
+            if isinstance(material, Opaque) and material.emits:
+                yield from found[name] or (material.group or name,)
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
@@ -149,17 +187,21 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
 
 
 def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
-    groups = scene.light_groups
     for name, material in scene.materials.items():
-        if not isinstance(material, Light):
-            continue
-        group = material.group or name
+        group = getattr(material, "group", None) or (name if material.emits else None)
         if group == SKY_GROUP:
             yield ("materials", name, "group"), _SKY_ADVICE
-        if max(scene.emission(name)) > LARGEST:
-            yield ("lights", group), _too_bright(f"emission of material {quoted(name)}")
+    for index, thing in enumerate(scene.objects):
+        if thing.group == SKY_GROUP:
+            yield ("objects", index, "group"), _SKY_ADVICE
+    groups = scene.light_groups
+    for finish in scene.finishes:
+        if max(scene.emission(finish)) > LARGEST:
+            what = f"emission of material {quoted(finish.material)}"
+            yield ("lights", finish.group), _too_bright(what)
+    dark = {thing.group for thing in scene.objects}  # of objects that may emit one day
     for group in scene.lights:
-        if group not in groups:
+        if group not in groups and group not in dark:
             yield ("lights", group), unknown("light group", group, sorted(groups))
     if max(map(max, scene.background_colors)) > LARGEST:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
@@ -180,5 +222,5 @@ def _too_bright(what: str) -> str:
 
 
 def _emptiness(scene: Scene) -> Iterator[tuple[Place, str]]:
-    if not scene.objects and not any(map(any, scene.background.gradient)):
+    if not scene.visible and not any(map(any, scene.background.gradient)):
         yield (), "there is nothing to see: add an object, or a background that is not black"

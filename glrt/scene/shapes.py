@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.meshes import Mesh
-from glrt.scene.objects import Array, Object, along_and_rest, to_planes
+from glrt.scene.objects import Array, Object, Sided, along_and_rest, to_planes
 from glrt.scene.solids import Box
 from glrt.scene.values import Direction, Length, Number, Triple, Vector, are_parallel
 
@@ -31,7 +31,14 @@ class Sphere(Object):
     if TYPE_CHECKING:
 
         def __init__(
-            self, *, center: Triple, radius: Number, material: str, name: str | None = None
+            self,
+            *,
+            center: Triple,
+            radius: Number,
+            material: str,
+            name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
         ) -> None: ...
 
     @property
@@ -76,7 +83,14 @@ class Plane(Object):
     if TYPE_CHECKING:
 
         def __init__(
-            self, *, point: Triple, normal: Triple, material: str, name: str | None = None
+            self,
+            *,
+            point: Triple,
+            normal: Triple,
+            material: str,
+            name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
         ) -> None: ...
 
     @property
@@ -106,7 +120,7 @@ class Plane(Object):
         return to_planes(rows[:, :3], rows[:, 3:], origin, direction)
 
 
-class Quad(Object):
+class Quad(Sided):
     """A parallelogram; its normal is along edge_u x edge_v."""
 
     shape: Literal["quad"] = Field("quad", description="the kind of shape")
@@ -130,6 +144,9 @@ class Quad(Object):
             edge_v: Triple,
             material: str,
             name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
+            emission_side: Literal["both", "front"] = "both",
         ) -> None: ...
 
     @model_validator(mode="after")
@@ -177,7 +194,7 @@ class Quad(Object):
         return np.where((a >= 0) & (a <= 1) & (b >= 0) & (b <= 1), distance, math.inf)
 
 
-class Disk(Object):
+class Disk(Sided):
     """A flat disk about its normal."""
 
     shape: Literal["disk"] = Field("disk", description="the kind of shape")
@@ -199,6 +216,9 @@ class Disk(Object):
             radius: Number,
             material: str,
             name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
+            emission_side: Literal["both", "front"] = "both",
         ) -> None: ...
 
     @property

@@ -37,6 +37,8 @@ class Box(Object):
             rotate: Triple = (0, 0, 0),
             material: str,
             name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
         ) -> None: ...
 
     @model_validator(mode="after")

@@ -13,6 +13,7 @@ from pydantic_core import ErrorDetails
 from glrt.errors import SceneError
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
+from glrt.scene.cone import Cone
 from glrt.scene.contents import Contents
 from glrt.scene.materials import TYPES
 from glrt.scene.shapes import KINDS
@@ -130,6 +131,8 @@ def _model(location: Place) -> type[BaseModel]:
         return Contents
     if table not in _KINDS:
         return _TABLES[table]
+    if location[3:-1] == ("cone",):
+        return Cone
     model: type[BaseModel] = _KINDS[table][str(location[2])]
     return model
 

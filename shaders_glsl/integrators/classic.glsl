@@ -90,7 +90,8 @@ PointLamp point_lamp(int shape) {
     }
     precise Quad quad = quad_at(shape - first_quad());
     precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
-    precise vec3 facing = cross(quad.edge_u, quad.edge_v);
+    precise vec3 facing = cross(quad.edge_u, quad.edge_v);  // of either sign
+    if (HAS_ONE_SIDED && dot(facing, quad.normal) < 0.0) facing = -facing;
     return PointLamp(center, 0.0, facing, quad.material);
 }
 
@@ -105,7 +106,9 @@ vec3 point_light(Vertex vertex, Ray from, int shape) {
     if (wi.z <= 0.0) return vec3(0.0);
     if (MODEL == WHITTED && occluded(from, distance, shape)) return vec3(0.0);
     precise float across = lamp.disk + abs(dot(lamp.facing, from.direction));
-    precise vec3 irradiance = across / distance / distance * material_at(lamp.material).emission;
+    bool is_front = dot(lamp.facing, from.direction) < 0.0;
+    precise vec3 emission = emitted(material_at(lamp.material), -from.direction, is_front);
+    precise vec3 irradiance = across / distance / distance * emission;
     precise vec3 radiance = irradiance * eval_local(vertex, wi);
     return radiance;
 }

@@ -23,7 +23,7 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
 
 // Direct light from one sampled point, scattered towards wo.
 vec3 direct_light(Vertex vertex, LightSample light) {
-    if (light.pdf == 0.0) return vec3(0.0);
+    if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
     precise vec3 wi = to_local(vertex.frame, light.ray.direction);
     if (wi.z <= 0.0) return vec3(0.0);
     precise vec3 weight = eval_material(vertex, wi) / light.pdf;
@@ -148,8 +148,10 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
     }
     precise Surface surface = surface_at(path.ray, hit);
     precise Material material = material_at(surface.material);
-    precise float emitted = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
-    precise vec3 light = path.scale * path.throughput * material.emission * emitted;
+    precise float share = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
+    bool facing = dot(path.ray.direction, true_normal(surface)) < 0.0;
+    precise vec3 emission = emitted(material, -path.ray.direction, facing);
+    precise vec3 light = path.scale * path.throughput * emission * share;
     gather(path, light, material.layer, path.depth);
     if (path.depth == frame.bounces) return false;
     return scatter_path(path, surface, material, rng);

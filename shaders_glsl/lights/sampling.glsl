@@ -108,65 +108,88 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
     return pdf;
 }
 
+// Whether lamps are seen from where they emit nothing: what stands before them is then no matter.
+bool is_dark(LightSample light) {
+    return (HAS_CONE || HAS_ONE_SIDED) && light.radiance == vec3(0.0);
+}
+
 LightSample no_light_sample(Ray ray) {
     return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0);
 }
 
-LightSample sample_sphere(Ray ray, int index, int shape, vec2 u, float lamps) {
+// What a lamp shows of itself at the origin of a ray.
+struct LampPoint {
+    vec3 direction;
+    float distance;  // 0: nothing can be seen
+    int material;
+    bool facing;     // whether it shows its front
+};
+
+LampPoint no_lamp_point() {
+    return LampPoint(vec3(0.0), 0.0, 0, false);
+}
+
+LampPoint sphere_point(Ray ray, int shape, vec2 u) {
     precise Sphere sphere = sphere_at(shape);
     precise vec3 to_center = sphere.center - ray.origin;
     precise float one_minus_cos = cone_of_sphere(to_center, sphere.radius);
-    if (one_minus_cos == 0.0 || shape == ray.origin_shape) return no_light_sample(ray);
+    if (one_minus_cos == 0.0 || shape == ray.origin_shape) return no_lamp_point();
     precise vec3 local = sample_cone(one_minus_cos, u);
     precise vec3 direction = normalized(frame_around(normalized(to_center)) * local);
     ray.direction = direction;
     precise float distance = sphere_distance(ray, sphere, shape);
     if (distance <= 0.0) distance = dot(to_center, ray.direction);  // rounded past the rim
-    precise Material lamp = material_at(sphere.material);
-    precise float pdf = pdf_light(index, ray, distance, lamps);
-    return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
+    return LampPoint(direction, distance, sphere.material, true);
 }
 
-LightSample sample_quad(Ray ray, int index, int shape, vec2 u, float lamps) {
+LampPoint flat_point(vec3 to_point, int material, vec3 normal) {
+    precise float distance = length(to_point);
+    if (distance == 0.0) return no_lamp_point();
+    precise vec3 direction = to_point / distance;
+    return LampPoint(direction, distance, material, dot(direction, normal) < 0.0);
+}
+
+LampPoint quad_point(Ray ray, int shape, vec2 u) {
     precise Quad quad = quad_at(shape - first_quad());
     precise vec2 share = u;
     if (!QUADS_BY_AREA) share = sample_strips(quad, view_strips(quad, ray.origin), u);
     precise vec3 to_point = quad.corner - ray.origin + share.x * quad.edge_u + share.y * quad.edge_v;
-    precise float distance = length(to_point);
-    if (distance == 0.0) return no_light_sample(ray);
-    precise vec3 direction = to_point / distance;
-    ray.direction = direction;
-    precise Material lamp = material_at(quad.material);
-    precise float pdf = pdf_light(index, ray, distance, lamps);
-    return LightSample(ray, distance, pdf, lamp.emission, shape, lamp.layer);
+    return flat_point(to_point, quad.material, quad.normal);
 }
 
-LightSample sample_flat_disk(Ray ray, int index, int shape, vec2 u, float lamps) {
+LampPoint disk_point(Ray ray, int shape, vec2 u) {
     precise Disk disk = disk_at(shape - first_disk());
     precise vec2 place = disk.radius * sample_disk(u);
     precise vec3 to_place = disk.center - ray.origin + frame_around(disk.normal) * vec3(place, 0.0);
-    precise float away = length(to_place);
-    if (away == 0.0) return no_light_sample(ray);
-    precise vec3 direction = to_place / away;
-    ray.direction = direction;
-    precise Material lamp = material_at(disk.material);
-    precise float pdf = pdf_light(index, ray, away, lamps);
-    return LightSample(ray, away, pdf, lamp.emission, shape, lamp.layer);
+    return flat_point(to_place, disk.material, disk.normal);
 }
 
-LightSample sample_triangle(Ray ray, int index, int shape, vec2 u, float lamps) {
+LampPoint triangle_point(Ray ray, int shape, vec2 u) {
     precise LampTriangle triangle = lamp_triangle(shape);
     precise float root = sqrt(u.x);
     precise float share_b = root * (1.0 - u.y);
     precise float share_c = root * u.y;
     precise vec3 offset = triangle.a - ray.origin + share_b * triangle.edge_b + share_c * triangle.edge_c;
-    precise float away = length(offset);
-    if (away == 0.0) return no_light_sample(ray);
-    precise vec3 direction = offset / away;
-    ray.direction = direction;
-    precise Material lamp = material_at(mesh_at(triangle.mesh).material);
-    precise float pdf = pdf_light(index, ray, away, lamps);
-    return LightSample(ray, away, pdf, lamp.emission, shape, lamp.layer);
+    return flat_point(offset, mesh_at(triangle.mesh).material, triangle.across);
+}
+
+LampPoint sample_point(Light light, Ray ray, vec2 u) {
+    if (is_of_sphere(light)) return sphere_point(ray, light.shape, u);
+    if (is_of_triangle(light)) return triangle_point(ray, light.shape, u);
+    if (is_of_disk(light)) return disk_point(ray, light.shape, u);
+    return quad_point(ray, light.shape, u);
+}
+
+// Of the lamp with this index, as `sample_light` has it.
+LightSample sample_lamp(Ray ray, int index, vec2 u, float lamps) {
+    precise Light light = light_at(index);
+    precise LampPoint point = sample_point(light, ray, u);
+    if (point.distance == 0.0) return no_light_sample(ray);
+    ray.direction = point.direction;
+    precise Material lamp = material_at(point.material);
+    precise float pdf = pdf_light(index, ray, point.distance, lamps);
+    precise vec3 radiance = emitted(lamp, -point.direction, point.facing);
+    return LightSample(ray, point.distance, pdf, radiance, light.shape, lamp.layer);
 }
 
 // From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.
@@ -176,9 +199,5 @@ LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     if (CLUSTERS > 1) choice.x = next_1d(rng);
     precise vec2 u = next_2d(rng);
     int index = choose_light(ray, lamps, choice);
-    precise Light light = light_at(index);
-    if (is_of_sphere(light)) return sample_sphere(ray, index, light.shape, u, lamps);
-    if (is_of_triangle(light)) return sample_triangle(ray, index, light.shape, u, lamps);
-    if (is_of_disk(light)) return sample_flat_disk(ray, index, light.shape, u, lamps);
-    return sample_quad(ray, index, light.shape, u, lamps);
+    return sample_lamp(ray, index, u, lamps);
 }

@@ -48,7 +48,7 @@ def scene(seed: int) -> Scene:
 
 
 def lamps(scene: Scene) -> list[Shape]:
-    return [shape for shape in scene.objects if any(scene.emission(shape.material))]
+    return [shape for shape in scene.objects if any(scene.emission_of(shape))]
 
 
 def points(shape: Shape) -> Floats:

@@ -8,9 +8,9 @@ import numpy as np
 
 from glrt.errors import SceneError
 from glrt.scene.cylinder import Cylinder
-from glrt.scene.materials import Dielectric, Light, Metal
+from glrt.scene.materials import Dielectric, Metal, Opaque
 from glrt.scene.meshes import Mesh
-from glrt.scene.scene import Scene
+from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import Disk, Plane, Quad, Sphere
 from glrt.scene.solids import Box
 from glrt.scene.values import Radiance
@@ -112,16 +112,16 @@ def _background(mi: Any, bottom: Radiance, *rest: Radiance) -> Words:
 
 def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> Iterator[Any]:
     """The shape, or its two faces."""
-    surface = _surface(scene, item.material, liberties.native)
+    surface = _surface(scene, scene.finish(item), liberties.native)
     if isinstance(item, Sphere):
         yield from _sphere(scene, surface, item, at)
     elif isinstance(item, Plane):
-        if isinstance(scene.materials[item.material], Light):
+        if scene.materials[item.material].emits:
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
         grid = _grid(item, at, CELL if liberties.finite else GRID)
         yield _mesh(mi, surface, *grid)
     elif isinstance(item, Quad | Disk):
-        for lift in _lifts(any(scene.emission(item.material)), liberties):
+        for lift in _lifts(any(scene.emission_of(item)) and not item.is_one_sided, liberties):
             yield _face(mi, surface, item, at, lift)
     elif isinstance(item, Box | Cylinder):
         yield from _solid(mi, scene, surface, item, at)
@@ -152,7 +152,7 @@ def _sphere(scene: Scene, surface: Words, item: Sphere, at: Near) -> Iterator[Wo
     center, radius = at.point(item.center).tolist(), item.radius * at.factor
     ball = {"type": "sphere", "center": center, **surface}
     yield {**ball, "radius": radius}
-    if any(scene.emission(item.material)) and is_seen_from_inside(item, scene):
+    if any(scene.emission_of(item)) and is_seen_from_inside(item, scene):
         yield {**ball, "radius": radius - GAP, "flip_normals": True}
 
 
@@ -196,7 +196,7 @@ def _solid(
     mi: Any, scene: Scene, surface: Words, item: Box | Cylinder, at: Near
 ) -> Iterator[Words]:
     """A box, or the wall and the ends of a cylinder; lamps shine outwards."""
-    is_lamp = any(scene.emission(item.material))
+    is_lamp = any(scene.emission_of(item))
     is_around = length(np.subtract(item.middle, scene.camera.position)) < item.reach
     if is_lamp and is_around:
         raise SceneError(f"material '{item.material}': Mitsuba's lamp would not shine inwards.")
@@ -217,7 +217,8 @@ def _solid(
 def _triangles(mi: Any, scene: Scene, surface: Words, item: Mesh, at: Near) -> Any:
     """A mesh; a lamp shines outwards."""
     faces = item.triangles.faces if item.is_upright else item.triangles.faces[:, ::-1]
-    if any(scene.emission(item.material)) and item.triangles.opening:
+    is_two_sided = item.triangles.opening and not item.is_one_sided
+    if any(scene.emission_of(item)) and is_two_sided:
         raise SceneError(f"material '{item.material}': Mitsuba's lamp would shine on one side.")
     normals = None
     if item.smooth:
@@ -247,14 +248,16 @@ def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
     return {"type": "rectangle", "to_world": _placed(mi, middle, u, v, unit(np.cross(u, v)))}
 
 
-def _surface(scene: Scene, name: str, is_native: bool) -> Words:
+def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
     """How a surface scatters, on both sides, and what it emits from its front."""
-    material = scene.materials[name]
+    material = scene.materials[finish.material]
     if isinstance(material, Dielectric):
         return {"bsdf": {"type": "dielectric", "int_ior": material.ior, "ext_ior": 1.0}}
     surface: Words = {"bsdf": {"type": "twosided", "bsdf": _scattering(material, is_native)}}
-    if any(scene.emission(name)):
-        surface["emitter"] = {"type": "area", "radiance": _color(scene.emission(name))}
+    if any(scene.emission(finish)):
+        if isinstance(material, Opaque) and material.cone:
+            raise SceneError(f"material '{finish.material}': Mitsuba has no lamp with a cone.")
+        surface["emitter"] = {"type": "area", "radiance": _color(scene.emission(finish))}
     return surface
 
 

@@ -13,7 +13,7 @@ from glrt.errors import SceneError
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
-from glrt.scene.scene import Scene, with_lights
+from glrt.scene.scene import Finish, Scene, with_lights
 from glrt.scene.shapes import Plane, Quad, Sphere
 from glrt.scene.toml import parse_scene, read_scene, scene_to_dict
 from glrt.settings import RenderSettings
@@ -104,7 +104,7 @@ def test_background_is_a_colour_or_a_gradient() -> None:
 def test_integers_are_numbers_and_become_floats() -> None:
     scene = parse_scene(MINIMAL, "test")
     assert all(type(x) is float for x in scene.camera.position)
-    assert type(scene.emission("lamp")[0]) is float
+    assert type(scene.emission(Finish("lamp", "lamp"))[0]) is float
 
 
 def test_a_background_alone_is_a_scene() -> None:
@@ -122,8 +122,8 @@ def test_light_groups_are_those_of_the_lamps_and_the_sky() -> None:
 def test_intensities_multiply_emission_and_background() -> None:
     lights, sky = {"lamp": 0.5, "background": 3}, {"bottom": [1, 0, 0], "top": [0, 1, 2]}
     scene = parse_scene(minimal(lights=lights, background=sky), "test")
-    assert scene.emission("lamp") == (0.5, 1.0, 1.5)
-    assert scene.emission("white") == (0, 0, 0)
+    assert scene.emission(Finish("lamp", "lamp")) == (0.5, 1.0, 1.5)
+    assert scene.emission(Finish("white")) == (0, 0, 0)
     assert scene.background_colors == ((3, 0, 0), (0, 3, 6))
 
 

@@ -89,7 +89,7 @@ def test_the_density_is_that_of_even_points_in_solid_angle(
     """The mean of 1 / density is the solid angle: 2 PI (1 - cos) on the axis."""
     scene = scene_of([disk([0, height, 0], [0, -2, 0], 1.0, "lamp")], {"lamp": lamp()})
     ray = "Ray(vec3(0.0), vec3(0.0), NO_SHAPE, false)"
-    setup = f"LightSample found = sample_flat_disk({ray}, 0, 0, u, 1.0);"
+    setup = f"LightSample found = sample_lamp({ray}, 0, u, 1.0);"
     pdf = call_glsl("found.pdf", setup=setup, scene=scene, u=unit_square(256))
     cosine = height / math.hypot(height, 1)
     truth = 2 * math.pi * (1 / (height**2 + 1)) / (1 + cosine)

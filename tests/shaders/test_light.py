@@ -33,9 +33,7 @@ SETUP = """
     float total = total_weight(from);
     int index = choose_light(from, total, vec3(u, 0.0));
     int shape = light_at(index).shape;
-    LightSample light = no_light_sample(from);
-    if (shape < frame.sphere_count) light = sample_sphere(from, index, shape, v, total);
-    else light = sample_quad(from, index, shape, v, total);"""
+    LightSample light = sample_lamp(from, index, v, total);"""
 
 
 def sampled(call_glsl: CallGlsl, scene: Scene, what: str, returns: str, **inputs: Any) -> Array:

@@ -188,7 +188,7 @@ def test_sampling_and_scattering_know_one_density(call_glsl: CallGlsl, name: str
         "vec3(light.pdf, pdf_light(0, light.ray, hit.distance, 1.0), hit.shape)",
         "vec3",
         setup="""Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), NO_SHAPE, false);
-            LightSample light = sample_quad(from, 0, 0, u, 1.0);
+            LightSample light = sample_lamp(from, 0, u, 1.0);
             Hit hit = closest_hit(light.ray);""",
         scene=lit(name),
         constants=NEE,
@@ -219,7 +219,7 @@ def test_a_lamp_of_another_scale_is_sampled_to_the_same_bits(
 def test_a_point_in_the_lamps_plane_samples_nothing(call_glsl: CallGlsl) -> None:
     origin = np.array([[-1.0, 0.0, 0.3], [0.3, 0.0, 0.3], [0.3, 1e-30, 0.3]])
     setup = """Ray from = Ray(origin, vec3(0.0, 1.0, 0.0), NO_SHAPE, false);
-        LightSample light = sample_quad(from, 0, 0, vec2(0.5), 1.0);"""
+        LightSample light = sample_lamp(from, 0, vec2(0.5), 1.0);"""
     scene = lit("rectangle")
     args = {"setup": setup, "scene": scene, "constants": NEE, "origin": origin}
     assert call_glsl("light.pdf", **args).tolist() == [0, 0, 0]

@@ -55,7 +55,7 @@ def test_every_pixel_shows_what_is_picked_there(context: Context) -> None:
     seen = set()
     for row, column in zip(*np.nonzero(is_pure), strict=True):
         picked = pick(scene, 1.0, (column + 0.5) / SIZE, (row + 0.5) / SIZE)
-        found = scene.emission(scene.objects[picked.number].material)[0] if picked else 0.0
+        found = scene.emission_of(scene.objects[picked.number])[0] if picked else 0.0
         assert brightness[row, column] == found
         seen.add(picked.number if picked else None)
     assert seen == {None, 0, 1, 2, 3}

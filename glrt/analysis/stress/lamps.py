@@ -113,7 +113,7 @@ def _flux(scene: Scene) -> float:
         u, v = np.array([x, x + 0.1]), np.array([z, z + 0.1])
         parts = _corner(u[:, None], v[None, :])
         share = parts[1, 1] - parts[0, 1] - parts[1, 0] + parts[0, 0]
-        total += math.pi * share * scene.emission(square.material)[0]
+        total += math.pi * share * scene.emission_of(square)[0]
     return float(total)
 
 

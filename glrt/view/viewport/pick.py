@@ -64,7 +64,8 @@ class _Table(NamedTuple):
 def _tables(objects: tuple[Shape, ...]) -> list[_Table]:
     found: dict[type[Object], list[int]] = {}
     for number, shape in enumerate(objects):
-        found.setdefault(type(shape), []).append(number)
+        if not shape.hidden:
+            found.setdefault(type(shape), []).append(number)
     return [
         _Table(kind, np.array(numbers, np.intp), np.array([objects[n].row for n in numbers]))
         for kind, numbers in found.items()
