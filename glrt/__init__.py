@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from glrt.rendering.renderer import Renderer
     from glrt.scene.background import Background
     from glrt.scene.camera import Camera
+    from glrt.scene.cone import Cone
     from glrt.scene.cylinder import Cylinder
     from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
     from glrt.scene.meshes import Mesh
@@ -57,6 +58,7 @@ __all__ = [
     "Box",
     "Camera",
     "Comparison",
+    "Cone",
     "Cylinder",
     "Dielectric",
     "Disk",
@@ -85,6 +87,7 @@ _HOMES = {
     "Box": "scene.solids",
     "Camera": "scene.camera",
     "Comparison": "comparison.result",
+    "Cone": "scene.cone",
     "Cylinder": "scene.cylinder",
     "Dielectric": "scene.materials",
     "Disk": "scene.shapes",

@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
-from glrt.scene import background, camera, cylinder, materials, meshes, scene, shapes, solids
+from glrt.scene import background, camera, cone, cylinder, materials, meshes, scene, shapes, solids
 from glrt.settings import RenderSettings, editable_of
 
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
@@ -18,6 +18,7 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[materials.NAME] of type metal", "", materials.Metal),
     ("[materials.NAME] of type dielectric", "", materials.Dielectric),
     ("[materials.NAME] of type light", "", materials.Light),
+    ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", cone.Cone),
     ("[[objects]] of shape sphere", "", shapes.Sphere),
     ("[[objects]] of shape plane", "", shapes.Plane),
     ("[[objects]] of shape quad", "", shapes.Quad),
@@ -59,8 +60,8 @@ def scene_file() -> Iterator[str]:
     yield "## `[lights]`"
     yield (
         "Optional. One key a light group, with its intensity: a factor from 0, 1 by default. A "
-        "lamp's group is the `group` of its material, or else the material's name; the background "
-        "is the group `background`."
+        "lamp's group is the `group` of its object, or else that of its material, or else the "
+        "material's name; the background is the group `background`."
     )
 
 

@@ -87,6 +87,11 @@ class Contents:
         return list(dict.fromkeys(lit))
 
     @property
+    def is_aimed(self) -> bool:
+        """Whether some lamp cannot be seen from everywhere."""
+        return bool(self.cones or self.one_sided)
+
+    @property
     def has_many_lights(self) -> bool:
         """Whether there are more lamps than are weighed one by one."""
         return self.sampled_lamps > MOST_NEAR

@@ -4,11 +4,12 @@ Modules, each importing only what stands above it:
 
 - kernel_structs: structs and constants that host and kernel share
 - pack_shapes: shapes as rows, a packer for each kind
+- aims: where lamps can be seen from
+- lamp_bodies: where lamps are and how far they reach
 - pack_materials: materials as rows, a packer for each type
 - pack_mesh: triangles of meshes, in the frame of the tree
 - tree_cache: trees over many triangles, kept on the disk
 - pack_tree: the tree over shapes, a packer of leaves for each kind
-- lamp_power: what the choice among lamps knows of each
 - pack_lights: lamps as rows of the kernel's blocks
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values

@@ -74,5 +74,6 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
 
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
-    others = ("Node", "Slot", "Corner", "Triangle", "Material", "Emitter", "Light", "Cluster")
+    trees, lamps = ("Node", "Slot", "Corner", "Triangle"), ("Emitter", "Light", "Cluster", "Aim")
+    others = (*trees, "Material", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -4,7 +4,7 @@ Few lamps are weighed one by one at each point, so each is a cluster of its own.
 place into clusters, and these into parts, which are weighed; within a part a table chooses by flux.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import accumulate, chain
 from typing import Any, NamedTuple
 
@@ -12,17 +12,12 @@ import numpy as np
 
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
 from glrt.methods.contents import MOST_NEAR, Contents
+from glrt.rendering.aims import Aims, aims_of, around_all
 from glrt.rendering.kernel_structs import CONSTANTS
-from glrt.rendering.lamp_power import (
-    LAMPS,
-    body_of,
-    emitted_share,
-    power,
-    radiance,
-    triangle_bodies,
-)
+from glrt.rendering.lamp_bodies import LAMPS, Bodies, bodies_of, joined, triangle_bodies
 from glrt.rendering.pack_tree import SceneTree
 from glrt.scene.meshes import Mesh
+from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 
@@ -36,8 +31,8 @@ class Lamps(NamedTuple):
 
     shapes: list[int]  # their numbers
     probability: Array  # (n,): share of the flux, above 0
-    center: Array  # (n, 3), in the scene's coordinates
-    reach2: Array  # (n,): mean squared distance of their points from the center
+    bodies: Bodies  # in the scene's coordinates
+    aims: Aims | None  # None where all emit to all sides
     parts: list[list[slice]]  # of each cluster
 
 
@@ -53,42 +48,40 @@ def lamps_of(
         for number, shape in enumerate(shapes)
         if type(shape) in LAMPS and scene.finish(shape).group
     ]
-    bodies = [body_of(shapes[number]) for number in found]
-    center = np.array([body.center for body in bodies], np.float64).reshape(-1, 3)
-    reach2 = np.array([body.reach2 for body in bodies], np.float64)
-    flux = [power(scene, shapes[number], body) for number, body in zip(found, bodies, strict=True)]
+    lamps: list[Shape] = [shapes[number] for number in found]
+    bodies = bodies_of(lamps)
+    flux = bodies.area * np.array([radiance(scene, lamp) for lamp in lamps])
     if tree and contents.lamp_triangles:
         bright = _bright_triangles(scene, shapes, tree)
-        corner = tree.corner_positions(bright)
-        across, middle, spread = triangle_bodies(corner)
+        triangles = triangle_bodies(tree.corner_positions(bright))
+        meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
+        owners = tree.triangles["owner"][bright]
+        emission = np.array([radiance(scene, mesh) for mesh in meshes])
         found += [len(shapes) + int(number) for number in bright]
-        flux += list(_triangle_power(scene, shapes, across, tree.triangles["owner"][bright]))
-        center, reach2 = np.concatenate([center, middle]), np.concatenate([reach2, spread])
+        lamps += [meshes[owner] for owner in owners]
+        flux = np.concatenate([flux, triangles.area * emission[owners]])
+        bodies = joined(bodies, triangles)
     probability = light_probabilities(flux)
     clusters = [
-        [cluster[part] for part in grouped(center[cluster], probability[cluster], PARTS)]
-        for cluster in grouped(center, probability, MOST_NEAR)
+        [cluster[part] for part in grouped(bodies.center[cluster], probability[cluster], PARTS)]
+        for cluster in grouped(bodies.center, probability, MOST_NEAR)
     ]
     order = np.concatenate([np.arange(0), *chain(*clusters)])
     ends = accumulate(len(part) for part in chain(*clusters))
+    aims = aims_of(scene, lamps, bodies.normal) if contents.is_aimed else None
     return Lamps(
         [found[index] for index in order],
         probability[order],
-        center[order],
-        reach2[order],
+        Bodies(*(column[order] for column in bodies)),
+        aims and aims.of(order),
         [[slice((end := next(ends)) - len(part), end) for part in parts] for parts in clusters],
     )
 
 
-def _triangle_power(scene: Scene, shapes: Sequence[Shape], across: Array, owners: Array) -> Array:
-    """As `power`, of triangles with these normals, as long as their areas, of these meshes."""
-    found: Array = np.zeros(len(across))
-    meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
-    for number, mesh in enumerate(meshes):
-        own = owners == number
-        area = np.linalg.norm(across[own], axis=1)
-        found[own] = 2 * area * emitted_share(scene, mesh, across[own]) * radiance(scene, mesh)
-    return found
+def radiance(scene: Scene, lamp: Object) -> float:
+    """What a lamp emits where it is brightest, its channels added."""
+    red, green, blue = scene.emission_of(lamp)
+    return red + green + blue
 
 
 def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) -> Array:
@@ -116,24 +109,54 @@ def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:
 
 def pack_clusters(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
     """Rows of the struct Cluster; of many lamps, those of their parts behind them."""
-    count = len(lamps.parts)
-    rows = np.zeros(count * (1 + PARTS if len(lamps.shapes) > count else 1), dtype)
+    rows = np.zeros(_row_count(lamps), dtype)
     rows["shape"], rows["reach2"] = SEVERAL, 1  # a part without lamps has the weight 0 / 1
-    for row, parts in zip(rows, lamps.parts, strict=False):
-        _fill(row, lamps, slice(parts[0].start, parts[-1].stop), eye)
-    for cluster, parts in enumerate(lamps.parts if len(rows) > count else []):
-        first = count + PARTS * cluster
-        for row, members in zip(rows[first:], parts, strict=False):
-            _fill(row, lamps, members, eye)
+    for number, members in _members(lamps):
+        row, share = rows[number], _shares(lamps, members)
+        center, apart2 = _middle(lamps, members, eye)
+        row["center"] = center
+        row["reach2"] = share @ (apart2 + lamps.bodies.spread2[members])
+        row["probability"] = lamps.probability[members].sum()
+        row["first"], row["count"] = members.start, len(share)
+        row["shape"] = lamps.shapes[members.start] if len(share) == 1 else SEVERAL
     return rows
 
 
-def _fill(row: Any, lamps: Lamps, members: slice, eye: Array) -> None:
-    """The row of a cluster or a part with these lamps."""
-    share = lamps.probability[members] / lamps.probability[members].sum()
-    center = share @ (lamps.center[members] - eye)
-    apart2 = ((lamps.center[members] - eye - center) ** 2).sum(axis=1)
-    row["center"], row["reach2"] = center, share @ (apart2 + lamps.reach2[members])
-    row["probability"] = lamps.probability[members].sum()
-    row["first"], row["count"] = members.start, len(share)
-    row["shape"] = lamps.shapes[members.start] if len(share) == 1 else SEVERAL
+def pack_aims(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
+    """Rows of the struct Aim, one for each of Cluster; none where all emit to all sides."""
+    if lamps.aims is None:
+        return np.zeros(0, dtype)
+    rows = np.zeros(_row_count(lamps), dtype)
+    for number, members in _members(lamps):
+        row, aim = rows[number], around_all(lamps.aims.of(members))
+        row["axis"], row["outer"], row["slope"] = (column[0] for column in aim)
+        _, apart2 = _middle(lamps, members, eye)
+        row["reach"] = (np.sqrt(apart2) + lamps.bodies.reach[members]).max()
+    return rows
+
+
+def _row_count(lamps: Lamps) -> int:
+    count = len(lamps.parts)
+    return count * (1 + PARTS if len(lamps.shapes) > count else 1)
+
+
+def _members(lamps: Lamps) -> Iterator[tuple[int, slice]]:
+    """The row of each cluster and part, and its lamps."""
+    count = len(lamps.parts)
+    for cluster, parts in enumerate(lamps.parts):
+        yield cluster, slice(parts[0].start, parts[-1].stop)
+    for cluster, parts in enumerate(lamps.parts if _row_count(lamps) > count else []):
+        for number, members in enumerate(parts):
+            yield count + PARTS * cluster + number, members
+
+
+def _shares(lamps: Lamps, members: slice) -> Array:
+    share: Array = lamps.probability[members] / lamps.probability[members].sum()
+    return share
+
+
+def _middle(lamps: Lamps, members: slice, eye: Array) -> tuple[Array, Array]:
+    """The mean place of the flux, relative to the eye, and the squared distances from it, (n,)."""
+    places = lamps.bodies.center[members] - eye
+    center = _shares(lamps, members) @ places
+    return center, ((places - center) ** 2).sum(axis=1)

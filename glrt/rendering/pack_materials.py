@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from glrt.methods.light_layers import layer_of_group
+from glrt.rendering.aims import cone_fields, everywhere
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
 from glrt.scene.cone import Cone
 from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque
@@ -68,20 +69,16 @@ def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:
     """Rows of the struct Emitter: none where all lamps emit evenly to both sides."""
     found = _emitters(scene, finishes)
     rows = np.zeros(len(found), STRUCTS["Emitter"])
-    rows["outer"], rows["slope"] = ALL_DIRECTIONS
+    rows["outer"], rows["slope"] = everywhere(len(found))[1:]
     for row, (cone, is_one_sided) in zip(rows, found, strict=True):
         row["is_one_sided"] = is_one_sided
         if cone:
-            inner, outer = cone.versines
-            row["axis"], row["outer"] = cone.unit_axis, outer
-            row["slope"] = min(1 / (outer - inner), STEEPEST) if outer > inner else STEEPEST
+            row["axis"] = cone.unit_axis
+            row["outer"], row["slope"] = cone_fields(cone)
     return rows
 
 
 Emission = tuple[Cone | None, bool]  # whether it is from the front alone
-
-ALL_DIRECTIONS = 4.0, 1.0  # outer and slope of a share that is 1 everywhere: versines end at 2
-STEEPEST = 1e30  # for an edge without a width
 
 
 def _emitters(scene: Scene, finishes: Sequence[Finish]) -> list[Emission]:

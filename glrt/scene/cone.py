@@ -58,40 +58,12 @@ class Cone(Value):
         s: Array = np.clip((outer - versines) / (outer - inner), 0, 1)
         return s * s * (3 - 2 * s)
 
-    def irradiance(self, normals: Array, is_one_sided: bool) -> Array:
-        """(n,): the integral of the share times the cosine to normals, (n, 3) of any length.
-
-        By the midpoint rule, to a few thousandths of the largest. From one side the cosines below 0
-        count as 0, else without their sign.
-        """
-        lengths = np.linalg.norm(normals, axis=1)
-        units = normals / np.where(lengths > 0, lengths, 1)[:, None]
-        directions, weight = self._midpoints()
-        total: Array = np.zeros(len(normals))
-        for direction, share in zip(directions, self.shares(directions), strict=True):
-            cosines = units @ direction
-            total += share * (np.maximum(cosines, 0) if is_one_sided else np.abs(cosines))
-        return weight * total
-
-    def _midpoints(self) -> tuple[Array, float]:
-        """Directions that stand for equal parts of the cone, (n, 3), and the size of a part."""
-        versine = self.versines[1] * (np.arange(_STEPS) + 0.5) / _STEPS
-        turn = 2 * math.pi * (np.arange(_STEPS) + 0.5) / _STEPS
-        sine = np.sqrt(versine * (2 - versine))
-        axis = self.unit_axis
-        aside = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-        aside /= np.linalg.norm(aside)
-        round_ = np.cos(turn)[:, None] * aside + np.sin(turn)[:, None] * np.cross(axis, aside)
-        parts = (1 - versine)[:, None, None] * axis + sine[:, None, None] * round_
-        return parts.reshape(-1, 3), 2 * math.pi * self.versines[1] / _STEPS**2
-
     @property
     def solid_angle(self) -> float:
         """The integral of the share over all directions, in steradians."""
         return math.pi * sum(self.versines)
 
 
-_STEPS = 16
 NARROWEST = 1e-3  # degrees: below, directions in float32 miss the cone
 
 

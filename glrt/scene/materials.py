@@ -27,6 +27,9 @@ from glrt.settings import Cost, Editable
 SMOOTHEST = 1e-8
 
 
+_RADIANCE = "radiance at intensity 1, 0 or more each, from both sides of the surface"
+
+
 class Surface(Tagged):
     """What every material has."""
 
@@ -45,7 +48,7 @@ class Opaque(Surface):
 
     color: Color = Field(description="share of light that is reflected")
     emission: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
-        BLACK, description="radiance at intensity 1, from both sides of the surface, 0 or more each"
+        BLACK, description=f"{_RADIANCE}; black: it is no lamp"
     )
     group: Name | None = Field(
         None,
@@ -132,9 +135,7 @@ class Light(Opaque):
 
     type: Literal["light"] = Field("light", description="the kind of material")
     color: Color = Field(BLACK, description="albedo of the lamp itself")
-    emission: Radiance = Field(
-        description="radiance at intensity 1, from both sides of the surface, 0 or more each"
-    )
+    emission: Radiance = Field(description=_RADIANCE)
 
     if TYPE_CHECKING:
 

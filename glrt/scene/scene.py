@@ -92,18 +92,25 @@ class Scene(Contents):
 
     def finish(self, thing: Object) -> Finish:
         """What the surface of an object is like."""
-        material = self.materials.get(thing.material)  # one that is missing is told elsewhere
+        return self._finish(thing.material, thing.group, thing.is_one_sided)
+
+    def _finish(self, name: str, group: str | None, is_one_sided: bool) -> Finish:
+        material = self.materials.get(name)  # one that is missing is told elsewhere
         if not isinstance(material, Opaque) or not material.emits:
-            return Finish(thing.material)
-        group = thing.group or material.group or thing.material
-        return Finish(thing.material, group, thing.is_one_sided)
+            return Finish(name)
+        return Finish(name, group or material.group or name, is_one_sided)
+
+    def _finishes(self, things: Iterable[Object]) -> list[Finish]:
+        """Each once, by material in the order of the file."""
+        places = {name: place for place, name in enumerate(self.materials)}
+        told = dict.fromkeys((it.material, it.group, it.is_one_sided) for it in things)
+        found = dict.fromkeys(self._finish(*one) for one in told)
+        return sorted(found, key=lambda finish: places.get(finish.material, -1))
 
     @property
     def finishes(self) -> list[Finish]:
         """Those of the visible objects, each once, by material in the order of the file."""
-        places = {name: place for place, name in enumerate(self.materials)}
-        found = dict.fromkeys(map(self.finish, self.visible))
-        return sorted(found, key=lambda finish: places.get(finish.material, -1))
+        return self._finishes(self.visible)
 
     @property
     def light_groups(self) -> dict[str, float]:
@@ -118,7 +125,7 @@ class Scene(Contents):
 
     def emission(self, finish: Finish) -> Radiance:
         """Radiance of a surface, intensity of its group included; black for one without light."""
-        material = self.materials[finish.material]
+        material = self.materials.get(finish.material)
         if not finish.group or not isinstance(material, Opaque):
             return BLACK
         return _scaled(material.emission, self._intensity(finish.group))
@@ -133,9 +140,9 @@ class Scene(Contents):
     def _lamp_groups(self) -> Iterator[str]:
         """By material; a lamp that no object is made of has a group, too."""
         found: dict[str, dict[str, None]] = {name: {} for name in self.materials}
-        for thing in self.objects:
-            if group := self.finish(thing).group:
-                found[thing.material][group] = None
+        for finish in self._finishes(self.objects):
+            if finish.group:
+                found[finish.material][finish.group] = None
         for name, material in self.materials.items():
             if isinstance(material, Opaque) and material.emits:
                 yield from found[name] or (material.group or name,)

@@ -11,6 +11,7 @@ float cluster_weight(int index, Ray ray) {
     if (cluster.shape == ray.origin_shape) return 0.0;
     precise vec3 away = cluster.center - ray.origin;
     precise float weight = cluster.probability / max(dot(away, away), cluster.reach2);
+    if (IS_AIMED) weight *= share_towards(aim_at(index), -away);
     return weight;
 }
 
@@ -70,13 +71,16 @@ int choose_light(Ray ray, float total, vec3 u) {
 float choice_pdf(int index, Ray ray, float total) {
     if (!MANY_LIGHTS) {
         if (CLUSTERS == 1) return 1.0;
+        if (IS_AIMED && total == 0.0) return 0.0;  // none can be seen
         precise float pdf = cluster_weight(index, ray) / total;
         return pdf;
     }
     precise Light light = light_at(index);
     int part = light.alias >> 16;
     int cluster = (part - CLUSTERS) / PARTS;
-    precise float chance = cluster_weight(part, ray) / parts_weight(cluster, ray);
+    precise float parts = parts_weight(cluster, ray);
+    if (IS_AIMED && (total == 0.0 || parts == 0.0)) return 0.0;  // none can be seen
+    precise float chance = cluster_weight(part, ray) / parts;
     precise float pdf = cluster_weight(cluster, ray) / total * chance * light.share;
     return pdf;
 }

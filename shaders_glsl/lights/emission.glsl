@@ -1,20 +1,38 @@
-// What a lamp emits towards a direction.
+// What a lamp emits towards a direction. A cone limits the directions: of the emission it leaves a share
+// that falls with v, 1 - cos of the angle to its axis, which keeps the digits of small angles.
 
-// Of the emission within a cone, towards a unit direction: 1 - cos of the angle to its axis keeps the
-// digits of narrow ones.
-float share_in_cone(Emitter emitter, vec3 direction) {
-    precise vec3 aside = direction - emitter.axis;
-    precise float s = clamp((emitter.outer - 0.5 * dot(aside, aside)) * emitter.slope, 0.0, 1.0);
+const bool IS_AIMED = HAS_CONE || HAS_ONE_SIDED;  // whether some lamp cannot be seen from everywhere
+
+// From 1 to 0, which it is from `outer` on; `slope`: 1 over the length between them.
+float share_in_cone(float versine, float outer, float slope) {
+    precise float s = clamp((outer - versine) * slope, 0.0, 1.0);
     precise float share = s * s * (3.0 - 2.0 * s);
     return share;
 }
 
-// `facing`: whether the direction leaves the front.
+// Towards a unit direction; `facing`: whether that leaves the front.
 vec3 emitted(Material material, vec3 direction, bool facing) {
-    if (!HAS_CONE && !HAS_ONE_SIDED) return material.emission;
+    if (!IS_AIMED) return material.emission;
     precise Emitter emitter = emitter_at(material.emitter);
     if (HAS_ONE_SIDED && emitter.is_one_sided != 0 && !facing) return vec3(0.0);
     if (!HAS_CONE) return material.emission;
-    precise vec3 radiance = material.emission * share_in_cone(emitter, direction);
+    precise vec3 aside = direction - emitter.axis;
+    precise float share = share_in_cone(0.5 * dot(aside, aside), emitter.outer, emitter.slope);
+    precise vec3 radiance = material.emission * share;
     return radiance;
+}
+
+// Of what lamps emit that lie within `reach` of a place, the most that goes to a point `away` from there:
+// 0 only where none does. Those at the edge of that ball emit under another angle, seen from the point.
+const float ROUNDING_OF_VERSINES = 9.5367431640625e-7;  // 2^-20, of 1 - cos by differences
+
+float share_towards(Aim aim, vec3 away) {
+    precise float distance = length(away);
+    if (distance <= aim.reach) return 1.0;
+    precise float cosine = dot(away, aim.axis) / distance;
+    precise float sine = sqrt(max((1.0 - cosine) * (1.0 + cosine), 0.0));
+    precise float lamp_sine = aim.reach / distance;
+    precise float lamp_cosine = sqrt((1.0 - lamp_sine) * (1.0 + lamp_sine));
+    precise float nearest = cosine >= lamp_cosine ? 1.0 : cosine * lamp_cosine + sine * lamp_sine;
+    return share_in_cone(1.0 - nearest - ROUNDING_OF_VERSINES, aim.outer, aim.slope);
 }

@@ -110,7 +110,7 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
 
 // Whether lamps are seen from where they emit nothing: what stands before them is then no matter.
 bool is_dark(LightSample light) {
-    return (HAS_CONE || HAS_ONE_SIDED) && light.radiance == vec3(0.0);
+    return IS_AIMED && light.radiance == vec3(0.0);
 }
 
 LightSample no_light_sample(Ray ray) {

@@ -22,3 +22,11 @@ struct Cluster {
     int count;
     int shape;          // of the lamp if it is one, else SEVERAL
 };
+
+// The directions into which the lamps of a cluster or a part emit: within a cone, at each of their points.
+struct Aim {
+    vec3 axis;    // unit; v is 1 - cos of the angle to it
+    float outer;  // v from which on nothing is emitted
+    float slope;  // 1 over the length of v over which the emission falls
+    float reach;  // largest distance of their points from the center of the cluster
+};

@@ -11,9 +11,9 @@ from glrt.gpu.context import Context
 from glrt.methods import contents
 from glrt.methods.contents import MOST_NEAR
 from glrt.rendering import pack_lights
-from glrt.rendering.lamp_power import body_of, power
+from glrt.rendering.lamp_bodies import bodies_of
 from glrt.rendering.pack import pack_scene
-from glrt.rendering.pack_lights import PARTS
+from glrt.rendering.pack_lights import PARTS, radiance
 from glrt.rendering.pack_shapes import in_order
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
@@ -108,9 +108,9 @@ def test_clusters_and_their_parts_hold_all_lamps_with_their_flux(count: int) -> 
     """The parts of a cluster, one after the other, have its lamps; what is left has no weight."""
     scene = mixed(count)
     rows, shapes = pack_scene(scene), in_order(scene)
-    flux = light_probabilities(
-        [power(scene, shapes[n], body_of(shapes[n])) for n in rows["Light"]["shape"]]
-    )
+    lamps = [shapes[n] for n in rows["Light"]["shape"]]
+    emission = [radiance(scene, lamp) for lamp in lamps]
+    flux = light_probabilities(list(bodies_of(lamps).area * emission))
     assert sorted(rows["Light"]["shape"]) == list(range(count))
     end = 0
     for cluster, parts in zip(rows["Cluster"], parts_of(rows), strict=False):

@@ -8,7 +8,7 @@ from bench.shader_edits import Edit, edited
 from bench.steps import BY_FLUX, STARTS, TABLES, by_start, main, roulette
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.rendering import pack_lights
+from glrt.rendering import lamp_bodies
 from tests.support.renders import assert_agree, same
 
 EDITS = {tuple(way.edits) for table in TABLES.values() for way in table.values()} - {()}
@@ -44,10 +44,10 @@ def test_edits_do_what_they_are_named_for(
     assert same(picture(context, Way({}, roulette("0.25", 1000))), never)
     by_flux = picture(context, Way({}, BY_FLUX))
     far = {
-        kind: lambda lamp, body=body: body(lamp)._replace(center=np.zeros(3), reach2=2.0**40)
-        for kind, body in pack_lights.LAMPS.items()
+        kind: lambda lamp, body=body: body(lamp)._replace(center=np.zeros(3), spread2=2.0**40)
+        for kind, body in lamp_bodies.LAMPS.items()
     }
-    monkeypatch.setattr(pack_lights, "LAMPS", far)  # none is nearer
+    monkeypatch.setattr(lamp_bodies, "LAMPS", far)  # none is nearer
     assert same(by_flux, picture(context, PLAIN))
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from glrt.cli.main import main
 from glrt.image.image import Image as Picture
+from tests.support.bad_lamps import BAD_LAMPS
 from tests.support.bad_scenes import BAD_SCENES, GOOD_SCENE, BadScene
 from tests.support.processes import glrt
 
@@ -21,7 +22,7 @@ def one_paragraph(stderr: str) -> str:
     return stderr
 
 
-@pytest.mark.parametrize("bad", BAD_SCENES[::10], ids=lambda bad: bad.name)
+@pytest.mark.parametrize("bad", [*BAD_SCENES, *BAD_LAMPS][::10], ids=lambda bad: bad.name)
 def test_bad_scene_is_refused(
     bad: BadScene, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -62,10 +62,16 @@ PROBES = {
         "{} * path.throughput * background(",
     ),
     "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
+    "HAS_CONE": ("lights/emission.glsl", "0.5 * dot(aside, aside)", "{} * dot(aside, aside)"),
+    "HAS_ONE_SIDED": (
+        "lights/emission.glsl",
+        "emitter.is_one_sided != 0",
+        "{} * float(emitter.is_one_sided) != 0.0",
+    ),
     "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
-    "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "length(to_point)", "length({} * to_point)"),
-    "HAS_DISK_LIGHT": ("lights/sampling.glsl", "length(to_place)", "length({} * to_place)"),
-    "HAS_MESH_LIGHT": ("lights/sampling.glsl", "length(offset)", "length({} * offset)"),
+    "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "share.x * quad.edge_u", "{} * quad.edge_u"),
+    "HAS_DISK_LIGHT": ("lights/sampling.glsl", "vec3(place, 0.0)", "vec3({} * place, 0.0)"),
+    "HAS_MESH_LIGHT": ("lights/sampling.glsl", "share_b * triangle.edge_b", "{} * triangle.edge_b"),
     "SAMPLE_LIGHTS": (
         "integrators/path.glsl",
         "weight * light.radiance",
@@ -81,6 +87,7 @@ NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
     "HAS_TREE": {"HAS_DISK"},
     "HAS_SMOOTH": {"HAS_MESH"},
+    "HAS_ONE_SIDED": {"HAS_DISK"},
     "HAS_MESH_LIGHT": {"HAS_MESH", "SAMPLE_LIGHTS"},
     "HAS_HORIZON": {"HAS_BACKGROUND"},
     "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
@@ -127,6 +134,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "rough": {"type": "metal", "color": [1, 1, 1], "roughness": 0.5},
     "glass": glass(),
     "lamp": lamp(),
+    "spot": lamp(cone={"axis": [0, 1, 0]}),
 }
 
 
@@ -150,6 +158,20 @@ def _triangle(material: str, flags: set[str]) -> dict[str, Any]:
     return mesh(faces, material, smooth="HAS_SMOOTH" in flags)
 
 
+def _cone_lamp(flags: set[str]) -> dict[str, Any]:
+    """Of a kind that is not sampled."""
+    if "HAS_PLANE" in flags:
+        return plane([0, -2, 0], [0, 1, 0], "spot")
+    return box([0, 0, 0], [1, 1, 1], "spot")
+
+
+def _one_sided(flags: set[str]) -> dict[str, Any]:
+    """Of a kind that is sampled anyway, where there is one."""
+    if "HAS_QUAD_LIGHT" in flags:
+        return quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp") | {"emission_side": "front"}
+    return disk([0, 3, 0], [0, 1, 0], 1, "lamp") | {"emission_side": "front"}
+
+
 def needs_with(flags: set[str]) -> Needs:
     """What a scene and settings need that ask for these features."""
 
@@ -167,6 +189,8 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
     objects += [disk([0, 0, 0], [1, 0, 0], 1, "matte")] if "HAS_DISK" in flags else []
+    objects += [_cone_lamp(flags)] if "HAS_CONE" in flags else []
+    objects += [_one_sided(flags)] if "HAS_ONE_SIDED" in flags else []
     objects += [box([0, 0, 0], [1, 1, 1], "matte")] if "HAS_BOX" in flags else []
     tube = cylinder([0, 0, 0], [1, 1, 1], 1, "matte")
     objects += [tube] if "HAS_CYLINDER" in flags else []

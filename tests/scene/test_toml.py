@@ -11,6 +11,7 @@ import pytest
 
 from glrt.errors import SceneError
 from glrt.scene.toml import parse_scene, read_scene
+from tests.support.bad_lamps import BAD_LAMPS
 from tests.support.bad_scenes import BAD_SCENES, GOOD_SCENE, BadScene
 
 JARGON = (
@@ -38,7 +39,7 @@ def test_a_mark_of_the_byte_order_and_windows_lines_are_read(tmp_path: Path) -> 
     assert read_scene(path) == parse_scene(tomllib.loads(GOOD_SCENE), "test")
 
 
-@pytest.mark.parametrize("bad", BAD_SCENES, ids=lambda bad: bad.name)
+@pytest.mark.parametrize("bad", [*BAD_SCENES, *BAD_LAMPS], ids=lambda bad: bad.name)
 def test_bad_scene_is_refused_with_advice(bad: BadScene, tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_bytes(bad.content if isinstance(bad.content, bytes) else bad.content.encode())
@@ -51,7 +52,8 @@ def test_bad_scene_is_refused_with_advice(bad: BadScene, tmp_path: Path) -> None
 
 
 def test_bad_scenes_are_many_and_have_names_of_their_own() -> None:
-    assert len({bad.name for bad in BAD_SCENES}) == len(BAD_SCENES) >= 45
+    names = [bad.name for bad in [*BAD_SCENES, *BAD_LAMPS]]
+    assert len(set(names)) == len(names) >= 45
 
 
 def test_missing_file_is_named_with_its_neighbour(tmp_path: Path) -> None:

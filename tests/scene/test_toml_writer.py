@@ -202,7 +202,8 @@ def test_another_material_is_written_beside_the_others(tmp_path: Path) -> None:
 
     _, new = saved(COMMENTED, tmp_path, change)
     added = [line for line in changed_lines(COMMENTED, new) if line.strip("+- ")]
-    assert added == ["+ [materials.green]", '+ type = "lambertian"', "+ color = [0.1, 0.5, 0.2]"]
+    color, emission = "+ color = [0.1, 0.5, 0.2]", "+ emission = [0.0, 0.0, 0.0]"
+    assert added == ["+ [materials.green]", '+ type = "lambertian"', color, emission]
 
 
 def test_another_number_of_objects_is_written(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ import pytest
 from glrt.methods.light_layers import Plan, plan_for
 from glrt.settings import Cost
 from glrt.view.panels.objects import with_material
-from glrt.view.state.costs import cost_of_light, reach_of_bounces, reach_of_size
+from glrt.view.state.costs import cost_of_light, cost_of_tint, reach_of_bounces, reach_of_size
 from glrt.view.state.session import Session
 from tests.support.sessions import start
 
@@ -66,13 +66,13 @@ def test_undo_covers_bounces_live(session: Session) -> None:
 
 def test_a_channel_that_no_lamp_sent_has_no_light_to_weigh(session: Session) -> None:
     start(session)
-    assert cost_of_light(session, "lamp", is_tint=True) is Cost.RELIGHT
+    assert cost_of_tint(session, "lamp") is Cost.RELIGHT
     session.edit(with_material(session.scene, "lamp", emission=(3.0, 0.0, 3.0)))
     start(session)
-    assert cost_of_light(session, "lamp", is_tint=True) is Cost.RELIGHT, "it was traced in white"
+    assert cost_of_tint(session, "lamp") is Cost.RELIGHT, "it was traced in white"
     session.edit(seed=3)
     start(session)
-    assert cost_of_light(session, "lamp", is_tint=True) is Cost.RESTART
+    assert cost_of_tint(session, "lamp") is Cost.RESTART
     assert cost_of_light(session, "lamp") is Cost.RELIGHT
 
 

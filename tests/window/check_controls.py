@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from glrt.settings import Cost
-from glrt.view.panels import panel, widgets
+from glrt.view.panels import lights, panel, widgets
 from glrt.view.state.controls import Control
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import move
@@ -13,8 +13,8 @@ from tests.window.hand import Hand, check
 
 # Each control by its label in the panel: the control, and what to do to it.
 MOVES: dict[str, tuple[Control, Any]] = {
-    "intensity##lamp": (panel.INTENSITY, 3.0),
-    "emission##lamp/##emission/$$0": (panel.EMISSION.costing(Cost.RELIGHT), 2.0),
+    "intensity##lamp": (lights.INTENSITY, 3.0),
+    "emission##lamp/##emission/$$0": (lights.EMISSION.costing(Cost.RELIGHT), 2.0),
     "bounces": (panel.SETTINGS["bounces"], 1),
     "bounces live": (panel.LIVE, None),
     "method/nee": (panel.SETTINGS["method"], None),

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - key_table: keys, and the choice of others
 - compare: what is shown, and the kept picture
 - objects: the selected object and its material
+- lights: the light groups and their lamps
 - files: open and save
 - panel: all subjects of the panel
 - viewport: the picture, the mouse and the keys

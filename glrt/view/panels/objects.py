@@ -7,18 +7,21 @@ from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 
-from glrt.scene.materials import Material
+from glrt.scene.cone import Cone
+from glrt.scene.materials import Light, Material, Opaque
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.widgets import edited, edited_fields, tag, tip
-from glrt.view.state.controls import Control, controls_of, replaced
+from glrt.view.state.controls import Control, controls_of, replaced, switch
 from glrt.view.viewport.transform import with_object
 
 _NONE = "nothing"
 _MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"
+_DOWN = (0.0, -1.0, 0.0)
+CONE = switch("cone", "light a cone of directions alone: a spot", Cost.RECOMPILE)
 MATERIAL = Control("material", "choice", _MATERIAL, Cost.RECOMPILE, "", None, None, None)
 
 
@@ -94,11 +97,26 @@ def _material(app: App, index: int, shape: Shape) -> None:
         app.edit_scene("", partial(_reshaped, index, {"material": chosen}))
         return
     sharing = _uses(scene.objects)[name]
-    imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s)")
+    group = scene.finish(shape).group
+    light = f", light group {group}" if group else ""
+    imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s){light}")
     material = scene.materials[name]
     changes = edited_fields(_controls(material), dict(material), f"material {name}")
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
+    elif isinstance(material, Opaque) and material.emits:
+        _cone(app, name, material.cone)
+
+
+def _cone(app: App, name: str, cone: Cone | None) -> None:
+    """Whether a lamp lights a cone alone, and which."""
+    wanted = edited(CONE, cone is not None, name)
+    if wanted is not None:
+        new = Cone(axis=_DOWN) if wanted else None
+        app.edit_scene("", partial(with_material, name=name, cone=new))
+    elif cone and (changes := edited_fields(controls_of(Cone), dict(cone), f"cone {name}")):
+        edit = partial(with_cone, name=name, changes=changes)
+        app.edit_scene(f"cone {name} {list(changes)}", edit)
 
 
 @kept_for_the_same
@@ -108,11 +126,24 @@ def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
 
 
 def _controls(material: Material) -> tuple[Control, ...]:
-    """Emission stands with the light groups."""
-    return controls_of(type(material), leave_out=("emission",))
+    """The emission of lamps stands with the light groups."""
+    leave_out = ("emission",) if isinstance(material, Light) else ()
+    return controls_of(type(material), leave_out)
 
 
 def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
     """The scene with other values of a material."""
     material = replaced(scene.materials[name], **changes)
     return replaced(scene, materials={**scene.materials, name: material})
+
+
+def with_cone(scene: Scene, name: str, changes: dict[str, Any]) -> Scene:
+    """The scene with another cone of a material: neither half angle passes the other."""
+    material = scene.materials[name]
+    if not isinstance(material, Opaque) or material.cone is None:
+        return scene
+    if "inner" in changes:
+        changes = {"outer": max(material.cone.outer, changes["inner"]), **changes}
+    elif "outer" in changes:
+        changes = {"inner": min(material.cone.inner, changes["outer"]), **changes}
+    return with_material(scene, name, cone=replaced(material.cone, **changes))

@@ -10,8 +10,7 @@ from glrt.methods.light_layers import MOST_LAYERS
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.limits import cautions
-from glrt.scene.materials import Light
-from glrt.scene.scene import SKY_GROUP, Scene, with_lights
+from glrt.scene.scene import Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
@@ -19,10 +18,11 @@ from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
-from glrt.view.panels.objects import draw_object, with_material
+from glrt.view.panels.lights import draw_lights
+from glrt.view.panels.objects import draw_object
 from glrt.view.panels.widgets import COLORS, beside, button, edited, edited_fields, legend
-from glrt.view.state.controls import Control, control_of_items, controls_of, replaced, switch
-from glrt.view.state.costs import cost_of_light, reach_of_bounces, reach_of_size
+from glrt.view.state.controls import Control, controls_of, replaced, switch
+from glrt.view.state.costs import reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
@@ -31,8 +31,6 @@ PATHS = ("method", "sampler", "roulette", "seed")
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
-INTENSITY = control_of_items(Scene, "lights")
-EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
 BACKGROUND = {c.name: c for c in controls_of(Background)}
 PREFERENCES = controls_of(Preferences)
 FREE_SAMPLES = ("samples_per_frame", "target_error")
@@ -48,10 +46,6 @@ _SHOWN = "the light of all paths, or of those of one length alone"
 SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGHT)
 GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
 HORIZON = switch("horizon", "a colour of its own between below and above", Cost.RECOMPILE)
-_NO_ROOM = (
-    "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
-    "of light restarts the picture. A smaller picture has room."
-)
 _RED = (0.95, 0.35, 0.35, 1.0)
 
 
@@ -106,36 +100,6 @@ def _commands(app: App) -> None:
     beside("redo")
     if button("redo", session.history.can_redo):
         session.redo()
-
-
-def _lights(app: App) -> None:
-    """A slider for each group, and the colours of its lamps."""
-    scene = app.session.scene
-    if app.session.lacks_room:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_disabled(_NO_ROOM)
-        imgui.pop_text_wrap_pos()
-    has_sky = any(map(any, scene.background.gradient))
-    groups = [group for group in scene.light_groups if group != SKY_GROUP or has_sky]
-    for group in groups:
-        imgui.separator_text(group)
-        row = f"{group} intensity" if len(groups) > 1 else "intensity"
-        control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
-        new = edited(control, scene.light_groups[group], group)
-        if new is not None:
-            app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
-        for name, material in scene.materials.items():
-            if isinstance(material, Light) and (material.group or name) == group:
-                _emission(app, name, material)
-
-
-def _emission(app: App, name: str, material: Light) -> None:
-    cost = cost_of_light(app.session, material.group or name, is_tint=True)
-    is_one = sum(isinstance(m, Light) for m in app.session.scene.materials.values()) == 1
-    row = EMISSION if is_one else EMISSION.named(f"{name} emission")
-    color = edited(row.costing(cost), material.emission, name)
-    if color is not None:
-        app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
 
 
 def _with_camera(scene: Scene, **changes: Any) -> Scene:
@@ -259,7 +223,7 @@ def _preferences(app: App, controls: list[Control]) -> None:
 
 
 _SECTIONS = (
-    ("Light", _lights, _OPEN),
+    ("Light", draw_lights, _OPEN),
     ("Paths", _paths, _OPEN),
     ("Samples", _samples, _OPEN),
     ("Display", _display, _OPEN),

@@ -3,7 +3,7 @@
 from typing import Literal
 
 from glrt.methods.light_layers import MOST_LAYERS, emitters, layer_of_group
-from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.scene import SKY_GROUP, Finish, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.memo import kept_for_the_same
@@ -12,14 +12,22 @@ from glrt.view.state.session import Session
 Reach = tuple[int, Cost]  # the largest value with the cost that is told, and the cost beyond
 
 
-def cost_of_light(session: Session, group: str, is_tint: bool = False) -> Cost:
-    """Of another intensity of a light group, or of another colour of one lamp."""
-    layers, lamps = _lamps(session.scene)
+def cost_of_light(session: Session, group: str) -> Cost:
+    """Of another intensity of a light group."""
+    layers, _ = _lamps(session.scene)
     shares = [other for other in layers if layers[other] == layers.get(group)]
-    is_weighed = len(shares) == 1 and not (is_tint and not _is_one_tint(session, group, lamps))
-    if is_weighed and session.layering == "groups":
+    if len(shares) == 1 and session.layering == "groups":
         return Cost.RELIGHT
     return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
+
+
+def cost_of_tint(session: Session, name: str) -> Cost:
+    """Of another colour of the lamps of one material: in each group that they are in."""
+    groups = {finish.group for finish in _finishes(session.scene) if finish.material == name}
+    _, lamps = _lamps(session.scene)
+    is_weighed = groups and all(_is_one_tint(session, group, lamps) for group in groups)
+    costs = {cost_of_light(session, group) for group in groups}
+    return Cost.RELIGHT if is_weighed and costs == {Cost.RELIGHT} else Cost.RESTART
 
 
 def reach_of_bounces(session: Session) -> Reach | None:
@@ -56,6 +64,11 @@ def _is_one_tint(session: Session, group: str, lamps: dict[str, list[Radiance]])
 def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
     """The layer of each light group, and what its lamps emit."""
     return layer_of_group(scene), emitters(scene)
+
+
+@kept_for_the_same
+def _finishes(scene: Scene) -> list[Finish]:
+    return scene.finishes
 
 
 @kept_for_the_same

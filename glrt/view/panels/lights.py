@@ -1,0 +1,65 @@
+"""The part of the panel that dims the light groups and tints their lamps."""
+
+from functools import partial
+
+from imgui_bundle import imgui
+
+from glrt.scene.materials import Light, Opaque
+from glrt.scene.scene import SKY_GROUP, Scene, with_lights
+from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.objects import with_material
+from glrt.view.panels.widgets import edited
+from glrt.view.state.controls import control_of_items, controls_of
+from glrt.view.state.costs import cost_of_light, cost_of_tint
+
+INTENSITY = control_of_items(Scene, "lights")
+EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
+_NO_ROOM = (
+    "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
+    "of light restarts the picture. A smaller picture has room."
+)
+
+
+def draw_lights(app: App) -> None:
+    """A slider for each group, and the colours of its lamps."""
+    scene = app.session.scene
+    if app.session.lacks_room:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_disabled(_NO_ROOM)
+        imgui.pop_text_wrap_pos()
+    intensities, lamps = _groups(scene)
+    is_one = sum(isinstance(m, Light) for m in scene.materials.values()) == 1
+    for group, intensity in intensities.items():
+        imgui.separator_text(group)
+        row = f"{group} intensity" if len(intensities) > 1 else "intensity"
+        control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
+        new = edited(control, intensity, group)
+        if new is not None:
+            app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
+        for name in lamps.get(group, ()):
+            _emission(app, name, is_one)
+
+
+def _emission(app: App, name: str, is_one: bool) -> None:
+    """Of a lamp. Other materials that emit have theirs beside their colour: at 0 they are none."""
+    material = app.session.scene.materials[name]
+    if not isinstance(material, Light):
+        return
+    row = EMISSION if is_one else EMISSION.named(f"{name} emission")
+    color = edited(row.costing(cost_of_tint(app.session, name)), material.emission, name)
+    if color is not None:
+        app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
+
+
+@kept_for_the_same
+def _groups(scene: Scene) -> tuple[dict[str, float], dict[str, list[str]]]:
+    """Intensities of the light groups, and the lamps of each; a material stands in one alone."""
+    has_sky = any(map(any, scene.background.gradient))
+    intensities = {g: x for g, x in scene.light_groups.items() if g != SKY_GROUP or has_sky}
+    first = {finish.material: finish.group for finish in reversed(scene.finishes) if finish.group}
+    lamps: dict[str, list[str]] = {}
+    for name, material in scene.materials.items():
+        if isinstance(material, Opaque) and material.emits:
+            lamps.setdefault(first.get(name) or material.group or name, []).append(name)
+    return intensities, lamps
