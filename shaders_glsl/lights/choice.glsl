@@ -62,8 +62,11 @@ int choose_by_table(Cluster part, float u) {
     return rest < light.keep ? part.first + index : light.alias & 0xFFFF;
 }
 
+// NO_LIGHT where none can be seen: of all lamps, or of the cluster that was chosen for those around it.
 int choose_light(Ray ray, float total, vec3 u) {
     int cluster = choose_cluster(ray, total, u.x);
+    if (IS_AIMED && CLUSTERS > 1 && total == 0.0) return NO_LIGHT;
+    if (IS_AIMED && MANY_LIGHTS && parts_weight(cluster, ray) == 0.0) return NO_LIGHT;
     return MANY_LIGHTS ? choose_by_table(cluster_at(choose_part(cluster, ray, u.y)), u.z) : cluster;
 }
 

@@ -199,5 +199,6 @@ LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     if (CLUSTERS > 1) choice.x = next_1d(rng);
     precise vec2 u = next_2d(rng);
     int index = choose_light(ray, lamps, choice);
+    if (IS_AIMED && index == NO_LIGHT) return no_light_sample(ray);
     return sample_lamp(ray, index, u, lamps);
 }
