@@ -69,7 +69,8 @@ def resources_of(
 
 def _choice(scene: Scene) -> dict[str, bool | int]:
     found = contents_of(scene)
-    return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights}
+    aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
+    return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights, **aimed}
 
 
 def no_rows() -> dict[str, Array]:

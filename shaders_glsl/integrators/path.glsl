@@ -18,7 +18,6 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
     if (!is_sampled(light, ray)) return 1.0;
     precise float light_pdf = pdf_light(light, ray, hit.distance, lamps);
-    if (IS_AIMED && light_pdf == 0.0) return 1.0;  // it was not to be chosen from there
     return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
 }
 

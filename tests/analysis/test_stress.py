@@ -21,7 +21,15 @@ from glrt.resources import folder
 from tests.support.alarms import book
 
 TINY = 1 / 64
-VERDICTS = {"lamps": 11, "ceiling": 18, "bulb": 18, "caustic": 3, "fireflies": 1, "seeds": 7}
+VERDICTS = {
+    "lamps": 11,
+    "spots": 11,
+    "ceiling": 18,
+    "bulb": 18,
+    "caustic": 3,
+    "fireflies": 1,
+    "seeds": 7,
+}
 SWEEP = Sweep(
     parameter="size",
     measure="error",

@@ -7,10 +7,11 @@ copy of the tree and runs its test, which must fail.
 from tests.mutation.aovs import AOVS
 from tests.mutation.comparing import COMPARING
 from tests.mutation.film import FILM
+from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.transport import TRANSPORT
 
-MUTANTS = [*TRANSPORT, *SHAPES, *MESHES, *SAMPLING, *FILM, *AOVS, *MERGING, *COMPARING]
+MUTANTS = [*TRANSPORT, *SHAPES, *MESHES, *LIGHTS, *SAMPLING, *FILM, *AOVS, *MERGING, *COMPARING]

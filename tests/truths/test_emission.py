@@ -11,12 +11,20 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.methods.features import needs_of
 from glrt.scene.cone import Cone
-from glrt.scene.scene import Scene
-from glrt.settings import settings_for
+from glrt.scene.scene import Scene, with_lights
+from glrt.settings import Cost, settings_for
 from tests.support.builders import MATTE, disk, lamp, plane, quad, room_of_planes, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.meshes import mesh
-from tests.support.renders import METHODS, assert_agree, assert_mean, rendered, same, whole
+from tests.support.renders import (
+    METHODS,
+    assert_agree,
+    assert_mean,
+    rendered,
+    rendering,
+    same,
+    whole,
+)
 
 FLOOR = plane([0, 0, 0], [0, 1, 0], "floor")
 DOWN = {"position": [0, 1, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "fov": 0.01}
@@ -240,6 +248,53 @@ def test_objects_of_one_material_have_groups_of_their_own(context: Context) -> N
     halved = [lamps[0] | {"material": "half"}, *lamps[1:]]
     plain = scene_of([FLOOR, *halved], told, ABOVE)
     assert same(rendered(scene, context, 16), rendered(plain, context, 16))
+
+
+def test_groups_of_one_material_are_dimmed_apart_without_a_new_render(context: Context) -> None:
+    """Seen directly: two balls of one lamp, half a picture each."""
+    balls = [
+        sphere([-1, 0, -3], 0.9, "lamp") | {"group": "left"},
+        sphere([1, 0, -3], 0.9, "lamp") | {"group": "right"},
+    ]
+    scene = scene_of(balls, {"lamp": lamp(2.0)})
+    with rendering(scene, context, bounces=0, layering="groups") as renderer:
+        renderer.render(16)
+        assert renderer.update(with_lights(scene, {"left": 0.25})) is Cost.RELIGHT
+        found = renderer.image().radiance
+    assert found[:, :8].max() == 0.5
+    assert found[:, 8:].max() == 2.0
+
+
+def test_another_colour_of_a_lamp_in_two_groups_is_weighed_in_both(context: Context) -> None:
+    balls = [
+        sphere([-1, 0, -3], 0.9, "lamp") | {"group": "left"},
+        sphere([1, 0, -3], 0.9, "lamp") | {"group": "right"},
+    ]
+    scene, tinted = (
+        scene_of(balls, {"lamp": lamp(2.0, emission=emission)})
+        for emission in ([2.0, 2.0, 2.0], [1.0, 4.0, 0.0])
+    )
+    with rendering(scene, context, bounces=0, layering="groups") as renderer:
+        renderer.render(16)
+        assert renderer.update(tinted) is Cost.RELIGHT
+        found = renderer.image().radiance
+    assert found.max(axis=(0, 1)).tolist() == [1.0, 4.0, 0.0]
+
+
+def test_a_surface_that_stops_to_emit_is_traced_anew(context: Context) -> None:
+    ways = ({"emission": [1.0] * 3, "group": "one"}, {"emission": [0.0] * 3, "group": "one"})
+    first, second = (
+        scene_of(
+            [sphere([-1, 0, -3], 0.9, "a"), sphere([1, 0, -3], 0.9, "lamp")],
+            {"a": {**MATTE, **way}, "lamp": lamp(2.0, group="one")},
+        )
+        for way in ways
+    )
+    with rendering(first, context, bounces=0, layering="groups") as renderer:
+        renderer.render(16)
+        assert renderer.update(second) in (Cost.RESTART, Cost.RECOMPILE)
+        found = renderer.render(16).image().radiance
+    assert same_bits(found, rendered(second, context, 16, bounces=0).radiance)
 
 
 def test_a_hidden_object_is_not_there(context: Context) -> None:

@@ -8,6 +8,7 @@ Modules, each importing only what stands above it:
 - rays: intersections from far away, at every scale, at grazing angles
 - triangles: rays at edges, and rays that leave
 - lamps: small lamps, many lamps, a lamp below a ceiling
+- spots: edges of cones, one spot among many
 - glass: refraction and caustics
 - sums: accumulation, random numbers, long paths
 - views: positions and fields of view of the camera

@@ -1,6 +1,6 @@
 """Every case of `glrt stress`, by name."""
 
-from glrt.analysis.stress import glass, lamps, rays, sums, triangles, views
+from glrt.analysis.stress import glass, lamps, rays, spots, sums, triangles, views
 from glrt.analysis.stress.sweep import Case
 
 _ALL = (
@@ -14,6 +14,8 @@ _ALL = (
     Case("ior", "Glass with an index near 1", glass.ior),
     Case("lamp", "A small lamp", lamps.lamp),
     Case("lamps", "Many lamps", lamps.lamps),
+    Case("cone", "The edge of a spot", spots.cone),
+    Case("spots", "Many spots", spots.spots),
     Case("ceiling", "A lamp just below a ceiling", lamps.ceiling),
     Case("bulb", "A small lamp inside a glass sphere", glass.bulb),
     Case("caustic", "A glass sphere and a small lamp", glass.caustic),

@@ -58,7 +58,7 @@ EVENLY = f"""
     vec2 u = next_2d(rng);
     int index = min(int(choice * float(light_count())), light_count() - 1);
     float total = total_weight(ray);
-    LightSample light = sample_quad(ray, index, light_at(index).shape, u, total);
+    LightSample light = sample_lamp(ray, index, u, total);
     light.pdf /= choice_pdf(index, ray, total) * float(light_count());"""
 RECEIVED = "light.pdf > 0.0 ? light.radiance.x * light.ray.direction.y / light.pdf : 0.0"
 
@@ -74,7 +74,7 @@ def lamps(lab: Lab) -> Sweep:
         for found, setup in zip(noise, (CHOSEN, EVENLY), strict=True):
             light = lab.path(RECEIVED, {"x": rows}, scene=scene, setup=setup).astype(np.float64)
             found.append(float(light.std() / light.mean()))
-            if setup == CHOSEN and abs(light.mean() / _flux(scene) - 1) > _tolerance(light):
+            if setup == CHOSEN and abs(light.mean() / _flux(scene) - 1) > tolerance(light):
                 wrong.append(count)
     return Sweep(
         parameter="lamps, one of them bright",
@@ -88,7 +88,7 @@ def lamps(lab: Lab) -> Sweep:
     )
 
 
-def _tolerance(light: Array) -> float:
+def tolerance(light: Array) -> float:
     """SIGMAS relative standard errors of the mean of `light`."""
     return float(SIGMAS * light.std() / light.mean() / math.sqrt(len(light)))
 
