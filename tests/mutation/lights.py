@@ -82,18 +82,10 @@ LIGHTS = [
     ),
     Mutant(
         "hidden objects are rendered",
-        (Edit("glrt/rendering/pack_shapes.py", "if not shape.hidden", "if True"),),
-        f"{_TRUTHS}::test_a_hidden_object_is_not_there",
-    ),
-    Mutant(
-        "a film takes what does not emit any more for dimmed light",
         (
-            Edit(
-                "glrt/methods/light_layers.py",
-                "if m.emits else m",
-                "if hasattr(m, 'emission') else m",
-            ),
+            Edit("glrt/rendering/pack_shapes.py", " if not shape.hidden", ""),
+            Edit("glrt/scene/scene.py", " if not thing.hidden", ""),
         ),
-        f"{_TRUTHS}::test_a_surface_that_stops_to_emit_is_traced_anew",
+        f"{_TRUTHS}::test_a_hidden_object_is_not_there",
     ),
 ]
