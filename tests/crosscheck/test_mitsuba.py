@@ -19,7 +19,7 @@ from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
-from glrt.scene.scene import Scene
+from glrt.scene.scene import Scene, with_lights
 from tests.mitsuba.engine import LLVM_PACKAGE
 from tests.support.alarms import ALPHA, book
 from tests.support.builders import (
@@ -33,7 +33,7 @@ from tests.support.builders import (
     scene_of,
     sphere,
 )
-from tests.support.meshes import blob, icosphere, mesh
+from tests.support.meshes import blob, icosphere, mesh, quads
 from tests.support.renders import rendered
 from tests.support.system_packages import needs_package
 
@@ -197,6 +197,44 @@ def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> Non
     objects[2] = objects[2].model_copy(update={"translate": (1.15, 0.7, 0.2)})
     turned = scene.model_copy(update={"objects": tuple(objects)})
     assert not judged(ours(context, turned), picture)
+
+
+FRONT = {"emission_side": "front"}
+
+
+def glowing(**changes: Any) -> Scene:
+    """Metal and matte balls that emit, lamps of one side, and a ball that is hidden."""
+    materials = {
+        "iron": MATERIALS["rough"] | {"emission": [0.9, 0.3, 0.1]},
+        "moss": MATERIALS["white"] | {"emission": [0.1, 0.4, 0.2]},
+    }
+    panel = quad([-1.6, 0.3, -1.0], [1.2, 0, 0], [0, 1.1, 0], "screen") | {"group": "panel"}
+    sail = quads(
+        [[1.2, 0.2, -1], [0.1, 0, 0.6], [0.2, 0.8, 0]], [[1.5, 1.2, -1], [0, 0, 0.5], [0.4, 0, 0]]
+    )
+    objects = [
+        plane([0, 0, 0], [0, 2, 0], "white"),
+        sphere([-0.6, 0.5, 0.6], 0.5, "iron"),
+        sphere([0.6, 0.4, 0.6], 0.4, "moss"),
+        sphere([0, 0.5, 1.6], 0.6, "mirror") | {"hidden": True},
+        panel | FRONT | changes,
+        disk([0.4, 2.2, 0.3], [0.3, -1, 0.2], 0.4, "bulb") | FRONT,
+        mesh(sail, "bulb", smooth=False) | FRONT,
+    ]
+    return scene_of(
+        objects, MATERIALS | materials, CAMERA, background=SKY, lights={"panel": 0.5, "iron": 2.0}
+    )
+
+
+def test_glowing_surfaces_and_one_sided_lamps_look_the_same_to_mitsuba(
+    context: Context, mitsuba: Peer
+) -> None:
+    picture = theirs(mitsuba, glowing())
+    found = judged(ours(context, glowing()), picture)
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    assert not judged(ours(context, glowing(emission_side="both")), picture)
+    assert not judged(ours(context, with_lights(glowing(), {"panel": 0.4})), picture)
 
 
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

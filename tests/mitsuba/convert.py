@@ -63,7 +63,7 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
     }
     if any(map(any, scene.background_colors)):
         words["background"] = _background(mi, *scene.background_colors)
-    for index, item in enumerate(scene.objects):
+    for index, item in enumerate(scene.visible):
         for side, part in enumerate(_shape(mi, scene, item, at, liberties)):
             words[f"object {index} {side}"] = part
     return words

@@ -21,7 +21,7 @@ def is_seen_from_inside(ball: Sphere, scene: Scene) -> bool:
     room = ball.radius * (1 - TOUCH)
     if length(center - scene.camera.position) < room:
         return True
-    return any(item is not ball and _reach(item, center) < room for item in scene.objects)
+    return any(item is not ball and _reach(item, center) < room for item in scene.visible)
 
 
 def _reach(item: Shape, point: Vector) -> float:
@@ -42,7 +42,7 @@ class Face(NamedTuple):
 
 def refuse_coincident(scene: Scene) -> None:
     """Raise SceneError if flat faces of two shapes overlap in one plane."""
-    flat = [(i, face) for i, item in enumerate(scene.objects) for face in _faces(item)]
+    flat = [(i, face) for i, item in enumerate(scene.visible) for face in _faces(item)]
     for number, (i, first) in enumerate(flat):
         for j, second in flat[number + 1 :]:
             if i != j and _coincide(first, second):

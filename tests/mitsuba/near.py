@@ -45,14 +45,14 @@ def near(scene: Scene) -> Near:
 def _origin(scene: Scene) -> Vector:
     """The center of the glass ball that stands nearest to the camera, or else the camera."""
     eye = np.array(scene.camera.position)
-    balls = [item for item in scene.objects if isinstance(item, Sphere)]
+    balls = [item for item in scene.visible if isinstance(item, Sphere)]
     glass = [b.center for b in balls if isinstance(scene.materials[b.material], Dielectric)]
     return min(map(np.array, glass), key=lambda center: length(center - eye), default=eye)
 
 
 def _reaches(scene: Scene, origin: Vector) -> Iterator[float]:
     """How far each shape stretches from the origin; a plane, how far it is."""
-    for item in scene.objects:
+    for item in scene.visible:
         if isinstance(item, Sphere):
             yield length(origin - item.center) + item.radius
         elif isinstance(item, Quad):
