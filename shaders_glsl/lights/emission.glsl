@@ -34,5 +34,6 @@ float share_towards(Aim aim, vec3 away) {
     precise float lamp_sine = aim.reach / distance;
     precise float lamp_cosine = sqrt((1.0 - lamp_sine) * (1.0 + lamp_sine));
     precise float nearest = cosine >= lamp_cosine ? 1.0 : cosine * lamp_cosine + sine * lamp_sine;
-    return share_in_cone(1.0 - nearest - ROUNDING_OF_VERSINES, aim.outer, aim.slope);
+    precise float versine = 1.0 - nearest - ROUNDING_OF_VERSINES;
+    return share_in_cone(versine, aim.outer, aim.slope);
 }

@@ -82,11 +82,11 @@ def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
         return inner(control, value, name)
 
     hand.ctx.set_ref("Controls")
-    widgets.edited = panel.edited = seen  # type: ignore[attr-defined]
+    widgets.edited = panel.edited = lights.edited = seen  # type: ignore[attr-defined]
     for section in SECTIONS:
         hand.ctx.item_open(section)
     hand.ctx.yield_(2)
-    widgets.edited = panel.edited = inner  # type: ignore[attr-defined]
+    widgets.edited = panel.edited = lights.edited = inner  # type: ignore[attr-defined]
     for section in SECTIONS:
         hand.ctx.item_close(section)
     moved = {reference.partition("/")[0] for reference in MOVES}

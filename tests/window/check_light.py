@@ -7,7 +7,7 @@ import pytest
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
-from glrt.view.panels import panel, widgets
+from glrt.view.panels import lights, panel, widgets
 from glrt.view.state.controls import Control
 from tests.window.gestures import move, reopen
 from tests.window.hand import SMALL, Hand, check
@@ -85,7 +85,8 @@ def a_row_of_the_panel_tells_its_lamp(hand: Hand) -> None:
     hand.there(lambda: hand.session.edit(load("lamps"), **SMALL))
     hand.settle()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(panel, "edited", seen)
+        for part in (panel, lights):
+            patch.setattr(part, "edited", seen)
         hand.until(lambda: labels.count("method") + labels.count("bounces live") > 0)
     lamps = hand.there(lambda: [label for label in labels if "intensity" in label])
     assert {"amber intensity", "blue intensity", "rose intensity"} <= set(lamps)

@@ -8,15 +8,17 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.methods.features import explain
+from glrt.scene.cone import Cone
+from glrt.scene.materials import Opaque
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view.panels import objects, plots, widgets
 from glrt.view.panels.gizmo import is_held
 from glrt.view.state.controls import Control
 from glrt.view.viewport.orbit import axes
-from tests.support.builders import MATTE, scene_of, sphere
-from tests.window.gestures import ball, click, double_click, place_of
-from tests.window.hand import Hand, check
+from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
+from tests.window.gestures import ball, click, double_click, place_of, reopen
+from tests.window.hand import SMALL, Hand, check
 
 
 @check
@@ -147,3 +149,45 @@ def what_edits_of_an_object_cost_stands_beside_them(hand: Hand) -> None:
     assert hand.session.scene.objects[number].material == "red"
     assert hand.session.last_cost in (Cost.RESTART, Cost.RECOMPILE)
     hand.window.app.selected = None
+
+
+@check
+def a_lamp_becomes_a_spot_of_one_side_and_a_hidden_object_goes(hand: Hand) -> None:
+    shapes = [
+        plane([0, -1, 0], [0, 1, 0], "white"),
+        quad([-1, 0, -4], [2, 0, 0], [0, 2, 0], "lamp"),
+    ]
+    materials = {"white": MATTE, "lamp": lamp(2.0)}
+    hand.there(lambda: hand.session.edit(scene_of(shapes, materials), **SMALL))
+    hand.settle()
+    session, ctx = hand.session, hand.ctx
+    hand.window.app.selected = 1
+    ctx.yield_(3)
+    ctx.set_ref("Controls")
+    before = hand.pixels()
+    ctx.combo_click("emission side##shape 1/front")
+    hand.settle()
+    assert session.scene.objects[1].is_one_sided
+    ctx.item_click("cone##lamp")
+    hand.settle()
+    material = session.scene.materials["lamp"]
+    assert isinstance(material, Opaque)
+    assert material.cone == Cone(axis=(0, -1, 0))
+    assert (hand.pixels() != before).mean() > 0.05
+    ctx.item_input_value("inner##cone lamp", 60.0)
+    hand.settle()
+    pushed = session.scene.materials["lamp"]
+    assert isinstance(pushed, Opaque)
+    assert pushed.cone == Cone(axis=(0, -1, 0), inner=60, outer=60)
+    assert not session.problem
+    before = hand.pixels()
+    ctx.item_click("hidden##shape 1")
+    hand.settle()
+    assert session.scene.visible == session.scene.objects[:1]
+    assert (hand.pixels() != before).mean() > 0.05
+    for _ in range(4):
+        hand.there(session.undo)
+        hand.settle()
+    assert session.scene == scene_of(shapes, materials, render=session.scene.render.model_dump())
+    hand.window.app.selected = None
+    reopen(hand)
