@@ -21,80 +21,25 @@ from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.scene.scene import Scene, with_lights
 from tests.mitsuba.engine import LLVM_PACKAGE
-from tests.support.alarms import ALPHA, book
-from tests.support.builders import (
-    box,
-    cylinder,
-    disk,
-    glass,
-    lamp,
-    plane,
-    quad,
-    scene_of,
-    sphere,
+from tests.mitsuba.scenes import (
+    GLASS_BOX,
+    MATERIALS,
+    ROUND_LAMP,
+    TUBE,
+    everything,
+    glowing,
+    meshes,
+    solids,
+    solids_but,
 )
-from tests.support.meshes import blob, icosphere, mesh, quads
+from tests.support.alarms import ALPHA, book
+from tests.support.builders import glass, plane, scene_of, sphere
 from tests.support.renders import rendered
 from tests.support.system_packages import needs_package
-
-# Each shape and material; a lamp seen from both sides, and sheared: Mitsuba has rectangles for
-# those that are not.
-MATERIALS: dict[str, dict[str, Any]] = {
-    "white": {"type": "lambertian", "color": [0.8, 0.75, 0.7]},
-    "glass": glass(1.5),
-    "mirror": {"type": "metal", "color": [0.9, 0.7, 0.5]},
-    "rough": {"type": "metal", "color": [0.6, 0.8, 0.9], "roughness": 0.5},
-    "screen": lamp(4.0, 0.3),
-    "bulb": {"type": "light", "emission": [9.0, 6.0, 3.0]},
-}
-OBJECTS = [
-    plane([0, 0, 0], [0, 2, 0], "white"),
-    sphere([-1.1, 0.5, 0.2], 0.5, "glass"),
-    sphere([0, 0.5, 0.4], 0.5, "rough"),
-    sphere([1.1, 0.5, 0.2], 0.5, "mirror"),
-    sphere([0.5, 1.5, -0.6], 0.2, "bulb"),
-    quad([-1.6, 0.3, -1.0], [1.2, 0.2, 0], [0.2, 1.1, -0.1], "screen"),
-]
-CAMERA = {"position": [0.3, 1.3, 4.0], "look_at": [0.0, 0.6, 0.0], "defocus_angle": 8.0}
-SKY = {"bottom": [0.5, 0.3, 0.1], "top": [0.1, 0.3, 0.6]}
 
 NO_WHEEL = "Mitsuba has no wheel for this system"
 SMALL = {"width": 48, "height": 48, "bounces": 3, "roulette": False}
 SAMPLES = 256
-
-
-# Those of which Mitsuba has its own: a cube, a wall without ends, and a disk of one side.
-ROUND_LAMP = disk([0.4, 2.2, 0.3], [0.3, 1, 0.2], 0.4, "screen")
-GLASS_BOX = box([-1.6, 0.1, -0.3], [-0.6, 1.0, 0.6], "glass", [10, 35, -5])
-TUBE = cylinder([0.2, 0.3, 0.6], [0.35, 0.45, 1.3], 0.3, "white", capped=False)
-SOLIDS = [
-    plane([0, 0, 0], [0, 2, 0], "white"),
-    ROUND_LAMP,
-    GLASS_BOX,
-    TUBE,
-    box([-0.3, 0.05, -1.5], [0.6, 1.3, -1.0], "rough", [0, 20, 0]),
-    box([1.5, 0.1, 0.6], [1.7, 0.3, 0.8], "bulb"),
-    cylinder([0.9, 0.02, 0.1], [0.9, 0.9, 0.1], 0.35, "glass"),
-    cylinder([-0.5, 0.3, 1.2], [-0.2, 0.3, 1.3], 0.2, "mirror"),
-    cylinder([1.5, 0.1, -0.9], [1.6, 1.0, -0.9], 0.15, "bulb", capped=False),
-    disk([-0.9, 1.3, -0.9], [0.4, -0.2, 1], 0.5, "white"),
-]
-
-
-def solids(*objects: dict[str, Any]) -> Scene:
-    """Disks, boxes and cylinders of several materials."""
-    return scene_of(list(objects) or SOLIDS, MATERIALS, CAMERA, background=SKY)
-
-
-def solids_but(old: dict[str, Any], **changes: Any) -> Scene:
-    """With one of them changed."""
-    return solids(*(item | changes if item is old else item for item in SOLIDS))
-
-
-def everything(roughness: float = 0.5, **camera: Any) -> Scene:
-    """All of the above, with another roughness or camera."""
-    rough = MATERIALS["rough"] | {"roughness": roughness}
-    return scene_of(OBJECTS, MATERIALS | {"rough": rough}, CAMERA | camera, background=SKY)
 
 
 @pytest.fixture(scope="module")
@@ -168,25 +113,6 @@ def test_a_planted_difference_of_solids_is_found(
     assert not found, str(found)
 
 
-def meshes() -> Scene:
-    """A matte ball with facets, a metal one without, a glass one, and a lamp of triangles."""
-    fine, coarse = blob(3), icosphere(1)
-    return scene_of(
-        [
-            plane([0, 0, 0], [0, 2, 0], "white"),
-            mesh(blob(2), "white", scale=0.5, translate=[0, 0.6, 0.4], smooth=False),
-            mesh(
-                fine, "rough", scale=[0.5, 0.6, 0.4], translate=[1.1, 0.7, 0.2], rotate=[0, 30, 0]
-            ),
-            mesh(coarse, "glass", scale=0.5, translate=[-1.1, 0.55, 0.2], smooth=False),
-            mesh(coarse, "bulb", scale=[-0.2, 0.3, 0.2], translate=[0.5, 1.5, -0.6], smooth=False),
-        ],
-        MATERIALS,
-        CAMERA,
-        background=SKY,
-    )
-
-
 def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     scene = meshes()
     picture = theirs(mitsuba, scene)
@@ -197,33 +123,6 @@ def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> Non
     objects[2] = objects[2].model_copy(update={"translate": (1.15, 0.7, 0.2)})
     turned = scene.model_copy(update={"objects": tuple(objects)})
     assert not judged(ours(context, turned), picture)
-
-
-FRONT = {"emission_side": "front"}
-
-
-def glowing(**changes: Any) -> Scene:
-    """Metal and matte balls that emit, lamps of one side, and a ball that is hidden."""
-    materials = {
-        "iron": MATERIALS["rough"] | {"emission": [0.9, 0.3, 0.1]},
-        "moss": MATERIALS["white"] | {"emission": [0.1, 0.4, 0.2]},
-    }
-    panel = quad([-1.6, 0.3, -1.0], [1.2, 0, 0], [0, 1.1, 0], "screen") | {"group": "panel"}
-    sail = quads(
-        [[1.2, 0.2, -1], [0.1, 0, 0.6], [0.2, 0.8, 0]], [[1.5, 1.2, -1], [0, 0, 0.5], [0.4, 0, 0]]
-    )
-    objects = [
-        plane([0, 0, 0], [0, 2, 0], "white"),
-        sphere([-0.6, 0.5, 0.6], 0.5, "iron"),
-        sphere([0.6, 0.4, 0.6], 0.4, "moss"),
-        sphere([0, 0.5, 1.6], 0.6, "mirror") | {"hidden": True},
-        panel | FRONT | changes,
-        disk([0.4, 2.2, 0.3], [0.3, -1, 0.2], 0.4, "bulb") | FRONT,
-        mesh(sail, "bulb", smooth=False) | FRONT,
-    ]
-    return scene_of(
-        objects, MATERIALS | materials, CAMERA, background=SKY, lights={"panel": 0.5, "iron": 2.0}
-    )
 
 
 def test_glowing_surfaces_and_one_sided_lamps_look_the_same_to_mitsuba(
