@@ -5,6 +5,7 @@ from tests.mutation.mutant import Edit, Mutant, edit
 _EMISSION = "lights/emission.glsl"
 _CONES = "shaders/test_emission.py::test_emission_has_the_share_of_the_cone"
 _TRUTHS = "truths/test_emission.py"
+_KEYS = "truths/test_object_keys.py"
 
 LIGHTS = [
     Mutant(
@@ -78,7 +79,7 @@ LIGHTS = [
                 "material.group or name or group",
             ),
         ),
-        f"{_TRUTHS}::test_objects_of_one_material_have_groups_of_their_own",
+        f"{_KEYS}::test_objects_of_one_material_have_groups_of_their_own",
     ),
     Mutant(
         "hidden objects are rendered",
@@ -86,6 +87,6 @@ LIGHTS = [
             Edit("glrt/rendering/pack_shapes.py", " if not shape.hidden", ""),
             Edit("glrt/scene/scene.py", " if not thing.hidden", ""),
         ),
-        f"{_TRUTHS}::test_a_hidden_object_is_not_there",
+        f"{_KEYS}::test_a_hidden_object_is_not_there",
     ),
 ]

@@ -1,5 +1,5 @@
-"""Spots, lamps of one side, surfaces that reflect and emit: closed forms, or the bits of a scene that
-says the same."""
+"""Spots, lamps of one side, and surfaces that reflect and emit: closed forms, or the bits of a
+scene that says the same."""
 
 import math
 from typing import Any
