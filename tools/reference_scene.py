@@ -88,8 +88,10 @@ def kind(part: dict[str, Any]) -> str:
     if "enum" in part:
         return ", ".join(f"`{value}`" for value in part["enum"])
     if "prefixItems" in part:
+        first = part["prefixItems"][0]
         words = {"integer": "whole numbers", "number": "numbers"}
-        return f"{len(part['prefixItems'])} {words[part['prefixItems'][0]['type']]}"
+        what = f"rows of {kind(first)}" if "prefixItems" in first else words[first["type"]]
+        return f"{len(part['prefixItems'])} {what}"
     if part.get("type") == "array":
         return f"{part['maxItems']} numbers" if "minItems" in part else "list of tables"
     if part.get("type") == "object" or "$ref" in part or "allOf" in part:

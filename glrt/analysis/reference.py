@@ -127,11 +127,12 @@ def closed_form(scene: Scene) -> float | None:
     """The radiance of a scene if it is the same everywhere, whatever the geometry; else None.
 
     Under a uniform background L a surface is invisible if it emits what it absorbs, e + albedo L =
-    L (white furnace). Glass, rough metal and smooth meshes are excluded: radiance is scaled inside
-    glass, rough metal loses the light of multiple scattering between microfacets, and
-    interpolated normals lose some near the silhouette.
+    L (white furnace). Glass, rough metal, smooth and coloured meshes are excluded: radiance is
+    scaled inside glass, rough metal loses the light of multiple scattering between microfacets,
+    interpolated normals lose some near the silhouette, and colours of vertices are not looked at.
     """
-    if scene.background.image is not None or contents_of(scene).is_smooth:
+    found = contents_of(scene)
+    if scene.background.image is not None or found.is_smooth or found.is_colored:
         return None
     levels = {level for color in scene.background_colors for level in color}
     level = min(levels)

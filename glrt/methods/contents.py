@@ -29,6 +29,7 @@ class Contents:
     triangles: int  # of all meshes
     bright_triangles: int  # of those that emit
     is_smooth: bool  # whether some mesh interpolates normals
+    is_colored: bool  # whether some mesh multiplies colours of its vertices with its material's
 
     @property
     def sampled_lamps(self) -> int:
@@ -114,6 +115,14 @@ def contents_of(scene: Scene) -> Contents:
     triangles = [len(mesh.triangles.faces) for mesh in meshes]
     bright = [count for mesh, count in zip(meshes, triangles, strict=True) if emits[mesh.material]]
     is_smooth = any(mesh.smooth for mesh in meshes)
+    is_colored = any(has_vertex_colors(scene, mesh) for mesh in meshes)
     finishes = tuple(scene.finishes)
     used = {finish.material: scene.materials[finish.material] for finish in finishes}
-    return Contents(shapes, used, finishes, lamps, sum(triangles), sum(bright), is_smooth)
+    counts = shapes, used, finishes, lamps, sum(triangles), sum(bright)
+    return Contents(*counts, is_smooth, is_colored)
+
+
+def has_vertex_colors(scene: Scene, mesh: Mesh) -> bool:
+    """Whether colours of its vertices are seen: glass has none."""
+    is_opaque = not scene.materials[mesh.material].is_transparent
+    return is_opaque and mesh.triangles.colors is not None

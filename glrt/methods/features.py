@@ -42,6 +42,7 @@ class Needs:
     has_sphere_tree: bool
     has_tree: bool  # over other shapes
     has_smooth: bool  # meshes whose normals are interpolated
+    has_vertex_color: bool  # meshes whose vertices have colours
     has_mirror: bool
     has_rough_metal: bool
     has_lens: bool
@@ -107,6 +108,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_sphere_tree=found.has_sphere_tree,
         has_tree=bool(found.tree_kinds),
         has_smooth=found.is_smooth,
+        has_vertex_color=found.is_colored,
         has_mirror=traits.follows
         and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
@@ -158,6 +160,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         ),
         Feature("tree of shapes", needs.has_tree or MESH in needs.shapes, _tree(found)),
         Feature("smooth normals", needs.has_smooth, _smooth(found)),
+        Feature("vertex colours", needs.has_vertex_color, _colored(found)),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
         *(
@@ -212,6 +215,10 @@ def _tree(found: Contents) -> str:
 
 def _smooth(found: Contents) -> str:
     return "a mesh has smooth = true" if found.is_smooth else "no mesh has smooth = true"
+
+
+def _colored(found: Contents) -> str:
+    return "a mesh has colours" if found.is_colored else "no mesh has colours"
 
 
 def _made_of(names: Iterable[str], kind: str) -> str:

@@ -1,7 +1,7 @@
 """Why a scene is slow, where the user can change it."""
 
-from glrt.methods.contents import contents_of
-from glrt.methods.table import CLASSIC
+from glrt.methods.contents import MOST_LAMPS, contents_of
+from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from glrt.text import counted
@@ -12,7 +12,7 @@ LONG = 16  # bounces: paths that are followed further have hardly any light left
 
 def slow_because(scene: Scene, settings: Settings) -> list[str]:
     """A sentence or two for each reason: what takes the time, and what to do."""
-    found = (_one_by_one(scene), _no_roulette(settings))
+    found = (_one_by_one(scene), _unsampled(scene, settings), _no_roulette(settings))
     return [text for text in found if text]
 
 
@@ -24,6 +24,18 @@ def _one_by_one(scene: Scene) -> str:
     return (
         f"each ray is compared with {counted(planes, 'plane')} one by one: what has no end has no "
         "place in a tree. Quads have: use them for planes that need not be endless."
+    )
+
+
+def _unsampled(scene: Scene, settings: Settings) -> str:
+    """Triangles that emit, and are too many to be sampled."""
+    found = contents_of(scene)
+    if not METHODS[settings.method].uses_lamps or found.bright_triangles == found.lamp_triangles:
+        return ""
+    return (
+        f"{found.bright_triangles:,} triangles emit light, and a scene may have {MOST_LAMPS:,} "
+        "lamps that are sampled: the light of meshes is found by scattering alone, and noisy. Use "
+        "a mesh of fewer triangles for the lamp, or a quad."
     )
 
 

@@ -70,11 +70,15 @@ def resources_of(
 def _choice(scene: Scene) -> dict[str, bool | int]:
     found = contents_of(scene)
     aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
+    aimed["HAS_VERTEX_COLOR"] = found.is_colored
     return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights, **aimed}
 
 
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
-    trees, lamps = ("Node", "Slot", "Corner", "Triangle"), ("Emitter", "Light", "Cluster", "Aim")
+    trees, lamps = (
+        ("Node", "Slot", "Corner", "Triangle", "Tint"),
+        ("Emitter", "Light", "Cluster", "Aim"),
+    )
     others = (*trees, "Material", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -12,6 +12,7 @@ from glrt.accel.shape_tree import Boxes
 from glrt.accel.split_boxes import boxes_of
 from glrt.accel.triangle_pairs import paired
 from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid
+from glrt.methods.contents import Contents
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
@@ -68,6 +69,20 @@ def pack_triangles(found: Triangles, grid: Grid) -> PackedTriangles:
     corners = around.lower + grid.center, around.upper + grid.center
     boxes = Boxes("Triangle", 0, *corners, words)
     return PackedTriangles(boxes, _corners(local, found.normal), _triangles(exact, found))
+
+
+def pack_tints(scene: Scene, contents: Contents) -> Array:
+    """Rows of the struct Tint, one for each corner: white where a mesh has no colours."""
+    if not contents.is_colored:
+        return np.zeros(0, STRUCTS["Tint"])
+    meshes = [shape.triangles for shape in scene.visible if isinstance(shape, Mesh)]
+    rows = np.zeros(sum(len(mesh.vertices) for mesh in meshes), STRUCTS["Tint"])
+    first = 0
+    for mesh in meshes:
+        some = slice(first, first + len(mesh.vertices))
+        rows["color"][some] = 1 if mesh.colors is None else mesh.colors
+        first = some.stop
+    return rows
 
 
 def _corners(local: Array, normal: Array) -> Array:

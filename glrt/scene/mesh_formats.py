@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.errors import SceneError
+from glrt.scene.image_files import decode_srgb
 from glrt.scene.triangle_meshes import TriangleMesh, checked, places
 from glrt.text import quoted
 
@@ -20,7 +21,8 @@ FORMATS = (".ply", ".obj", ".stl")
 def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
     """The mesh in what a file holds; the suffix of its path tells the format.
 
-    Polygons are divided into triangles. Materials, colours and texture coordinates are not read.
+    Polygons are divided into triangles. Colours of vertices are linear where a PLY file has them as
+    floats, else sRGB. Materials, colours of faces and texture coordinates are not read.
     Raises `SceneError`, which begins with `where`, for what is no mesh.
     """
     suffix = PurePosixPath(path).suffix.lower()
@@ -33,7 +35,7 @@ def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
             tables = _reader(suffix)(BytesIO(content))
-        return _mesh(tables, is_loose=suffix == ".stl")
+        return _mesh(tables, suffix)
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except Exception as error:  # trimesh raises whatever its parts do
@@ -66,24 +68,44 @@ def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
     return readers[suffix]
 
 
-def _mesh(tables: dict[str, Any], is_loose: bool) -> TriangleMesh:
-    """Of what trimesh read: a mesh, or several by name; `is_loose`: no triangles share vertices."""
+def _mesh(tables: dict[str, Any], suffix: str) -> TriangleMesh:
+    """Of what trimesh read: a mesh, or several by name."""
     parts = list(tables["geometry"].values()) if "geometry" in tables else [tables]
     vertices, faces, first = [], [], 0
     normals: list[Any] = []
+    colors: list[Any] = []
     for part in parts:
         points = np.asarray(part["vertices"], np.float64).reshape(-1, 3)
         vertices.append(points)
         faces.append(_fans(np.asarray(part.get("faces", ()), np.int64)) + first)
         normals.append(part.get("vertex_normals"))
+        colors.append(_linear(part.get("vertex_colors"), suffix))
         first += len(points)
     if not vertices:
         raise ValueError("it has no triangles")
     points, triangles = np.concatenate(vertices), np.concatenate(faces)
-    if is_loose:
+    if suffix == ".stl":  # no triangles share vertices there
         return checked(points, places(points)[triangles])
-    has_normals = all(turned is not None for turned in normals)
-    return checked(points, triangles, np.concatenate(normals) if has_normals else None)
+    return checked(points, triangles, _joined(normals), _joined(colors))
+
+
+def _joined(parts: list[Any]) -> NDArray[Any] | None:
+    """Those of all parts, or none where one has none."""
+    return None if any(part is None for part in parts) else np.concatenate(parts)
+
+
+def _linear(colors: Any, suffix: str) -> NDArray[np.float64] | None:
+    """(v, 3) linear sRGB of colours, (v, 3 or more), None for none.
+
+    Whole numbers are codes of sRGB up to the largest of their type. PLY files state no encoding for
+    floats, which programs write linear; those of OBJ files are sRGB.
+    """
+    if colors is None:
+        return None
+    found = np.asarray(colors)[:, :3]
+    if found.dtype.kind in "iu":
+        return decode_srgb(found / np.iinfo(found.dtype).max)
+    return decode_srgb(found) if suffix == ".obj" else found.astype(np.float64)
 
 
 def _fans(polygons: NDArray[np.int64]) -> NDArray[np.int64]:

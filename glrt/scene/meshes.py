@@ -1,6 +1,7 @@
 """Triangle meshes in a scene: which, where, and with which normals."""
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -10,7 +11,7 @@ from glrt.scene.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
 from glrt.scene.objects import Array, Sided, along_and_rest
 from glrt.scene.solids import rotation
 from glrt.scene.triangle_meshes import TriangleMesh
-from glrt.scene.values import LARGEST, SMALLEST, Number, Triple, Vector
+from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
 
@@ -37,12 +38,28 @@ Factors = Annotated[
 ]
 
 
-class Mesh(Sided):
-    """Triangles of a file: scaled, then turned, then moved.
+def _with_a_volume(rows: Any) -> Any:
+    if rows[3] != (0, 0, 0, 1):
+        raise ValueError("must end with the row 0, 0, 0, 1")
+    lengths = np.linalg.norm(np.array(rows)[:3, :3], axis=0)
+    if lengths.min() < SMALLEST or abs(np.linalg.det(np.array(rows)[:3, :3] / lengths)) < _FLATTEST:
+        raise ValueError("must not make the mesh flat: its columns lie in a plane")
+    return rows
 
-    Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, material=...)`:
-    places of vertices, (v, 3); the numbers of those of each triangle, (n, 3), counter-clockwise
-    seen from outside; and normals at the vertices, (v, 3). Such a mesh is saved beside its scene.
+
+_FLATTEST = 1e-9  # volume between unit columns
+_Row = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
+Matrix = Annotated[tuple[_Row, _Row, _Row, _Row], AfterValidator(_with_a_volume)]
+
+
+class Mesh(Sided):
+    """Triangles of a file: taken by its matrix, then scaled, then turned, then moved.
+
+    Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, colors=None,
+    material=...)`: places of vertices, (v, 3); the numbers of those of each triangle, (n, 3),
+    counter-clockwise seen from outside; normals at the vertices, (v, 3); and linear colours there,
+    (v, 3) of 0 to 1, by which that of the material is multiplied. Such a mesh is saved beside its
+    scene.
     """
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
@@ -58,6 +75,11 @@ class Mesh(Sided):
     scale: Factors = Field(
         (1.0, 1.0, 1.0),
         description="a factor of its size, or one along each axis of the file; negative: mirrored",
+    )
+    matrix: Matrix | None = Field(
+        None,
+        description="four rows of four numbers, by which points of the file are multiplied, as "
+        "columns, before they are scaled; default: they stay as they are",
     )
     smooth: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
@@ -76,11 +98,13 @@ class Mesh(Sided):
             vertices: Any = None,
             faces: Any = None,
             normals: Any = None,
+            colors: Any = None,
             *,
             file: MeshFile | str | None = None,
             translate: Triple = (0, 0, 0),
             rotate: Triple = (0, 0, 0),
             scale: Number | Triple = 1,
+            matrix: Sequence[Sequence[Number]] | Array | None = None,
             smooth: bool = True,
             material: str,
             name: str | None = None,
@@ -91,12 +115,12 @@ class Mesh(Sided):
 
     else:
 
-        def __init__(self, vertices=None, faces=None, normals=None, **fields):
+        def __init__(self, vertices=None, faces=None, normals=None, colors=None, **fields):
             """Raises ValueError, which says what is wrong with which row of an array."""
             if vertices is not None or faces is not None:
                 if "file" in fields:
                     raise ValueError("a mesh is given by arrays or by a file, not by both")
-                fields["file"] = mesh_of_arrays(vertices, faces, normals)
+                fields["file"] = mesh_of_arrays(vertices, faces, normals, colors)
             super().__init__(**fields)
 
     @property
@@ -107,35 +131,46 @@ class Mesh(Sided):
         return self.file.triangles
 
     @property
-    def matrix(self) -> Array:
-        """(3, 3): from the axes of the file to those of the scene, before it is moved."""
+    def linear(self) -> Array:
+        """(3, 3): from the axes of the file to those of the scene."""
+        return self._turned() @ self._given()[:, :3]
+
+    @property
+    def origin(self) -> Array:
+        """(3,): where the origin of the file lies."""
+        return self._turned() @ self._given()[:, 3] + np.array(self.translate)
+
+    def _turned(self) -> Array:
         turned: Array = rotation(self.rotate) * np.array(self.scale)
         return turned
+
+    def _given(self) -> Array:
+        return np.eye(4)[:3] if self.matrix is None else np.array(self.matrix)[:3]
 
     @property
     def world_vertices(self) -> Array:
         """(v, 3), in scene units."""
-        vertices: Array = self.triangles.vertices @ self.matrix.T + np.array(self.translate)
+        vertices: Array = self.triangles.vertices @ self.linear.T + self.origin
         return vertices
 
     @property
     def world_normals(self) -> Array:
         """(v, 3), of any length: normals turn by the inverse, transposed; outwards as they were."""
-        turned: Array = self.triangles.shading_normals @ np.linalg.inv(self.matrix)
+        turned: Array = self.triangles.shading_normals @ np.linalg.inv(self.linear)
         return turned
 
     @property
     def is_upright(self) -> bool:
         """Whether it is not mirrored."""
-        return bool(np.prod(np.sign(self.scale)) > 0)
+        return bool(np.linalg.det(self.linear) > 0)
 
     @property
     def middle(self) -> Vector:
         """The middle of the box around it, in its own axes; before it is read, its origin."""
-        center = np.array(self.translate)
+        center = self.origin
         if self.file.triangles is not None:
             low, high = self.file.triangles.box
-            center = self.matrix @ ((low + high) / 2) + center
+            center = self.linear @ ((low + high) / 2) + center
         x, y, z = (float(value) for value in center)
         return (x, y, z)
 
@@ -146,7 +181,7 @@ class Mesh(Sided):
             return 0.0
         low, high = self.file.triangles.box
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-        corners = (signs * (high - low) / 2) @ self.matrix.T
+        corners = (signs * (high - low) / 2) @ self.linear.T
         return float(np.linalg.norm(corners, axis=1).max())
 
     @property
@@ -167,8 +202,8 @@ class Mesh(Sided):
 
     def distance(self, origin: Array, direction: Array) -> float:
         """How far a ray goes to the nearest triangle; inf for a miss."""
-        inverse = np.linalg.inv(self.matrix)
-        start, along = inverse @ (origin - np.array(self.translate)), inverse @ direction
+        inverse = np.linalg.inv(self.linear)
+        start, along = inverse @ (origin - self.origin), inverse @ direction
         mesh = self.triangles
         a, b, c = (mesh.vertices[mesh.faces[:, k]] - start for k in range(3))
         u, v, w = (np.cross(x, y) @ along for x, y in ((c, b), (a, c), (b, a)))

@@ -35,12 +35,12 @@ class MeshFile(NamedFile):
         return found
 
 
-def mesh_of_arrays(vertices: Any, faces: Any, normals: Any = None) -> MeshFile:
+def mesh_of_arrays(vertices: Any, faces: Any, normals: Any = None, colors: Any = None) -> MeshFile:
     """A mesh from arrays, under the name of the file that it is saved as.
 
     Raises ValueError, which says what is wrong with which row.
     """
-    triangles = checked(vertices, faces, normals)
+    triangles = checked(vertices, faces, normals, colors)
     content = _ply(triangles)
     sha256 = hashlib.sha256(content).hexdigest()
     named = MeshFile(file=f"mesh-{sha256[:12]}.ply")
@@ -51,8 +51,9 @@ def mesh_of_arrays(vertices: Any, faces: Any, normals: Any = None) -> MeshFile:
 
 def _ply(mesh: TriangleMesh) -> bytes:
     """A binary PLY file with every digit."""
-    names = ["x", "y", "z"] + (["nx", "ny", "nz"] if mesh.normals is not None else [])
-    columns = [mesh.vertices] + ([mesh.normals] if mesh.normals is not None else [])
+    tables = {"x y z": mesh.vertices, "nx ny nz": mesh.normals, "red green blue": mesh.colors}
+    there = {names: rows for names, rows in tables.items() if rows is not None}
+    names, columns = " ".join(there).split(), list(there.values())
     rows = np.zeros(len(mesh.faces), [("count", "u1"), ("corners", "<i4", 3)])
     rows["count"], rows["corners"] = 3, mesh.faces
     lines = [

@@ -1,7 +1,7 @@
 """Triangle meshes as arrays: checked, with normals, and whether they enclose a volume."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -24,6 +24,7 @@ class TriangleMesh:
     vertices: Floats  # (v, 3)
     faces: Ints  # (n, 3): numbers of vertices
     normals: Floats | None  # (v, 3), of any length above 0; None: none were given
+    colors: Floats | None = None  # (v, 3), linear sRGB, 0 to 1 each; None: none were given
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -65,7 +66,7 @@ class TriangleMesh:
         """The same, with the triangles of a closed mesh turned over if they face inwards."""
         if self.opening or self._volume() >= 0:
             return self
-        return TriangleMesh(self.vertices, self.faces[:, ::-1].copy(), self.normals)
+        return replace(self, faces=self.faces[:, ::-1].copy())
 
     def _volume(self) -> float:
         a, b, c = (self.vertices[self.faces[:, k]] - self.box[0] for k in range(3))
@@ -89,15 +90,16 @@ class TriangleMesh:
         return mean
 
 
-def checked(vertices: Any, faces: Any, normals: Any = None) -> TriangleMesh:
-    """A mesh of arrays, (v, 3), (n, 3) and (v, 3); triangles of two equal corners are left out.
+def checked(vertices: Any, faces: Any, normals: Any = None, colors: Any = None) -> TriangleMesh:
+    """A mesh of arrays as of `TriangleMesh`; triangles of two equal corners are left out.
 
     Raises ValueError, which says what is wrong with which row.
     """
     points = _table(vertices, "vertices", np.float64)
     triangles = _table(faces, "faces", np.int64)
     turned = None if normals is None else _table(normals, "normals", np.float64)
-    problem = next(_problems(points, triangles, turned), None)
+    dyes = None if colors is None else _table(colors, "colors", np.float64)
+    problem = next(_problems(points, triangles, turned, dyes), None)
     if problem:
         raise ValueError(problem)
     equal = triangles == np.roll(triangles, 1, axis=1)
@@ -107,7 +109,8 @@ def checked(vertices: Any, faces: Any, normals: Any = None) -> TriangleMesh:
     used = np.zeros(len(points), bool)
     used[kept] = True
     rank = np.cumsum(used) - 1
-    return TriangleMesh(points[used], rank[kept], None if turned is None else turned[used])
+    others = (None if rows is None else rows[used] for rows in (turned, dyes))
+    return TriangleMesh(points[used], rank[kept], *others)
 
 
 def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
@@ -124,7 +127,9 @@ def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
     return np.ascontiguousarray(found, dtype)
 
 
-def _problems(vertices: Floats, faces: Ints, normals: Floats | None) -> Iterator[str]:
+def _problems(
+    vertices: Floats, faces: Ints, normals: Floats | None, colors: Floats | None
+) -> Iterator[str]:
     if not len(faces):
         yield "it has no triangles"
     if len(faces) > MOST_TRIANGLES:
@@ -144,11 +149,16 @@ def _problems(vertices: Floats, faces: Ints, normals: Floats | None) -> Iterator
     if wrong.any():
         row = int(wrong.argmax())
         yield f"vertex {row} has a coordinate that is no number from {_range()}"
-    if normals is not None and len(normals) != len(vertices):
-        yield f"it has {len(normals):,} normals for {len(vertices):,} vertices"
-    elif normals is not None and not np.isfinite(normals[used]).all():
+    for name, rows in (("normals", normals), ("colors", colors)):
+        if rows is not None and len(rows) != len(vertices):
+            yield f"it has {len(rows):,} {name} for {len(vertices):,} vertices"
+            return
+    if normals is not None and not np.isfinite(normals[used]).all():
         row = int((used & ~np.isfinite(normals).all(axis=1)).argmax())
         yield f"the normal of vertex {row} is not finite"
+    if colors is not None and not ((colors >= 0) & (colors <= 1))[used].all():
+        row = int((used & ~((colors >= 0) & (colors <= 1)).all(axis=1)).argmax())
+        yield f"the color of vertex {row} is not three numbers from 0 to 1"
 
 
 def _range() -> str:

@@ -16,7 +16,7 @@ vec3 albedo_of(Material material) {
 vec3 aov_of(int aov, Ray ray, Hit hit) {
     if (hit.shape == NO_SHAPE) return aov == DEPTH || aov == POSITION ? nothing_met() : vec3(0.0);
     precise Surface surface = surface_at(ray, hit);
-    if (aov == ALBEDO) return albedo_of(material_at(surface.material));
+    if (aov == ALBEDO) return albedo_of(material_of(ray, surface));
     if (aov == NORMAL) return dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
     if (aov == DEPTH) return vec3(dot(surface.position, frame.camera.forward));
     if (aov == POSITION) return surface.position;

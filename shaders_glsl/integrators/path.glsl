@@ -147,7 +147,7 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
         return false;
     }
     precise Surface surface = surface_at(path.ray, hit);
-    precise Material material = material_at(surface.material);
+    precise Material material = material_of(path.ray, surface);
     precise float share = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
     bool facing = dot(path.ray.direction, true_normal(surface)) < 0.0;
     precise vec3 emission = emitted(material, -path.ray.direction, facing);

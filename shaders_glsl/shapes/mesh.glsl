@@ -98,20 +98,23 @@ vec3 smooth_normal(Triangle triangle, vec3 shares, Corner a, Corner b, Corner c)
     return dot(normal, triangle.normal) < 0.0 ? -normal : normal;
 }
 
+// The shares of the corners in the point that the ray met, 1 in sum.
+vec3 met_shares(Ray ray, Corner a, Corner b, Corner c) {
+    precise ShearedRay turned = sheared(ray);
+    precise vec3 shares = corner_shares(
+        sheared_point(turned, a.position), sheared_point(turned, b.position), sheared_point(turned, c.position));
+    precise float sum = shares.x + shares.y + shares.z;
+    if (sum == 0.0) return vec3(1.0, 0.0, 0.0);  // of rounding, where a sliver is seen from its edge
+    shares /= sum;
+    return shares;
+}
+
 Surface mesh_surface(Ray ray, int shape) {
     precise Triangle triangle = triangle_of(shape);
     precise Corner a = corner_at(triangle.corners.x);
     precise Corner b = corner_at(triangle.corners.y);
     precise Corner c = corner_at(triangle.corners.z);
-    precise ShearedRay turned = sheared(ray);
-    precise vec3 shares = corner_shares(
-        sheared_point(turned, a.position), sheared_point(turned, b.position), sheared_point(turned, c.position));
-    precise float sum = shares.x + shares.y + shares.z;
-    if (sum == 0.0) {  // of rounding, where a sliver is seen from its edge
-        shares = vec3(1.0, 0.0, 0.0);
-        sum = 1.0;
-    }
-    shares /= sum;
+    precise vec3 shares = met_shares(ray, a, b, c);
     precise vec3 place = shares.x * a.position + shares.y * b.position + shares.z * c.position;
     precise Mesh mesh = mesh_at(mesh_of(triangle));
     precise vec3 normal = triangle.normal;
@@ -124,4 +127,15 @@ Surface mesh_surface(Ray ray, int shape) {
 vec3 true_normal(Surface surface) {
     if (HAS_SMOOTH && is_triangle(surface.shape)) return triangle_of(surface.shape).normal;
     return surface.normal;
+}
+
+// The colour between those of the corners, in the point of a triangle that the ray met: the same to the bit
+// where theirs are.
+vec3 vertex_color(Ray ray, int shape) {
+    ivec3 corners = triangle_of(shape).corners;
+    precise vec3 shares = met_shares(ray, corner_at(corners.x), corner_at(corners.y), corner_at(corners.z));
+    precise vec3 first = tint_at(corners.x).color;
+    precise vec3 color = first + shares.y * (tint_at(corners.y).color - first)
+                       + shares.z * (tint_at(corners.z).color - first);
+    return clamp(color, 0.0, 1.0);
 }

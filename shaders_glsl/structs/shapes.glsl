@@ -71,6 +71,12 @@ struct Corner {
     uint normal;  // unit, on an octahedron: see unpacked_normal
 };
 
+// Of a corner, where some mesh has colours of its own.
+struct Tint {
+    vec3 color;  // linear, by which that of the material is multiplied
+    int spare;   // fills the row
+};
+
 struct Triangle {
     ivec3 corners;
     uint owner;   // its mesh; from bit 16 on its light + 1, or 0

@@ -52,6 +52,7 @@ PROBES = {
     "HAS_TREE": ("shapes/tree.glsl", "int(slot.d.w & LINK)", "int({} * float(slot.d.w & LINK))"),
     "HAS_MESH": ("shapes/mesh.glsl", "shares.y * b.z", "{} * shares.y * b.z"),
     "HAS_SMOOTH": ("shapes/mesh.glsl", "shares.y * normalized(", "{} * shares.y * normalized("),
+    "HAS_VERTEX_COLOR": ("shapes/mesh.glsl", "first + shares.y", "first + {} * shares.y"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
@@ -87,6 +88,7 @@ NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
     "HAS_TREE": {"HAS_DISK"},
     "HAS_SMOOTH": {"HAS_MESH"},
+    "HAS_VERTEX_COLOR": {"HAS_MESH"},
     "HAS_ONE_SIDED": {"HAS_DISK"},
     "HAS_MESH_LIGHT": {"HAS_MESH", "SAMPLE_LIGHTS"},
     "HAS_HORIZON": {"HAS_BACKGROUND"},
@@ -105,7 +107,7 @@ GONE_TOO = {
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},
-    "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH"},
+    "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH", "HAS_VERTEX_COLOR"},
     "WEIGHT_BOTH": {"QUADS_BY_AREA"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
@@ -155,7 +157,8 @@ def _flat_shape(flags: set[str]) -> dict[str, Any]:
 
 def _triangle(material: str, flags: set[str]) -> dict[str, Any]:
     faces = np.eye(3), np.array([[0, 1, 2]])
-    return mesh(faces, material, smooth="HAS_SMOOTH" in flags)
+    colors = np.eye(3) if "HAS_VERTEX_COLOR" in flags else None
+    return mesh(faces, material, smooth="HAS_SMOOTH" in flags, colors=colors)
 
 
 def _cone_lamp(flags: set[str]) -> dict[str, Any]:

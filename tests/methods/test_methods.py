@@ -18,15 +18,21 @@ from tests.support.renders import METHODS, assert_agree, rendered
 
 
 def methods_agree(
-    scene: Scene, context: Context, samples: Samples, within: float, **settings: Any
+    scene: Scene,
+    context: Context,
+    samples: Samples,
+    within: float,
+    loose: float = 1,
+    **settings: Any,
 ) -> None:
+    """`naive` is held to `loose` times the width of the others."""
     pictures = [
         rendered(scene, context, count, method=method, seed=seed, **settings)
         for seed, (method, count) in enumerate(zip(METHODS, samples, strict=True))
     ]
-    *others, mis = pictures
-    for other in others:
-        assert_agree(other, mis, within)
+    naive, nee, mis = pictures
+    assert_agree(naive, mis, within * loose)
+    assert_agree(nee, mis, within)
 
 
 @pytest.mark.parametrize("name", HARD)
@@ -50,6 +56,9 @@ LIT = [name for name in scene_names() if is_lit_by_lamps(name)]
 UNLIT = [name for name in scene_names() if not is_lit_by_lamps(name)]
 
 
+SPOTS = 32, 5  # times the samples of `naive`, and its width: small lamps that it seldom finds
+
+
 def small(name: str, height: int) -> dict[str, int]:
     """The frame of a scene file at another height, in whole blocks of 8 pixels."""
     wish = load(name).render
@@ -59,8 +68,9 @@ def small(name: str, height: int) -> dict[str, int]:
 @pytest.mark.parametrize("name", LIT)
 def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
     """Blocks grow until the caustics, the rarest hits, stop ruling them."""
-    samples = Samples(naive=2048, nee=4096, mis=1024)  # nee suffers from polished metal
-    methods_agree(load(name), context, samples, 0.05, **small(name, 16))
+    more, loose = SPOTS if name == "stage" else (1, 1)
+    samples = Samples(naive=2048 * more, nee=4096, mis=1024)  # nee suffers from polished metal
+    methods_agree(load(name), context, samples, 0.05, loose, **small(name, 16))
 
 
 @pytest.mark.slow
@@ -68,8 +78,9 @@ def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
 def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> None:
     """With nee on cornell too: its lamp hangs a thousandth of the room below the ceiling."""
     more = 3 if name == "table" else 1  # its glasses throw caustics
-    samples = Samples(naive=8192 * more, nee=8192 * more, mis=4096 * more)
-    methods_agree(load(name), context, samples, 0.015, **small(name, 32))
+    rare, loose = SPOTS if name == "stage" else (1, 1)
+    samples = Samples(naive=8192 * more * rare, nee=8192 * more, mis=4096 * more)
+    methods_agree(load(name), context, samples, 0.015, loose, **small(name, 32))
 
 
 @pytest.mark.parametrize("name", UNLIT)

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from glrt.cli.main import main
@@ -10,7 +11,8 @@ from glrt.methods.slowness import slow_because
 from glrt.scene.scene import Scene
 from glrt.scene.toml_writer import write_scene
 from glrt.settings import Settings, settings_for
-from tests.support.builders import MATTE, plane, quad, scene_of, sphere
+from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
+from tests.support.meshes import mesh
 
 
 def planes(count: int) -> Scene:
@@ -33,6 +35,18 @@ def test_what_has_an_end_has_a_tree() -> None:
     things = [quad([0.2 * k, 0, -1], [0.1, 0, 0], [0, 0.1, 0], "white") for k in range(100)]
     things += [sphere([k, 0, -9], 0.4, "white") for k in range(40)]
     assert slow_because(scene_of(things, {"white": MATTE}), settings()) == []
+
+
+@pytest.mark.parametrize(
+    ("count", "method", "is_slow"),
+    [(65_535, "mis", False), (65_536, "mis", True), (65_536, "naive", False)],
+)
+def test_lamps_of_too_many_triangles_are_told(count: int, method: str, is_slow: bool) -> None:
+    vertices = np.concatenate([np.eye(3), np.random.default_rng(1).normal(size=(count - 1, 3))])
+    faces = [[0, 1, 2]] + [[0, 1, k + 3] for k in range(count - 1)]
+    scene = scene_of([mesh((vertices, np.array(faces)), "lamp")], {"lamp": lamp(1.0)})
+    found = slow_because(scene, settings(method=method))
+    assert ["65,536 triangles emit" in text for text in found] == [True] * is_slow
 
 
 @pytest.mark.parametrize(

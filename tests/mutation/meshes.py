@@ -4,6 +4,7 @@ from tests.mutation.mutant import Edit, Mutant, edit
 
 _HITS = "rendering/test_mesh_hits.py"
 _TRUTHS = "truths/test_meshes.py"
+_COLORS = "truths/test_vertex_colors.py"
 
 MESHES = [
     Mutant(
@@ -52,8 +53,8 @@ MESHES = [
         (
             Edit(
                 "glrt/scene/meshes.py",
-                "self.triangles.shading_normals @ np.linalg.inv(self.matrix)",
-                "self.triangles.shading_normals @ self.matrix.T",
+                "self.triangles.shading_normals @ np.linalg.inv(self.linear)",
+                "self.triangles.shading_normals @ self.linear.T",
             ),
         ),
         "scene/test_triangle_meshes.py::test_normals_stay_across_and_outside_of_what_is_stretched_or_mirrored",
@@ -81,5 +82,31 @@ MESHES = [
             "precise vec3 facing = surface.normal;",
         ),
         f"{_TRUTHS}::test_light_from_behind_a_triangle_does_not_light_it",
+    ),
+    Mutant(
+        "colours of two corners change places",
+        edit("shapes/mesh.glsl", "(tint_at(corners.y).color", "(tint_at(corners.z).color"),
+        f"{_COLORS}::test_between_the_corners_colours_are_linear",
+    ),
+    Mutant(
+        "hidden meshes push the colours of others",
+        (
+            Edit(
+                "glrt/rendering/pack_mesh.py",
+                "for shape in scene.visible if isinstance(shape, Mesh)]",
+                "for shape in scene.objects if isinstance(shape, Mesh)]",
+            ),
+        ),
+        f"{_COLORS}::test_each_mesh_has_its_own_colours",
+    ),
+    Mutant(
+        "codes of sRGB at vertices are taken for light",
+        (Edit("glrt/scene/mesh_formats.py", "return decode_srgb(found / ", "return (found / "),),
+        "scene/test_mesh_colors.py::test_colours_are_read_as_linear_light",
+    ),
+    Mutant(
+        "floats of PLY files are taken for sRGB",
+        (Edit("glrt/scene/mesh_formats.py", 'if suffix == ".obj" else', "if True else"),),
+        "scene/test_mesh_colors.py::test_colours_are_read_as_linear_light",
     ),
 ]

@@ -256,6 +256,7 @@ def test_the_command_tells_of_the_mesh(folder: Path, capsys: pytest.CaptureFixtu
         (('"models/thing.ply"', "3"), "objects[0].file must be the path of a file"),
         (("scale = 1.5", "scale = 0.0"), "objects[0].scale must be numbers of at least"),
         (("scale = 1.5", "scale = [1, 2]"), "objects[0].scale"),
+        (("scale = 1.5", "matrix = [[1, 0], [0, 1]]"), "objects[0].matrix"),
         (("scale = 1.5", "size = 1.5"), "unknown key 'size'. Keys of a mesh"),
         (('type = "lambertian"\ncolor = [0.7, 0.5, 0.3]', 'type = "dielectric"'), ""),
     ],

@@ -158,7 +158,7 @@ def test_a_mesh_is_scaled_then_turned_then_moved(scale: Any) -> None:
 def test_normals_stay_across_and_outside_of_what_is_stretched_or_mirrored(scale: Any) -> None:
     ball = glrt.Mesh(*icosphere(4), material="white", scale=scale, rotate=(10.0, 20.0, 30.0))
     normals = ball.world_normals / np.linalg.norm(ball.world_normals, axis=1, keepdims=True)
-    back = np.linalg.inv(ball.matrix)
+    back = np.linalg.inv(ball.linear)
     local = ball.world_vertices @ back.T
     exact = (local / np.linalg.norm(local, axis=1, keepdims=True)) @ back
     exact /= np.linalg.norm(exact, axis=1, keepdims=True)
@@ -170,6 +170,41 @@ def test_normals_stay_across_and_outside_of_what_is_stretched_or_mirrored(scale:
 def test_a_scale_that_leaves_nothing_is_refused(scale: Any) -> None:
     with pytest.raises(ValueError, match=r"scale"):
         glrt.Mesh(POINTS, FACES, material="white", scale=scale)
+
+
+SHEARED = (
+    (1.0, 0.5, 0.0, 3.0),
+    (0.0, -2.0, 0.0, 0.0),
+    (0.25, 0.0, 1.0, -1.0),
+    (0.0, 0.0, 0.0, 1.0),
+)
+
+
+def test_a_matrix_comes_before_the_rest() -> None:
+    more = {"scale": (1.0, 2.0, 0.5), "rotate": (10.0, 20.0, 30.0), "translate": (5.0, 6.0, 7.0)}
+    vertices, faces = icosphere(2)
+    ball = glrt.Mesh(vertices, faces, material="white", matrix=SHEARED, **more)
+    points = np.c_[vertices, np.ones(len(vertices))] @ np.array(SHEARED).T
+    before = glrt.Mesh(points[:, :3], faces, material="white", **more)
+    assert_allclose(ball.world_vertices, before.world_vertices, atol=1e-12)
+    assert not ball.is_upright
+    corners = np.abs(ball.world_vertices - np.array(ball.middle))
+    assert np.linalg.norm(corners, axis=1).max() <= ball.reach * (1 + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("matrix", "message"),
+    [
+        (np.eye(4) * [1, 0, 1, 1], "must not make the mesh flat"),
+        ([[1, 2, 0, 0], [2, 4, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "must not make the mesh flat"),
+        (np.eye(4)[::-1], "must end with the row 0, 0, 0, 1"),
+        (np.eye(3), "matrix"),
+        (np.full((4, 4), np.nan), "matrix"),
+    ],
+)
+def test_a_matrix_that_leaves_nothing_is_refused(matrix: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        glrt.Mesh(POINTS, FACES, material="white", matrix=matrix)
 
 
 def test_a_ray_is_followed_to_the_nearest_triangle() -> None:
