@@ -12,4 +12,5 @@
 #include "integrators/camera.glsl"
 #include "film/pixel.glsl"
 #include "integrators/aov_numbers.glsl"
+#include "bsdfs/conductor.glsl"
 #include "integrators/first_hit.glsl"

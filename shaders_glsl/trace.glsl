@@ -12,6 +12,7 @@
 #include "shapes/all_shapes.glsl"
 #include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"
+#include "bsdfs/conductor.glsl"
 #include "bsdfs/metal.glsl"
 #include "bsdfs/dielectric.glsl"
 #include "bsdfs/material.glsl"

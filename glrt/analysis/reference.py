@@ -145,11 +145,12 @@ def _is_invisible(scene: Scene, finish: Finish, level: float) -> bool:
     material = scene.materials[finish.material]
     if not isinstance(material, Lambertian | Light | Metal):
         return False
-    if isinstance(material, Metal) and material.roughness:
+    if isinstance(material, Metal) and (material.roughness or material.conductor):
         return False
     if finish.group and (material.cone or finish.is_one_sided):
         return False
-    pairs = zip(scene.emission(finish), material.color, strict=True)
+    color = material.head_on if isinstance(material, Metal) else material.color
+    pairs = zip(scene.emission(finish), color, strict=True)
     return all(emitted + albedo * level == level for emitted, albedo in pairs)
 
 

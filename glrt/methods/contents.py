@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from glrt.scene.materials import Material
+from glrt.scene.materials import Material, Metal
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS
@@ -74,6 +74,11 @@ class Contents:
     def count_of(self, kinds: Iterable[str]) -> int:
         """How many shapes are of these kinds."""
         return sum(self.shapes[kind] for kind in kinds)
+
+    @property
+    def conductors(self) -> list[str]:
+        """The metals whose reflectance depends on the angle."""
+        return [n for n, it in self.materials.items() if isinstance(it, Metal) and it.conductor]
 
     @property
     def cones(self) -> list[str]:

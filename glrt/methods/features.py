@@ -45,6 +45,7 @@ class Needs:
     has_vertex_color: bool  # meshes whose vertices have colours
     has_mirror: bool
     has_rough_metal: bool
+    has_conductor: bool  # metal whose reflectance depends on the angle
     has_lens: bool
     has_cone: bool  # lamps that light a cone of directions
     has_one_sided: bool  # lamps that emit from their front alone
@@ -112,6 +113,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_mirror=traits.follows
         and any(m.alpha == 0 or not traits.has_rough_metal for m in metals),
         has_rough_metal=traits.has_rough_metal and any(m.alpha > 0 for m in metals),
+        has_conductor=bool(found.conductors),
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_cone=bool(found.cones),
         has_one_sided=bool(found.one_sided),
@@ -163,6 +165,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("vertex colours", needs.has_vertex_color, _colored(found)),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
+        Feature("conductors", needs.has_conductor, _made_of(found.conductors, "measured metal")),
         *(
             Feature(_SPOKEN.get(name, name), name in needs.materials, _made_of(made_of(name), name))
             for name in TYPES

@@ -70,7 +70,7 @@ def resources_of(
 def _choice(scene: Scene) -> dict[str, bool | int]:
     found = contents_of(scene)
     aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
-    aimed["HAS_VERTEX_COLOR"] = found.is_colored
+    aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.conductors)}
     return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights, **aimed}
 
 
@@ -78,7 +78,7 @@ def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
     trees, lamps = (
         ("Node", "Slot", "Corner", "Triangle", "Tint"),
-        ("Emitter", "Light", "Cluster", "Aim"),
+        ("Conductor", "Emitter", "Light", "Cluster", "Aim"),
     )
     others = (*trees, "Material", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

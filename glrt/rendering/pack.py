@@ -12,7 +12,7 @@ from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
-from glrt.rendering.pack_materials import pack_emitters, pack_materials
+from glrt.rendering.pack_materials import pack_conductors, pack_emitters, pack_materials
 from glrt.rendering.pack_mesh import pack_tints
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
@@ -51,6 +51,7 @@ def pack_scene(
         **({"Triangle": tree.lit_by(lights, len(shapes))} if tree else {}),
         "Tint": pack_tints(scene, found),
         "Material": pack_materials(scene, found.finishes),
+        "Conductor": pack_conductors(scene, found.finishes),
         "Emitter": pack_emitters(scene, found.finishes),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),

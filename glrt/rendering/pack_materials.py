@@ -11,6 +11,7 @@ import numpy as np
 from glrt.methods.light_layers import layer_of_group
 from glrt.rendering.aims import cone_fields, everywhere
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
+from glrt.scene.conductors import Conductor
 from glrt.scene.cone import Cone
 from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque
 from glrt.scene.scene import Finish, Scene
@@ -24,8 +25,9 @@ def pack_lambertian(row: Any, material: Lambertian) -> None:
 
 
 def pack_metal(row: Any, material: Metal) -> None:
-    """Reflectance and the alpha of GGX."""
-    row["kind"], row["color"], row["alpha"] = CONSTANTS["METAL"], material.color, material.alpha
+    """Reflectance, or 1 for what a conductor reflects, and the alpha of GGX."""
+    color = (1.0, 1.0, 1.0) if material.color is None else material.color
+    row["kind"], row["color"], row["alpha"] = CONSTANTS["METAL"], color, material.alpha
 
 
 def pack_dielectric(row: Any, material: Dielectric) -> None:
@@ -53,7 +55,7 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
     """Rows of the struct Material, one for each finish."""
     layers = layer_of_group(scene)
     rows = np.zeros(len(finishes), STRUCTS["Material"])
-    rows["ior"] = 1.0
+    rows["ior"], rows["conductor"] = 1.0, CONSTANTS["NO_CONDUCTOR"]
     for row, finish in zip(rows, finishes, strict=True):
         material = scene.materials[finish.material]
         PACKERS[type(material)](row, material)
@@ -61,8 +63,25 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
         row["emission"] = scene.emission(finish)
     shapes = _emitters(scene, finishes)
     places = {emitter: place for place, emitter in enumerate(shapes)}
+    metals = [row for row, finish in zip(rows, finishes, strict=True) if _conductor(scene, finish)]
+    for place, row in enumerate(metals):
+        row["conductor"] = place
     rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]
     return rows
+
+
+def pack_conductors(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the struct Conductor, one for each finish that is one."""
+    found = [metal for finish in finishes if (metal := _conductor(scene, finish))]
+    rows = np.zeros(len(found), STRUCTS["Conductor"])
+    if found:
+        rows["n"], rows["k"] = zip(*found, strict=True)
+    return rows
+
+
+def _conductor(scene: Scene, finish: Finish) -> Conductor | None:
+    material = scene.materials[finish.material]
+    return material.conductor if isinstance(material, Metal) else None
 
 
 def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:

@@ -15,6 +15,7 @@ Modules, each importing only what stands above it:
 - background: light from infinity
 - objects: what every shape has
 - cone: the directions that a lamp lights
+- conductors: metals by their complex index of refraction
 - materials: what surfaces are made of
 - solids: shapes with faces that enclose a volume
 - meshes: triangle meshes and their places

@@ -5,10 +5,11 @@ docs/extending.md says how a type is added.
 """
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from glrt.scene.conductors import PRESETS, Conductor, PresetName
 from glrt.scene.cone import Cone
 from glrt.scene.values import (
     BLACK,
@@ -22,6 +23,11 @@ from glrt.scene.values import (
     Triple,
 )
 from glrt.settings import Cost, Editable
+
+_Index = Annotated[float, Field(ge=1e-3, le=1e3)]
+Indices = tuple[_Index, _Index, _Index]
+_Extinction = Annotated[float, Field(ge=0, le=1e3)]
+Extinctions = tuple[_Extinction, _Extinction, _Extinction]
 
 # Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
 SMOOTHEST = 1e-8
@@ -46,7 +52,7 @@ class Surface(Tagged):
 class Opaque(Surface):
     """What every material has that light does not pass."""
 
-    color: Color = Field(description="share of light that is reflected")
+    color: Color | None = Field(description="share of light that is reflected")
     emission: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
         BLACK, description=f"{_RADIANCE}; black: it is no lamp"
     )
@@ -87,10 +93,22 @@ class Lambertian(Opaque):
 
 
 class Metal(Opaque):
-    """Metal, smooth or rough (GGX)."""
+    """Metal, smooth or rough (GGX), of a color, or with the reflectance of a measured metal.
+
+    Exactly one of `color`, `preset`, and `ior` with `k` says what it reflects.
+    """
 
     type: Literal["metal"] = Field("metal", description="the kind of material")
-    color: Color = Field(description="reflectance, the same at all angles, 0 to 1 each")
+    color: Color | None = Field(
+        None, description="reflectance, the same at all angles, 0 to 1 each"
+    )
+    preset: PresetName | None = Field(None, description="name of a measured metal")
+    ior: Indices | None = Field(
+        None, description="index of refraction in red, green and blue, with `k`"
+    )
+    k: Extinctions | None = Field(
+        None, description="extinction coefficient in red, green and blue, with `ior`"
+    )
     roughness: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         0.0,
         description="0: a mirror; the alpha of GGX is its square",
@@ -101,12 +119,38 @@ class Metal(Opaque):
         def __init__(
             self,
             *,
-            color: Triple,
+            color: Triple | None = None,
+            preset: PresetName | None = None,
+            ior: Triple | None = None,
+            k: Triple | None = None,
             roughness: Number = 0.0,
             emission: Triple = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
         ) -> None: ...
+
+    @model_validator(mode="after")
+    def _reflects_in_one_way(self) -> Self:
+        ways = self.color is not None, self.preset is not None, self.ior is not None
+        if sum(ways) != 1 or (self.ior is None) != (self.k is None):
+            raise ValueError(
+                "must say what it reflects in one way: by color, by preset, or by ior and k"
+            )
+        return self
+
+    @property
+    def conductor(self) -> Conductor | None:
+        """Its complex index of refraction; None for one of a color."""
+        if self.preset is not None:
+            return PRESETS[self.preset]
+        if self.ior is None or self.k is None:
+            return None
+        return Conductor(self.ior, self.k)
+
+    @property
+    def head_on(self) -> Color:
+        """Reflectance at normal incidence."""
+        return self.conductor.head_on if self.conductor else self.color or BLACK
 
     @property
     def alpha(self) -> float:

@@ -133,12 +133,14 @@ class Mesh(Sided):
     @property
     def linear(self) -> Array:
         """(3, 3): from the axes of the file to those of the scene."""
-        return self._turned() @ self._given()[:, :3]
+        turned: Array = self._turned() @ self._given()[:, :3]
+        return turned
 
     @property
     def origin(self) -> Array:
         """(3,): where the origin of the file lies."""
-        return self._turned() @ self._given()[:, 3] + np.array(self.translate)
+        moved: Array = self._turned() @ self._given()[:, 3] + np.array(self.translate)
+        return moved
 
     def _turned(self) -> Array:
         turned: Array = rotation(self.rotate) * np.array(self.scale)

@@ -46,7 +46,8 @@ vec3 eval_metal(Vertex vertex, vec3 wi) {
     precise vec3 h = normalized(vertex.wo + wi);
     precise float density = pdf_ggx(material.alpha, vertex.wo, h);
     precise float weight = ggx_weight(material.alpha, vertex.wo, wi);
-    precise vec3 value = material.color * (density * weight);
+    precise vec3 reflectance = metal_reflectance(material, dot(vertex.wo, h));
+    precise vec3 value = reflectance * (density * weight);
     return value;
 }
 
@@ -63,9 +64,10 @@ Scattering sample_metal(Vertex vertex, vec2 u) {
     precise vec3 wi = 2.0 * dot(vertex.wo, h) * h - vertex.wo;
     if (wi.z <= 0.0) return absorbed();
     precise vec3 direction = normalized(vertex.frame * wi);
-    if (mirror) return Scattering(direction, vertex.material.color, 0.0, 1.0, false);
+    precise vec3 reflectance = metal_reflectance(vertex.material, dot(vertex.wo, h));
+    if (mirror) return Scattering(direction, reflectance, 0.0, 1.0, false);
     precise float weight = ggx_weight(alpha, vertex.wo, wi);
     precise float pdf = pdf_ggx(alpha, vertex.wo, h);
-    precise vec3 color = vertex.material.color * weight;
+    precise vec3 color = reflectance * weight;
     return Scattering(direction, color, pdf, 1.0, false);
 }

@@ -60,7 +60,7 @@ vec3 eval_local(Vertex vertex, vec3 wi) {
     precise Material material = vertex.material;
     if (material.kind == MATTE) return eval_matte(material.color, wi);
     if (!HAS_ROUGH_METAL || material.kind != METAL || material.alpha == 0.0) return vec3(0.0);
-    precise vec3 value = material.color * eval_highlight(material.alpha, vertex.wo, wi);
+    precise vec3 value = head_on_reflectance(material) * eval_highlight(material.alpha, vertex.wo, wi);
     return value;
 }
 

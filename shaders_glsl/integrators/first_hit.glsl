@@ -9,7 +9,7 @@ vec3 nothing_met() {
 // Glass takes no light: 1. Metal has its reflectance, a lamp its own albedo.
 vec3 albedo_of(Material material) {
     if (material.kind == DIELECTRIC) return vec3(1.0);
-    return material.color;
+    return head_on_reflectance(material);
 }
 
 // Albedo and normal are 0 where nothing is met: they count there, as denoisers want.

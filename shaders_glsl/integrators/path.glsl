@@ -73,7 +73,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
     precise vec3 weight = path.scale * path.throughput;
     if (HAS_BACKGROUND) {
         precise vec3 sky = unhidden_sky(vertex.frame[2]);
-        gather(path, weight * vertex.material.color * sky, BACKGROUND_LAYER, path.depth + 1);
+        gather(path, weight * head_on_reflectance(vertex.material) * sky, BACKGROUND_LAYER, path.depth + 1);
     }
     if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT)) return;
     if (MODEL == COOK) {

@@ -28,6 +28,7 @@ from tests.mitsuba.scenes import (
     TUBE,
     everything,
     glowing,
+    measured,
     meshes,
     solids,
     solids_but,
@@ -134,6 +135,14 @@ def test_glowing_surfaces_and_one_sided_lamps_look_the_same_to_mitsuba(
     assert found.sensitivity.light < 0.03
     assert not judged(ours(context, glowing(emission_side="both")), picture)
     assert not judged(ours(context, with_lights(glowing(), {"panel": 0.4})), picture)
+
+
+def test_measured_metals_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    picture = theirs(mitsuba, measured())
+    found = judged(ours(context, measured()), picture)
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    assert not judged(ours(context, measured("brass")), picture)
 
 
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

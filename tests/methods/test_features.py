@@ -55,6 +55,7 @@ PROBES = {
     "HAS_VERTEX_COLOR": ("shapes/mesh.glsl", "first + shares.y", "first + {} * shares.y"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
+    "HAS_CONDUCTOR": ("bsdfs/conductor.glsl", "= cosine * cosine;", "= {} * cosine * cosine;"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
@@ -87,6 +88,7 @@ ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
     "HAS_TREE": {"HAS_DISK"},
+    "HAS_CONDUCTOR": {"HAS_MIRROR"},
     "HAS_SMOOTH": {"HAS_MESH"},
     "HAS_VERTEX_COLOR": {"HAS_MESH"},
     "HAS_ONE_SIDED": {"HAS_DISK"},
@@ -205,9 +207,11 @@ def needs_with(flags: set[str]) -> Needs:
     lamps += [disk([0, 3, 0], [0, 1, 0], 1, "lamp")] if "HAS_DISK_LIGHT" in flags else []
     many = lamps[-1:] if "HAS_TREE" in flags else lamps[:1]
     objects += lamps + many * (MOST_NEAR if "MANY_LIGHTS" in flags else 0)
+    gold: dict[str, Any] = {"type": "metal", "preset": "gold"}
+    metals = {"mirror": gold, "rough": {**gold, "roughness": 0.5}}
     scene = scene_of(
         objects,
-        MATERIALS,
+        MATERIALS | (metals if "HAS_CONDUCTOR" in flags else {}),
         {"defocus_angle": 2.0 if "HAS_LENS" in flags else 0.0},
         background=sky_with(flags),
     )

@@ -264,14 +264,21 @@ def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
 def _scattering(material: Any, is_native: bool) -> Words:
     if not isinstance(material, Metal):
         return {"type": "diffuse", "reflectance": _color(material.color)}
-    mirror = {"type": "conductor", "material": "none"}  # reflects all, at all angles
+    how: Words = {"material": "none"}  # reflects all, at all angles
+    if material.conductor:
+        how = {"eta": _color(material.conductor.ior), "k": _color(material.conductor.k)}
+    if material.color is not None:
+        how["specular_reflectance"] = _color(material.color)
     if not material.roughness:
-        return {**mirror, "specular_reflectance": _color(material.color)}
+        return {"type": "conductor", **how}
     alpha = material.roughness**2
     if is_native:
-        rough = {**mirror, "type": "roughconductor", "distribution": "ggx", "alpha": alpha}
-        return {**rough, "specular_reflectance": _color(material.color)}
-    return {"type": metal.NAME, "alpha": alpha, "reflectance": _color(material.color)}
+        return {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, **how}
+    if material.conductor:
+        n, k = material.conductor
+        indices = {f"{name}{c}": v for name, it in (("n", n), ("k", k)) for c, v in enumerate(it)}
+        return {"type": metal.NAME, "alpha": alpha, "reflectance": _color((1, 1, 1)), **indices}
+    return {"type": metal.NAME, "alpha": alpha, "reflectance": how["specular_reflectance"]}
 
 
 def _color(color: Radiance) -> Words:

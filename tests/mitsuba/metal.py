@@ -19,12 +19,17 @@ def register(variant: str) -> None:
     mi: Any = mitsuba
 
     class Metal(mi.BSDF):  # type: ignore[misc]
-        """Parameters: `alpha` of GGX, the colour `reflectance`."""
+        """Parameters: `alpha` of GGX, the colour `reflectance`, n0 to n2 and k0 to k2 of it."""
 
         def __init__(self, properties: Any) -> None:
             mi.BSDF.__init__(self, properties)
             self.alpha = properties["alpha"]
             self.reflectance = mi.Color3f(properties["reflectance"])
+            self.indices = [
+                mi.Complex2f(properties[f"n{c}"], properties[f"k{c}"])
+                for c in range(3)
+                if f"n{c}" in properties
+            ]
             flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
             self.m_components = [flags]
             self.m_flags = flags
@@ -44,7 +49,7 @@ def register(variant: str) -> None:
             sample.sampled_type = +mi.BSDFFlags.GlossyReflection
             sample.pdf = dr.select(active, density / (4 * dr.dot(wo, half)), 0)
             shadow = self.shadow(normals, si.wi, wo, half) / normals.smith_g1(si.wi, half)
-            weight = self.reflectance * shadow
+            weight = self.fresnel(dr.dot(si.wi, half)) * shadow
             return sample, dr.select(active, weight, mi.Color3f(0))
 
         def eval(self, context: Any, si: Any, wo: Any, active: Any) -> Any:
@@ -58,9 +63,16 @@ def register(variant: str) -> None:
             half = dr.normalize(si.wi + wo)
             active = active & (si.wi.z > 0) & (wo.z > 0)
             lobe = normals.eval(half) / (4 * si.wi.z)
-            value = self.reflectance * lobe * self.shadow(normals, si.wi, wo, half)
+            value = self.fresnel(dr.dot(si.wi, half)) * lobe
+            value *= self.shadow(normals, si.wi, wo, half)
             density = lobe * normals.smith_g1(si.wi, half)
             return dr.select(active, value, mi.Color3f(0)), dr.select(active, density, 0)
+
+        def fresnel(self, cosine: Any) -> Any:
+            if not self.indices:
+                return self.reflectance
+            reflected = [mi.fresnel_conductor(cosine, index) for index in self.indices]
+            return self.reflectance * mi.Color3f(*reflected)
 
         def shadow(self, normals: Any, wi: Any, wo: Any, half: Any) -> Any:
             """G2 = 1 / (1 + L + L'), from G1 = 1 / (1 + L)."""

@@ -105,3 +105,20 @@ def glowing(**changes: Any) -> Scene:
     return scene_of(
         objects, MATERIALS | materials, CAMERA, background=SKY, lights={"panel": 0.5, "iron": 2.0}
     )
+
+
+def measured(preset: str = "gold") -> Scene:
+    """A smooth and two rough metals by their index of refraction, under a sky."""
+    materials: dict[str, dict[str, Any]] = {
+        "mirror": {"type": "metal", "preset": preset},
+        "rough": {"type": "metal", "preset": "copper", "roughness": 0.5},
+        "alloy": {"type": "metal", "ior": [2.0, 0.5, 1.2], "k": [1.5, 3, 0.2], "roughness": 0.7},
+    }
+    objects = [
+        plane([0, 0, 0], [0, 2, 0], "white"),
+        sphere([-1.1, 0.5, 0.2], 0.5, "mirror"),
+        sphere([0, 0.5, 0.4], 0.5, "rough"),
+        sphere([1.1, 0.5, 0.2], 0.5, "alloy"),
+        quad([-1.6, 0.3, -1.0], [1.2, 0.2, 0], [0.2, 1.1, -0.1], "screen"),
+    ]
+    return scene_of(objects, MATERIALS | materials, CAMERA, background=SKY)

@@ -10,8 +10,20 @@ from tests.mutation.film import FILM
 from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
+from tests.mutation.metals import METALS
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.transport import TRANSPORT
 
-MUTANTS = [*TRANSPORT, *SHAPES, *MESHES, *LIGHTS, *SAMPLING, *FILM, *AOVS, *MERGING, *COMPARING]
+MUTANTS = [
+    *TRANSPORT,
+    *SHAPES,
+    *MESHES,
+    *METALS,
+    *LIGHTS,
+    *SAMPLING,
+    *FILM,
+    *AOVS,
+    *MERGING,
+    *COMPARING,
+]

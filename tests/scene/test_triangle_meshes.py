@@ -181,7 +181,11 @@ SHEARED = (
 
 
 def test_a_matrix_comes_before_the_rest() -> None:
-    more = {"scale": (1.0, 2.0, 0.5), "rotate": (10.0, 20.0, 30.0), "translate": (5.0, 6.0, 7.0)}
+    more: dict[str, Any] = {
+        "scale": (1.0, 2.0, 0.5),
+        "rotate": (10.0, 20.0, 30.0),
+        "translate": (5.0, 6.0, 7.0),
+    }
     vertices, faces = icosphere(2)
     ball = glrt.Mesh(vertices, faces, material="white", matrix=SHEARED, **more)
     points = np.c_[vertices, np.ones(len(vertices))] @ np.array(SHEARED).T

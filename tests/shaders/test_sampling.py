@@ -68,7 +68,7 @@ def integrals(
 # --- materials -----------------------------------------------------------------------------
 
 VERTEX = """
-    Material material = Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0);
+    Material material = Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0, -1);
     Vertex vertex = Vertex(frame_around(vec3(0.0, 0.0, 1.0)), wo, material);"""
 MATTE_KIND, METAL_KIND = 0, 1
 

@@ -67,7 +67,7 @@ def test_between_the_corners_colours_are_linear(call_glsl: CallGlsl) -> None:
     points = shares @ corners
     direction = (points / np.linalg.norm(points, axis=1, keepdims=True)).astype(np.float32)
     scene = scene_of(
-        [mesh((corners, [[0, 1, 2]]), "white", colors=colors)],
+        [mesh((corners, np.array([[0, 1, 2]])), "white", colors=colors)],
         MATERIALS,
         {"position": [0, 0, 0], "look_at": [0, 0, -1]},
     )

@@ -84,7 +84,8 @@ def an_object_is_edited_in_the_panel(hand: Hand) -> None:
     assert hand.session.scene.objects[number].radius == 0.2  # type: ignore[union-attr]
     hand.ctx.item_input_value(f"color##material {shape.material}/##X", 0.1)
     hand.settle()
-    assert hand.session.scene.materials[shape.material].color[0] == 0.1  # type: ignore[union-attr]
+    material: Any = hand.session.scene.materials[shape.material]
+    assert material.color[0] == 0.1
     assert (hand.pixels() != before).any()
     hand.window.app.selected = None
 

@@ -8,7 +8,7 @@ from typing import Any
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.scene.cone import Cone
-from glrt.scene.materials import Light, Material, Opaque
+from glrt.scene.materials import Light, Material, Metal, Opaque
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
@@ -20,6 +20,7 @@ from glrt.view.viewport.transform import with_object
 
 _NONE = "nothing"
 _MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"
+_WAYS = ("color", "preset", "ior", "k")  # in which metal may say what it reflects
 _DOWN = (0.0, -1.0, 0.0)
 CONE = switch("cone", "light a cone of directions alone: a spot", Cost.RECOMPILE)
 MATERIAL = Control("material", "choice", _MATERIAL, Cost.RECOMPILE, "", None, None, None)
@@ -126,8 +127,10 @@ def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
 
 
 def _controls(material: Material) -> tuple[Control, ...]:
-    """The emission of lamps stands with the light groups."""
-    leave_out = ("emission",) if isinstance(material, Light) else ()
+    """The emission of lamps stands with the light groups; metal has a colour or an index."""
+    leave_out: tuple[str, ...] = ("emission",) if isinstance(material, Light) else ()
+    if isinstance(material, Metal):
+        leave_out += tuple(name for name in _WAYS if getattr(material, name) is None)
     return controls_of(type(material), leave_out)
 
 

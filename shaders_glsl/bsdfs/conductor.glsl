@@ -1,0 +1,35 @@
+// Reflectance of metal: unpolarised Fresnel equations of a complex index of refraction n + i k.
+
+// With t = n^2 - k^2 - sin^2: a^2 + b^2 = sqrt(t^2 + 4 n^2 k^2) and a^2 = (a^2 + b^2 + t) / 2, in the form
+// that does not cancel where t is below 0.
+float fresnel_conductor(float cosine, float n, float k) {
+    precise float cos2 = cosine * cosine;
+    precise float sin2 = max((1.0 - cosine) * (1.0 + cosine), 0.0);
+    precise float t = (n - k) * (n + k) - sin2;
+    precise float product = 2.0 * n * k;
+    precise float sum = sqrt(t * t + product * product);
+    precise float a2 = t >= 0.0 ? 0.5 * (sum + t) : 0.5 * product * product / (sum - t);
+    precise float twice = 2.0 * cosine * sqrt(a2);
+    precise float rs = (sum + cos2 - twice) / (sum + cos2 + twice);
+    precise float even = cos2 * sum + sin2 * sin2;
+    precise float odd = twice * sin2;
+    precise float rp = even + odd > 0.0 ? rs * ((even - odd) / (even + odd)) : rs;
+    precise float reflectance = 0.5 * (rs + rp);
+    return reflectance;
+}
+
+// Of metal, at an angle to its normal or to that of its facet.
+vec3 metal_reflectance(Material material, float cosine) {
+    if (!HAS_CONDUCTOR || material.conductor == NO_CONDUCTOR) return material.color;
+    precise Conductor metal = conductor_at(material.conductor);
+    precise vec3 reflectance = vec3(fresnel_conductor(cosine, metal.n.x, metal.k.x),
+                                    fresnel_conductor(cosine, metal.n.y, metal.k.y),
+                                    fresnel_conductor(cosine, metal.n.z, metal.k.z));
+    reflectance *= material.color;
+    return reflectance;
+}
+
+// What a surface reflects of light that comes along its normal.
+vec3 head_on_reflectance(Material material) {
+    return material.kind == METAL ? metal_reflectance(material, 1.0) : material.color;
+}
