@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from glrt.scene.scene import Scene
     from glrt.scene.shapes import Disk, Plane, Quad, Sphere
     from glrt.scene.solids import Box
+    from glrt.scene.sun import Sun
     from glrt.settings import Settings
 
 __all__ = [
@@ -73,6 +74,7 @@ __all__ = [
     "Scene",
     "Settings",
     "Sphere",
+    "Sun",
     "__version__",
     "compare",
     "load",
@@ -84,6 +86,7 @@ __version__ = VERSION
 
 _HOMES = {
     "Background": "scene.background",
+    "Sun": "scene.sun",
     "Box": "scene.solids",
     "Camera": "scene.camera",
     "Comparison": "comparison.result",

@@ -7,13 +7,25 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
-from glrt.scene import background, camera, cone, cylinder, materials, meshes, scene, shapes, solids
+from glrt.scene import (
+    background,
+    camera,
+    cone,
+    cylinder,
+    materials,
+    meshes,
+    scene,
+    shapes,
+    solids,
+    sun,
+)
 from glrt.settings import RenderSettings, editable_of
 
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[camera]", "Required.", camera.Camera),
     ("[render]", "Optional. Options of the command line override it.", RenderSettings),
     ("[background]", "Optional; black by default.", background.Background),
+    ("[sun]", "Optional; there is none by default.", sun.Sun),
     ("[materials.NAME] of type lambertian", "", materials.Lambertian),
     ("[materials.NAME] of type metal", "", materials.Metal),
     ("[materials.NAME] of type dielectric", "", materials.Dielectric),

@@ -14,7 +14,7 @@ from glrt.cli.request import check_limit, open_renderer, scene_and_settings
 from glrt.errors import UsageError
 from glrt.image.sources import recipe_of, shown
 from glrt.methods.contents import contents_of
-from glrt.methods.features import explain
+from glrt.methods.explanation import explain
 from glrt.methods.omissions import left_out, omissions
 from glrt.methods.slowness import slow_because
 from glrt.scene.limits import cautions

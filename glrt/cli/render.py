@@ -36,7 +36,7 @@ from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.scene.limits import cautions
-from glrt.scene.loading import hashes_of
+from glrt.scene.loading import sources_of
 from glrt.text import counted
 
 DESCRIPTION = "Render a scene to files, without a window."
@@ -287,5 +287,5 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
         "triangles": contents_of(renderer.scene).triangles,
-        "assets": hashes_of(renderer.scene),
+        "assets": sources_of(renderer.scene),
     }

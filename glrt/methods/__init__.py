@@ -4,7 +4,8 @@ Modules, each importing only what stands above it:
 
 - table: the methods, a row each
 - contents: what is in a scene, and by which trees shapes are found
-- features: the features compiled into a kernel, and why
+- features: the features compiled into a kernel
+- explanation: why each of them is, in words
 - light_layers: light as a weighted sum of layers
 - combinations: what goes with what
 - omissions: what a method leaves out of a scene

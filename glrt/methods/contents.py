@@ -1,9 +1,9 @@
 """What is in a scene, counted, and by which trees rays are to find its shapes."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from glrt.scene.materials import Material, Metal
+from glrt.scene.materials import Dielectric, Material, Metal
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS
@@ -79,6 +79,29 @@ class Contents:
     def conductors(self) -> list[str]:
         """The metals whose reflectance depends on the angle."""
         return [n for n, it in self.materials.items() if isinstance(it, Metal) and it.conductor]
+
+    @property
+    def rough_glasses(self) -> list[str]:
+        """The glasses whose surface is rough."""
+        return self._glasses(lambda glass: glass.alpha > 0)
+
+    @property
+    def panes(self) -> list[str]:
+        """The glasses that are thin panes."""
+        return self._glasses(lambda glass: glass.thin)
+
+    @property
+    def tinted(self) -> list[str]:
+        """The glasses that absorb light."""
+        return self._glasses(lambda glass: any(glass.absorption))
+
+    @property
+    def media(self) -> list[str]:
+        """The glasses that have a priority over each other."""
+        return self._glasses(lambda glass: glass.priority is not None)
+
+    def _glasses(self, are: Callable[[Dielectric], bool]) -> list[str]:
+        return [n for n, it in self.materials.items() if isinstance(it, Dielectric) and are(it)]
 
     @property
     def cones(self) -> list[str]:

@@ -12,7 +12,7 @@ from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.methods.features import needs_of
 from glrt.scene.materials import Opaque
-from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings, cost_of_change
 
@@ -51,6 +51,7 @@ class Plan:
             "LAYERS": self.layers,
             "BY_LENGTH": self.layering == "lengths",
             "BACKGROUND_LAYER": layer_of_group(self.scene).get(SKY_GROUP, 0),
+            "SUN_LAYER": layer_of_group(self.scene).get(SUN_GROUP, 0),
         }
 
     def relit(self, scene: Scene, settings: Settings, layering: Layering) -> "Plan | None":
@@ -98,6 +99,8 @@ def emitters(scene: Scene) -> dict[str, list[Radiance]]:
         material = scene.materials[finish.material]
         if finish.group and isinstance(material, Opaque):
             found.setdefault(finish.group, []).append(material.emission)
+    if scene.sun and any(scene.sun.irradiance):
+        found.setdefault(SUN_GROUP, []).append(scene.sun.irradiance)
     if any(map(any, scene.background.gradient)):
         found[SKY_GROUP] = list(scene.background.gradient)
     return found
@@ -180,5 +183,6 @@ def _unlit(scene: Scene) -> Scene:
     ends = ("bottom", "horizon", "top")
     given = {n: NONE for n in ends if getattr(scene.background, n) is not None}
     background = scene.background.model_copy(update={"color": None, **given})
-    update = {"materials": materials, "lights": {}, "background": background}
+    sun = scene.sun.model_copy(update={"irradiance": ONE}) if scene.sun else None
+    update = {"materials": materials, "lights": {}, "background": background, "sun": sun}
     return scene.model_copy(update=update)

@@ -40,8 +40,10 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "no shadows"
     if traits.follows and not traits.chooses_lights and lamps:
         yield "hard shadows: lamps are points"
-    if not traits.has_rough_metal and any(metal.alpha > 0 for metal in metals):
+    if not traits.has_rough and any(metal.alpha > 0 for metal in metals):
         yield "rough metal is a mirror"
+    if not is_local and not traits.has_rough and contents.rough_glasses:
+        yield "rough glass is smooth"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
     for kind in KINDS:
@@ -52,6 +54,8 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "the image of the sky lights nothing"
     elif has_sky and len(scene.visible) > 1:
         yield "nothing hides the sky"
+    if any(scene.sun_radiance):
+        yield "the sun lights nothing"
     if not traits.has_lens and scene.camera.defocus_angle > 0:
         yield "everything is in focus"
 

@@ -19,7 +19,7 @@ class Traits:
     chooses_lights: bool = False  # one of several at each point, by flux and nearness
     follows: bool = True  # mirrors and glass
     has_lens: bool = True
-    has_rough_metal: bool = True  # else it is a mirror
+    has_rough: bool = True  # metal and glass; else they are smooth
 
     @property
     def uses_lamps(self) -> bool:
@@ -33,7 +33,7 @@ METHODS: dict[str, Traits] = {
     "mis": Traits(samples_lights=True, weights_both=True, chooses_lights=True),
     "phong": Traits(model=1, follows=False, has_lens=False),
     "blinn": Traits(model=2, follows=False, has_lens=False),
-    "whitted": Traits(model=3, has_lens=False, has_rough_metal=False),
+    "whitted": Traits(model=3, has_lens=False, has_rough=False),
     "cook": Traits(model=4, chooses_lights=True),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing

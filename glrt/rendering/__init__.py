@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - pack_shapes: shapes as rows, a packer for each kind
 - aims: where lamps can be seen from
 - lamp_bodies: where lamps are and how far they reach
+- pack_details: what some materials have beyond their row
 - pack_materials: materials as rows, a packer for each type
 - pack_mesh: triangles of meshes, in the frame of the tree
 - tree_cache: trees over many triangles, kept on the disk
@@ -15,6 +16,7 @@ Modules, each importing only what stands above it:
 - passes: what runs over the pixels of a picture, as values
 - pipelines: compute or fragment shader
 - image_texture: an image of a scene as a texture
+- sky_table: the image of the sky as a tree by which it is sampled
 - evaluation: functions of the path tracer over arrays
 - schedule: how much work a dispatch takes
 - device_scene: a scene in the driver's memory, and the kernel source that reads it

@@ -22,6 +22,7 @@ from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
+    SKY_TREE,
     KernelOptions,
     Tier,
     scene_text,
@@ -30,6 +31,8 @@ from glrt.rendering.pipelines import (
     upload,
 )
 from glrt.rendering.schedule import DispatchRange, stride_of
+from glrt.rendering.sky_table import SkyTable
+from glrt.scene.glasses import around_camera
 from glrt.scene.loading import check_loaded
 from glrt.scene.scene import Scene
 
@@ -67,6 +70,7 @@ class DeviceScene:
         contents = contents_of(plan.scene)
         self._arrays, self._tree = _packed(plan.scene, contents, before)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
+        self._glass = around_camera(plan.scene, contents.finishes)
         needs = needs_of(plan.scene, plan.settings, contents)
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
@@ -77,11 +81,15 @@ class DeviceScene:
         self._resources: dict[str, Resource] = {}
         self._kept: dict[str, Shared] = {}  # arrays that renderers of edited scenes share
         self._sky: ImageTexture | None = None
+        self._sky_table: SkyTable | None = None
         check_loaded(plan.scene)
         try:
             with context.checked("the scene"):
                 self._upload(before)
                 self._sky = _sky_image(context, plan.scene, before._sky if before else None)
+                if needs.sample_sky:
+                    known = before._sky_table if before else None
+                    self._sky_table = _sky_table(context, plan.scene, known)
         except (RenderError, SceneError):
             self.release()
             raise
@@ -121,10 +129,14 @@ class DeviceScene:
     ) -> None:
         """Let a kernel add a part's samples to a film, a picture of `tiles`."""
         numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
-        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, self._tree))
+        density = self._sky_table.density if self._sky_table else 0.0
+        around = self._tree, self._glass, density
+        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, *around))
         resources = self._resources
         if self._sky:
             resources = {**resources, ENVIRONMENT: self._sky.resource}
+        if self._sky_table:
+            resources = {**resources, SKY_TREE: self._sky_table.resource}
         kernel.bind(resources, film.images())
         kernel.run_tiles(part.tiles)
 
@@ -138,7 +150,7 @@ class DeviceScene:
     def release(self) -> None:
         """Free what the driver holds."""
         own = {name: some for name, some in self._resources.items() if name not in self._kept}
-        for resource in (*own.values(), *self._kept.values(), self._sky):
+        for resource in (*own.values(), *self._kept.values(), self._sky, self._sky_table):
             if resource:
                 resource.release()
 
@@ -175,6 +187,12 @@ def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> Im
     if known and known.shows(image):
         return known.shared()
     return ImageTexture(context, image, "background.image")
+
+
+def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTable:
+    image = scene.background.image
+    assert image is not None
+    return known.shared() if known and known.samples(image) else SkyTable(context.gl, image)
 
 
 def _packed(

@@ -16,7 +16,9 @@ from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pack_tree import SceneTree, tree_of
-from glrt.rendering.pipelines import ENVIRONMENT, scene_text, upload
+from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, scene_text, upload
+from glrt.rendering.sky_table import sky_sampling, tree_texture
+from glrt.scene.glasses import around_camera
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 
@@ -57,13 +59,18 @@ def resources_of(
 ) -> dict[str, Resource]:
     """The buffers and textures that the functions read; a frame of zeros without a scene."""
     frame = bytes(STRUCTS["Frame"].itemsize)
+    image = scene.background.image if scene else None
+    pixels = image.pixels if image else None
+    sampling = sky_sampling(pixels) if pixels is not None else None
     if scene:
         counts = {struct: len(rows) for struct, rows in arrays.items()}
-        frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1, tree=tree)
-    image = scene.background.image if scene else None
-    sky = (
-        {} if image is None or image.pixels is None else {ENVIRONMENT: texture_of(gl, image.pixels)}
-    )
+        glass = around_camera(scene, scene.finishes)
+        density = sampling.density if sampling else 0.0
+        around: Any = {"tree": tree, "glass": glass, "sky_density": density}
+        frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1, **around)
+    sky: dict[str, Resource] = {}
+    if pixels is not None and sampling:
+        sky = {ENVIRONMENT: texture_of(gl, pixels), SKY_TREE: tree_texture(gl, sampling.tree)}
     return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 
 
@@ -71,14 +78,22 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
     found = contents_of(scene)
     aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
     aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.conductors)}
-    return {"CLUSTERS": found.clusters, "MANY_LIGHTS": found.has_many_lights, **aimed}
+    return {
+        "CLUSTERS": found.clusters,
+        "MANY_LIGHTS": found.has_many_lights,
+        **aimed,
+        "HAS_ROUGH_GLASS": bool(found.rough_glasses),
+        "HAS_ATTENUATION": bool(found.tinted),
+        "HAS_NESTED": bool(found.media),
+        "MEDIA": len(found.media),
+    }
 
 
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
     trees, lamps = (
         ("Node", "Slot", "Corner", "Triangle", "Tint"),
-        ("Conductor", "Emitter", "Light", "Cluster", "Aim"),
+        ("Emitter", "Light", "Cluster", "Aim"),
     )
-    others = (*trees, "Material", *lamps)
+    others = (*trees, "Material", "Conductor", "Glass", "Albedo", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

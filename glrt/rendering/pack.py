@@ -11,12 +11,14 @@ from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
 from glrt.rendering.kernel_structs import STRUCTS
+from glrt.rendering.pack_details import pack_conductors, pack_glasses
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
-from glrt.rendering.pack_materials import pack_conductors, pack_emitters, pack_materials
+from glrt.rendering.pack_materials import pack_emitters, pack_materials
 from glrt.rendering.pack_mesh import pack_tints
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
+from glrt.scene.glasses import AIR, Around
 from glrt.scene.scene import Scene
 from glrt.scene.values import BLACK
 from glrt.settings import Settings
@@ -52,6 +54,7 @@ def pack_scene(
         "Tint": pack_tints(scene, found),
         "Material": pack_materials(scene, found.finishes),
         "Conductor": pack_conductors(scene, found.finishes),
+        **pack_glasses(scene, found.finishes),
         "Emitter": pack_emitters(scene, found.finishes),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
@@ -86,11 +89,14 @@ def pack_frame(
     tile_stride: int = 1,
     is_empty: bool = True,
     tree: SceneTree | None = None,
+    glass: Around = AIR,
+    sky_density: float = 0.0,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
     `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
-    film is not read.
+    film is not read. `glass` is around the camera; `sky_density` is that of samples of the sky, as
+    sky_table.py has it.
     """
     bottom, *horizon, top = scene.background_colors
     frame = {
@@ -99,6 +105,13 @@ def pack_frame(
         "bounces": settings.bounces,
         "background_horizon": horizon[0] if horizon else BLACK,
         "background_top": top,
+        "sun_direction": scene.sun.towards if scene.sun else (0.0, 1.0, 0.0),
+        "sun_versine": scene.sun.versine if scene.sun else 0.0,
+        "sun_radiance": scene.sun_radiance,
+        "spare": 0.0,
+        "camera_absorption": glass.absorption,
+        "camera_counts": glass.counts,
+        "sky_density": sky_density,
         "background_turn": (scene.background.rotation or 0.0) / 360 % 1.0,
         "seed": settings.seed,
         "size": (settings.width, settings.height),

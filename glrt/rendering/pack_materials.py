@@ -11,7 +11,7 @@ import numpy as np
 from glrt.methods.light_layers import layer_of_group
 from glrt.rendering.aims import cone_fields, everywhere
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
-from glrt.scene.conductors import Conductor
+from glrt.rendering.pack_details import conductor_rows, glass_rows
 from glrt.scene.cone import Cone
 from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque
 from glrt.scene.scene import Finish, Scene
@@ -31,8 +31,9 @@ def pack_metal(row: Any, material: Metal) -> None:
 
 
 def pack_dielectric(row: Any, material: Dielectric) -> None:
-    """Index of refraction."""
-    row["kind"], row["ior"] = CONSTANTS["DIELECTRIC"], material.ior
+    """Index of refraction, and the alpha of GGX."""
+    row["kind"] = CONSTANTS["PANE" if material.thin else "DIELECTRIC"]
+    row["ior"], row["alpha"] = material.ior, material.alpha
 
 
 def pack_light(row: Any, material: Light) -> None:
@@ -55,7 +56,7 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
     """Rows of the struct Material, one for each finish."""
     layers = layer_of_group(scene)
     rows = np.zeros(len(finishes), STRUCTS["Material"])
-    rows["ior"], rows["conductor"] = 1.0, CONSTANTS["NO_CONDUCTOR"]
+    rows["ior"], rows["details"] = 1.0, CONSTANTS["NO_DETAILS"]
     for row, finish in zip(rows, finishes, strict=True):
         material = scene.materials[finish.material]
         PACKERS[type(material)](row, material)
@@ -63,25 +64,11 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
         row["emission"] = scene.emission(finish)
     shapes = _emitters(scene, finishes)
     places = {emitter: place for place, emitter in enumerate(shapes)}
-    metals = [row for row, finish in zip(rows, finishes, strict=True) if _conductor(scene, finish)]
-    for place, row in enumerate(metals):
-        row["conductor"] = place
+    for number_of in (conductor_rows(scene, finishes), glass_rows(scene, finishes)):
+        for row, finish in zip(rows, finishes, strict=True):
+            row["details"] = number_of.get(finish.material, row["details"])
     rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]
     return rows
-
-
-def pack_conductors(scene: Scene, finishes: Sequence[Finish]) -> Array:
-    """Rows of the struct Conductor, one for each finish that is one."""
-    found = [metal for finish in finishes if (metal := _conductor(scene, finish))]
-    rows = np.zeros(len(found), STRUCTS["Conductor"])
-    if found:
-        rows["n"], rows["k"] = zip(*found, strict=True)
-    return rows
-
-
-def _conductor(scene: Scene, finish: Finish) -> Conductor | None:
-    material = scene.materials[finish.material]
-    return material.conductor if isinstance(material, Metal) else None
 
 
 def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:

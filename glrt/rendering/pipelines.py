@@ -18,6 +18,7 @@ from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 # reads them. Materials are never written: a colour is to change without compiling.
 Tier = Literal["generic", "baked"]
 ENVIRONMENT = "environment_image"  # the texture of the image of the sky
+SKY_TREE = "environment_tree"  # that of the tree by which it is sampled
 MOST_BAKED = 32  # shapes
 
 
@@ -73,6 +74,8 @@ ivec2 environment_size() {{ return textureSize({ENVIRONMENT}, 0); }}
 vec3 environment_pixel(int column, int row) {{
     return texelFetch({ENVIRONMENT}, ivec2(column, row), 0).rgb;
 }}
+uniform sampler2D {SKY_TREE};
+vec4 sky_part(int column, int row) {{ return texelFetch({SKY_TREE}, ivec2(column, row), 0); }}
 """
 
 

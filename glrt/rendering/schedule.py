@@ -14,6 +14,7 @@ from glrt.errors import SceneError
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.methods.contents import MESH, Contents, contents_of
+from glrt.methods.features import has_image
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
@@ -28,6 +29,7 @@ MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/results/d
 # Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
 _EXPONENT = read_constants(read("integrators/classic.glsl"))["MOST_EXPONENT"]
 HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)
+MOST_PASSED = 8
 _GOLDEN = 0.618
 
 
@@ -61,7 +63,26 @@ def iterations_per_sample(
     if traits.model and not traits.chooses_lights:
         return 1 + _rounds_of_shading(found, settings, search)
     rays, choice = (2, _rounds_of_choice(found)) if traits.uses_lamps else (1, 0)
-    return 1 + (settings.bounces + 1) * (1 + rays * search + choice)
+    if traits.samples_lights and (levels := _levels_of_sky(scene)):
+        rays, choice = rays + 1, choice + levels + 1
+    rays += traits.samples_lights and scene.sun is not None
+    segments = (settings.bounces + 1) * (1 + _passed(scene, found))
+    return 1 + segments * (1 + rays * search + choice)
+
+
+def _levels_of_sky(scene: Scene) -> int:
+    """Of the tree by which an image of the sky is sampled."""
+    image = scene.background.image
+    if not has_image(scene) or image is None or image.pixels is None:
+        return 0
+    height, width, _ = image.pixels.shape
+    return int(max(width, height + 1) - 1).bit_length()
+
+
+def _passed(scene: Scene, found: Contents) -> int:
+    """Surfaces inside other glass that a segment may pass; where there are more, it is a guess."""
+    media = found.media
+    return min(sum(thing.material in media for thing in scene.visible), MOST_PASSED) if media else 0
 
 
 def rounds_of_search(

@@ -2,6 +2,7 @@
 
 Modules, each importing only what stands above it:
 
+- facets: what facets of rough glass lose to each other
 - values: numbers, vectors and colours with their ranges
 - assets: files that a scene names, held to its folder and hashed
 - float_images: Radiance .hdr and OpenEXR files as arrays
@@ -21,14 +22,19 @@ Modules, each importing only what stands above it:
 - meshes: triangle meshes and their places
 - cylinder: the round one of them, with ends or without
 - shapes: what there is to see
+- sun: a disc at infinity
 - contents: the fields of a scene
+- validation: what is wrong with a scene, in words
+- mtl_files: materials of OBJ files
+- own_materials: meshes divided by the materials of their files
 - loading: the files that a scene names, read into it
 - tables: the parts of a scene as plain tables, and tables as TOML
-- validation: what is wrong with a scene, in words
+- nesting: glasses that overlap by priority
 - scene: all of it together, and whether the parts fit
 - toml: scene files read
 - toml_writer: scene files written, with their comments kept
 - catalog: the scenes that come with glrt, by name
+- glasses: the glasses of a scene, and what is around its camera
 - summary: what a scene holds, in words
 - flat_faces: whether solids share a part of a plane
 - crossing_glass: how solids of glass lie to each other

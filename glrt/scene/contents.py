@@ -8,6 +8,7 @@ from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Material
 from glrt.scene.shapes import Shape
+from glrt.scene.sun import Sun
 from glrt.scene.values import Intensity, Name
 from glrt.settings import Cost, Editable, Frozen, RenderSettings
 
@@ -27,6 +28,9 @@ class Contents(Frozen):
     render: RenderSettings = Field(RenderSettings(), description="default settings of the scene")
     background: Background = Field(
         Background(), description="light from infinitely far away; its light group is `background`"
+    )
+    sun: Sun | None = Field(
+        None, description="a disc at infinity; its light group is `sun`; default: there is none"
     )
     materials: dict[Name, Material] = Field({}, description="materials by name")
     lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(

@@ -14,6 +14,7 @@ from glrt.scene.materials import Dielectric
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
+from glrt.scene.summary import few
 from glrt.settings import Settings
 from glrt.text import number, quoted
 
@@ -34,6 +35,7 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         *_glass(scene),
         _walled_in(scene),
         _dark(scene),
+        *_unread(scene),
     )
     return [text for text in found if text]
 
@@ -84,12 +86,13 @@ def _glass(scene: Scene) -> list[str]:
     glass = [
         i
         for i, thing in enumerate(scene.objects)
-        if _kind(scene, i) == "dielectric" and not isinstance(thing, Mesh) and not thing.hidden
+        if _is_solid_glass(scene, thing) and not isinstance(thing, Mesh) and not thing.hidden
     ]
     eye = np.array(scene.camera.position, np.float64)
     texts: dict[str, str] = {}
     for relation, (first, second) in relations([scene.objects[i] for i in glass], eye):
-        if not texts.get(relation):
+        ordered = all(_glass_of(scene, glass[k]).priority is not None for k in (first, second))
+        if not texts.get(relation) and not ordered:
             texts[relation] = _glass_to_glass(scene, relation, glass[first], glass[second])
     return list(texts.values())
 
@@ -106,13 +109,14 @@ def _glass_to_glass(scene: Scene, relation: Relation, first: int, second: int) -
         )
     return (
         f"{names} are glass and cross: light that leaves one inside the other is refracted as if "
-        "it entered air. Separate them, or put one inside the other, a hair apart."
+        "it entered air. Separate them, put one inside the other, a hair apart, or give both a "
+        "priority."
     )
 
 
 def _dense_inside(scene: Scene, inner: int, outer: int) -> str:
     """Where `ior` looks as if it were given against air, and not against the glass around."""
-    own, around = _ior(scene, inner), _ior(scene, outer)
+    own, around = (_glass_of(scene, index).ior for index in (inner, outer))
     if not 1 < own < LIKELY_IOR or own * around < DENSE_IOR:
         return ""
     return (
@@ -123,10 +127,15 @@ def _dense_inside(scene: Scene, inner: int, outer: int) -> str:
     )
 
 
-def _ior(scene: Scene, index: int) -> float:
+def _is_solid_glass(scene: Scene, thing: Shape) -> bool:
+    material = scene.materials[thing.material]
+    return isinstance(material, Dielectric) and not material.thin
+
+
+def _glass_of(scene: Scene, index: int) -> Dielectric:
     material = scene.materials[scene.objects[index].material]
     assert isinstance(material, Dielectric)
-    return material.ior
+    return material
 
 
 def _walled_in(scene: Scene) -> str:
@@ -151,7 +160,7 @@ def _dark(scene: Scene) -> str:
     """Nothing that emits: the picture is black, and sure of it."""
     finishes = scene.finishes
     emits = any(any(scene.emission(finish)) for finish in finishes)
-    if emits or any(map(any, scene.background_colors)):
+    if emits or any(map(any, (scene.sun_radiance, *scene.background_colors))):
         return ""
     lamps = any(finish.group for finish in finishes)
     remedy = (
@@ -163,6 +172,17 @@ def _dark(scene: Scene) -> str:
         "there is no light in this scene: no lamp emits and the background is black, so the "
         f"picture is black, with an estimated error of 0 %. {remedy}."
     )
+
+
+def _unread(scene: Scene) -> Iterator[str]:
+    """What files of materials say that no material has."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
+        yield (
+            f"{', '.join(file.libraries)}: {few(file.unread)} of the materials of {file.file} "
+            "is not read: textures, transparency without refraction and gloss over matte colour "
+            "are left out. Give its object a `material` of the scene for another look."
+        )
 
 
 def _reaches_into(ball: Sphere, lamp: Shape) -> bool:

@@ -17,8 +17,10 @@ from glrt.scene.mesh_formats import decode_mesh
 from glrt.scene.meshes import Mesh
 from glrt.scene.named_images import ImageFile, Pixels
 from glrt.scene.named_meshes import MeshFile
+from glrt.scene.own_materials import lacks_material, part_problem, with_own_materials
 from glrt.scene.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.values import LARGEST
+from glrt.text import quoted
 
 SceneType = TypeVar("SceneType", bound=Contents)
 NamedFile = ImageFile | MeshFile
@@ -34,6 +36,12 @@ def hashes_of(scene: Contents) -> dict[str, str]:
     return {named.file: named.sha256 for _, named in _named(scene) if named.sha256}
 
 
+def sources_of(scene: Contents) -> dict[str, str]:
+    """The same with the MTL files that materials were taken from: those that recipes leave out."""
+    files = [shape.file for _, shape in _meshes(scene)]
+    return hashes_of(scene) | {path: sha for file in files for path, sha in file.libraries.items()}
+
+
 def with_files(scene: SceneType, folder: AssetFolder, source: str) -> SceneType:
     """The scene with the content of its files; the same one if it names none, or has all.
 
@@ -41,12 +49,14 @@ def with_files(scene: SceneType, folder: AssetFolder, source: str) -> SceneType:
     the folder, no image or mesh, or not as expected.
     """
     missing = [(key, named) for key, named in _named(scene) if not is_read(named)]
+    reader = AssetReader(folder)
     if missing:
-        reader, found = AssetReader(folder), dict[NamedFile, NamedFile]()
+        found = dict[NamedFile, NamedFile]()
         for key, named in missing:
             if named not in found:
                 found[named] = _read(named, reader, f"{source}: {key}")
         scene = _with(scene, found)
+    scene = with_own_materials(scene, reader, source)
     problem = next(mesh_problems(scene), None)
     if problem:
         raise SceneError(f"{source}: {problem}")
@@ -140,16 +150,22 @@ def mesh_problems(scene: Contents) -> Iterator[str]:
     """What does not fit of meshes that were read, as `key: ...`."""
     count = 0
     for index, shape in _meshes(scene):
+        key = f"objects[{index}].file: {shape.file.file}"
+        if problem := part_problem(shape):
+            yield f"{key}: {problem}"
+            continue
+        key += f": part {quoted(shape.part)}" if shape.part is not None else ""
+        if lacks_material(shape):
+            yield f"objects[{index}].material is missing: load the scene by glrt.load"
         mesh = shape.triangles
         count += len(mesh.faces)
-        key = f"objects[{index}].file: {shape.file.file}"
         if count > MOST_TRIANGLES:
             yield (
                 f"{key}: with it the scene has {count:,} triangles, and it may have "
                 f"{MOST_TRIANGLES:,}. Use meshes of fewer."
             )
         material = scene.materials.get(shape.material)
-        if isinstance(material, Dielectric) and mesh.opening:
+        if isinstance(material, Dielectric) and mesh.opening and not material.thin:
             yield (
                 f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot be dielectric. "
                 "Close it in the program that it comes from, or use another material."

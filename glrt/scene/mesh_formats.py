@@ -1,8 +1,9 @@
 """Files of triangle meshes as arrays: PLY, OBJ and STL, read by trimesh."""
 
 import logging
+import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from io import BytesIO
 from pathlib import PurePosixPath
 from typing import Any
@@ -17,12 +18,17 @@ from glrt.text import quoted
 
 FORMATS = (".ply", ".obj", ".stl")
 
+_LIBRARY = re.compile(rb"^mtllib[ \t]+(.+)$", re.MULTILINE)
+_FILES = re.compile(r"\S.*?\.mtl(?=\s|$)", re.IGNORECASE)  # names may have blanks
+_PARTS = re.compile(rb"^(?:usemtl (.*)|f)", re.MULTILINE)
+
 
 def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
     """The mesh in what a file holds; the suffix of its path tells the format.
 
     Polygons are divided into triangles. Colours of vertices are linear where a PLY file has them as
-    floats, else sRGB. Materials, colours of faces and texture coordinates are not read.
+    floats, else sRGB. Of materials, the names of those of OBJ files are read; colours of faces and
+    texture coordinates are not.
     Raises `SceneError`, which begins with `where`, for what is no mesh.
     """
     suffix = PurePosixPath(path).suffix.lower()
@@ -34,8 +40,10 @@ def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
-            tables = _reader(suffix)(BytesIO(content))
-        return _mesh(tables, suffix)
+            if suffix == ".obj" and b"usemtl" in content:
+                content = _plain_lines(content)
+                return _mesh(_reader(suffix)(BytesIO(content)), suffix, _names(content))
+            return _mesh(_reader(suffix)(BytesIO(content)), suffix)
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except Exception as error:  # trimesh raises whatever its parts do
@@ -44,6 +52,34 @@ def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
         f"{where}: {quoted(path)} is damaged, or no {suffix[1:].upper()} file: {problem}. Export "
         "it again."
     )
+
+
+def libraries(content: bytes) -> list[str]:
+    """The paths of the MTL files that an OBJ file names, relative to it, each once."""
+    found: list[str] = []
+    for line in _LIBRARY.findall(_plain_lines(content)):
+        text = line.decode("utf-8", "replace").strip()
+        found += _FILES.findall(text) or [text]
+    return list(dict.fromkeys(found))
+
+
+def _plain_lines(content: bytes) -> bytes:
+    """An OBJ file without comments and continued lines, which trimesh takes for materials."""
+    text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b"")
+    text = re.sub(rb"^[ \t]*#.*$", b"", text, flags=re.MULTILINE)
+    return re.sub(rb"^[ \t]*usemtl[ \t]+", b"usemtl ", text, flags=re.MULTILINE)
+
+
+def _names(content: bytes) -> list[str]:
+    """The material of each run of faces, in the order in which trimesh gives them: backwards."""
+    found, name, is_new = list[str](), "", True
+    for match in _PARTS.finditer(content):
+        if match[0] != b"f":
+            name, is_new = match[1].decode("utf-8", "replace").strip(), True
+        elif is_new:
+            found.append(name)
+            is_new = False
+    return found[::-1]
 
 
 def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
@@ -68,8 +104,8 @@ def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
     return readers[suffix]
 
 
-def _mesh(tables: dict[str, Any], suffix: str) -> TriangleMesh:
-    """Of what trimesh read: a mesh, or several by name."""
+def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> TriangleMesh:
+    """Of what trimesh read: a mesh, or several, each of the material of its owner."""
     parts = list(tables["geometry"].values()) if "geometry" in tables else [tables]
     vertices, faces, first = [], [], 0
     normals: list[Any] = []
@@ -86,7 +122,16 @@ def _mesh(tables: dict[str, Any], suffix: str) -> TriangleMesh:
     points, triangles = np.concatenate(vertices), np.concatenate(faces)
     if suffix == ".stl":  # no triangles share vertices there
         return checked(points, places(points)[triangles])
-    return checked(points, triangles, _joined(normals), _joined(colors))
+    names, labels = _labels(owners, [len(rows) for rows in faces])
+    return checked(points, triangles, _joined(normals), _joined(colors), names, labels)
+
+
+def _labels(owners: Sequence[str], counts: list[int]) -> tuple[tuple[str, ...], Any]:
+    """Each name once, and for each triangle its number; none where trimesh cut in other places."""
+    if len(owners) != len(counts) or not any(owners):
+        return (), None
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(reversed(owners)))}
+    return tuple(numbers), np.repeat([numbers[name] for name in owners], counts)
 
 
 def _joined(parts: list[Any]) -> NDArray[Any] | None:

@@ -11,7 +11,7 @@ from glrt.scene.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
 from glrt.scene.objects import Array, Sided, along_and_rest
 from glrt.scene.solids import rotation
 from glrt.scene.triangle_meshes import TriangleMesh
-from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Number, Triple, Vector
+from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
 
@@ -66,6 +66,16 @@ class Mesh(Sided):
     file: NamedMesh = Field(
         description="path of a file of triangles or polygons, .ply, .obj or .stl"
     )
+    material: str = Field(
+        "",
+        pattern=r"^[^\x00-\x1f\x7f]*$",
+        description="name of one of the materials; default: those that an OBJ file has of its own",
+    )
+    part: Name | None = Field(
+        None,
+        description="name of a material of the OBJ file, whose triangles alone are taken; default: "
+        "all",
+    )
     translate: Vector = Field((0.0, 0.0, 0.0), description="where the origin of the file lies")
     rotate: Vector = Field(
         (0.0, 0.0, 0.0),
@@ -106,7 +116,8 @@ class Mesh(Sided):
             scale: Number | Triple = 1,
             matrix: Sequence[Sequence[Number]] | Array | None = None,
             smooth: bool = True,
-            material: str,
+            material: str = "",
+            part: str | None = None,
             name: str | None = None,
             group: str | None = None,
             hidden: bool = False,
@@ -125,7 +136,17 @@ class Mesh(Sided):
 
     @property
     def triangles(self) -> TriangleMesh:
-        """In the coordinates of the file; ValueError before it is read."""
+        """In the coordinates of the file; ValueError before it is read, or without the part."""
+        mesh = self.triangles_of_file
+        if self.part is None:
+            return mesh
+        if self.part not in mesh.parts:
+            raise ValueError(f"the file {self.file.file} has no part {self.part}")
+        return mesh.parts[self.part]
+
+    @property
+    def triangles_of_file(self) -> TriangleMesh:
+        """Those of all parts; ValueError before the file is read."""
         if self.file.triangles is None:
             raise ValueError(f"the file {self.file.file} was not read")
         return self.file.triangles
@@ -171,7 +192,7 @@ class Mesh(Sided):
         """The middle of the box around it, in its own axes; before it is read, its origin."""
         center = self.origin
         if self.file.triangles is not None:
-            low, high = self.file.triangles.box
+            low, high = self.triangles.box
             center = self.linear @ ((low + high) / 2) + center
         x, y, z = (float(value) for value in center)
         return (x, y, z)
@@ -181,7 +202,7 @@ class Mesh(Sided):
         """To the farthest corner of that box."""
         if self.file.triangles is None:
             return 0.0
-        low, high = self.file.triangles.box
+        low, high = self.triangles.box
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
         corners = (signs * (high - low) / 2) @ self.linear.T
         return float(np.linalg.norm(corners, axis=1).max())

@@ -1,6 +1,7 @@
 """Meshes that a scene names: the path of a file, its SHA-256, and its triangles once it is read."""
 
 import hashlib
+from collections.abc import Mapping
 from io import BytesIO
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,6 +18,8 @@ class MeshFile(NamedFile):
 
     _triangles: TriangleMesh | None = PrivateAttr(None)
     _content: bytes | None = PrivateAttr(None)
+    _libraries: Mapping[str, str] = PrivateAttr({})
+    _unread: tuple[str, ...] = PrivateAttr(())
 
     @property
     def triangles(self) -> TriangleMesh | None:
@@ -27,6 +30,22 @@ class MeshFile(NamedFile):
     def content(self) -> bytes | None:
         """What the file of a mesh from arrays holds; None for one that was read."""
         return self._content
+
+    @property
+    def libraries(self) -> Mapping[str, str]:
+        """SHA-256 in hex by path, of the MTL files that materials were taken from."""
+        return self._libraries
+
+    @property
+    def unread(self) -> tuple[str, ...]:
+        """The keys of those files that were left out."""
+        return self._unread
+
+    def with_libraries(self, hashes: Mapping[str, str], unread: tuple[str, ...]) -> "MeshFile":
+        """The mesh, which knows where its materials were taken from."""
+        found = self.model_copy()
+        found._libraries, found._unread = hashes, unread
+        return found
 
     def read_as(self, sha256: str, triangles: TriangleMesh, origin: Path | None) -> "MeshFile":
         """The mesh with its content."""

@@ -18,8 +18,11 @@ from glrt.scene.camera import Camera
 from glrt.scene.contents import Contents
 from glrt.scene.loading import copy_files, with_files
 from glrt.scene.materials import Dielectric, Material, Opaque
+from glrt.scene.nesting import nesting_problems
 from glrt.scene.objects import Object
+from glrt.scene.own_materials import lacks_material
 from glrt.scene.shapes import Shape
+from glrt.scene.sun import Sun
 from glrt.scene.tables import to_tables, toml_text
 from glrt.scene.validation import MisfitError, Place, validated
 from glrt.scene.values import BLACK, LARGEST, Number, Radiance
@@ -27,6 +30,7 @@ from glrt.settings import RenderSettings
 from glrt.text import number, quoted, unknown
 
 SKY_GROUP = "background"
+SUN_GROUP = "sun"
 
 
 class Finish(NamedTuple):
@@ -48,6 +52,7 @@ class Scene(Contents):
         *,
         materials: Mapping[str, Material | Mapping[str, Any]] | None = None,
         background: Background | Mapping[str, Any] | None = None,
+        sun: Sun | Mapping[str, Any] | None = None,
         lights: Mapping[str, Number] | None = None,
         render: RenderSettings | Mapping[str, Any] | None = None,
         title: str | None = None,
@@ -65,6 +70,7 @@ class Scene(Contents):
             camera=camera,
             render=render,
             background=background,
+            sun=sun,
             materials=materials,
             lights=lights,
             objects=objects,
@@ -115,13 +121,22 @@ class Scene(Contents):
     @property
     def light_groups(self) -> dict[str, float]:
         """Intensity of every light group: those of the lamps in their order, then the sky's."""
-        return {group: self._intensity(group) for group in [*self._lamp_groups(), SKY_GROUP]}
+        suns = [SUN_GROUP] if self.sun else []
+        groups = [*self._lamp_groups(), *suns, SKY_GROUP]
+        return {group: self._intensity(group) for group in groups}
 
     @property
     def background_colors(self) -> tuple[Radiance, ...]:
         """The gradient of the background, intensity included."""
         intensity = self._intensity(SKY_GROUP)
         return tuple(_scaled(color, intensity) for color in self.background.gradient)
+
+    @property
+    def sun_radiance(self) -> Radiance:
+        """Of the sun, intensity included; black without one."""
+        if self.sun is None:
+            return BLACK
+        return _scaled(self.sun.radiance, self._intensity(SUN_GROUP))
 
     def emission(self, finish: Finish) -> Radiance:
         """Radiance of a surface, intensity of its group included; black for one without light."""
@@ -149,7 +164,8 @@ class Scene(Contents):
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
-        problems = [*_object_problems(self), *_light_problems(self), *_emptiness(self)]
+        nesting = nesting_problems(self.materials, self.visible)
+        problems = [*_object_problems(self), *nesting, *_light_problems(self), *_emptiness(self)]
         if problems:
             raise MisfitError(problems)
         return self
@@ -183,12 +199,14 @@ def _scaled(color: Radiance, factor: float) -> Radiance:
 def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
     missing: set[str] = set()
     for index, item in enumerate(scene.objects):
+        if lacks_material(item):
+            continue  # its file has them
         material = scene.materials.get(item.material)
         if material is None and item.material not in missing:
             missing.add(item.material)  # named once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
-        if isinstance(material, Dielectric) and not item.encloses:
+        if isinstance(material, Dielectric) and not (item.encloses or material.thin):
             article = "an open" if item.has_inside else "a"
             yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
 
@@ -210,13 +228,15 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
     for group in scene.lights:
         if group not in groups and group not in dark:
             yield ("lights", group), unknown("light group", group, sorted(groups))
+    if max(scene.sun_radiance) > LARGEST:
+        yield ("lights", SUN_GROUP), _too_bright("radiance of the sun")
     if max(map(max, scene.background_colors)) > LARGEST:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
 _GLASS_ADVICE = (
     "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box, a "
-    "cylinder with caps or a closed mesh"
+    "cylinder with caps or a closed mesh, or a material with thin = true"
 )
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "
@@ -229,5 +249,5 @@ def _too_bright(what: str) -> str:
 
 
 def _emptiness(scene: Scene) -> Iterator[tuple[Place, str]]:
-    if not scene.visible and not any(map(any, scene.background.gradient)):
+    if not scene.visible and not scene.sun and not any(map(any, scene.background.gradient)):
         yield (), "there is nothing to see: add an object, or a background that is not black"

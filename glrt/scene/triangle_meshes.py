@@ -25,6 +25,8 @@ class TriangleMesh:
     faces: Ints  # (n, 3): numbers of vertices
     normals: Floats | None  # (v, 3), of any length above 0; None: none were given
     colors: Floats | None = None  # (v, 3), linear sRGB, 0 to 1 each; None: none were given
+    names: tuple[str, ...] = ()  # of the materials of the file; empty: before the first
+    labels: Ints | None = None  # (n,): the number of a name; None: the file names none
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -68,6 +70,23 @@ class TriangleMesh:
             return self
         return replace(self, faces=self.faces[:, ::-1].copy())
 
+    @cached_property
+    def parts(self) -> dict[str, "TriangleMesh"]:
+        """The triangles of each material of the file, with the normals of the whole mesh."""
+        if self.labels is None:
+            return {}
+        sums = self.normals if self.normals is not None else self._mean_normals()
+        counts = np.bincount(self.labels, minlength=len(self.names))
+        rows = np.split(np.argsort(self.labels, kind="stable"), np.cumsum(counts)[:-1])
+        named = zip(self.names, rows, strict=True)
+        return {name: self._only(kept, sums) for name, kept in named if len(kept)}
+
+    def _only(self, kept: Ints, normals: Floats) -> "TriangleMesh":
+        used, faces = np.unique(self.faces[kept], return_inverse=True)
+        colors = None if self.colors is None else self.colors[used]
+        part = TriangleMesh(self.vertices[used], faces.reshape(-1, 3), normals[used], colors)
+        return part.outward
+
     def _volume(self) -> float:
         a, b, c = (self.vertices[self.faces[:, k]] - self.box[0] for k in range(3))
         return float((a * np.cross(b, c)).sum() / 6)
@@ -90,7 +109,14 @@ class TriangleMesh:
         return mean
 
 
-def checked(vertices: Any, faces: Any, normals: Any = None, colors: Any = None) -> TriangleMesh:
+def checked(
+    vertices: Any,
+    faces: Any,
+    normals: Any = None,
+    colors: Any = None,
+    names: tuple[str, ...] = (),
+    labels: Ints | None = None,
+) -> TriangleMesh:
     """A mesh of arrays as of `TriangleMesh`; triangles of two equal corners are left out.
 
     Raises ValueError, which says what is wrong with which row.
@@ -103,14 +129,16 @@ def checked(vertices: Any, faces: Any, normals: Any = None, colors: Any = None) 
     if problem:
         raise ValueError(problem)
     equal = triangles == np.roll(triangles, 1, axis=1)
-    kept = triangles[~equal.any(axis=1)]
+    whole = ~equal.any(axis=1)
+    kept = triangles[whole]
     if not len(kept):
         raise ValueError("it has no triangle with three corners")
     used = np.zeros(len(points), bool)
     used[kept] = True
     rank = np.cumsum(used) - 1
-    others = (None if rows is None else rows[used] for rows in (turned, dyes))
-    return TriangleMesh(points[used], rank[kept], *others)
+    normal_rows, color_rows = (None if rows is None else rows[used] for rows in (turned, dyes))
+    labels = None if labels is None else labels[whole]
+    return TriangleMesh(points[used], rank[kept], normal_rows, color_rows, names, labels)
 
 
 def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:

@@ -17,6 +17,7 @@ from glrt.scene.cone import Cone
 from glrt.scene.contents import Contents
 from glrt.scene.materials import TYPES
 from glrt.scene.shapes import KINDS
+from glrt.scene.sun import Sun
 from glrt.scene.values import SMALLEST, plain
 from glrt.settings import RenderSettings
 from glrt.text import nearest, number, shortened, unknown
@@ -31,6 +32,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "camera": Camera,
     "render": RenderSettings,
     "background": Background,
+    "sun": Sun,
 }
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
@@ -188,6 +190,7 @@ _HEADINGS: dict[Place, str] = {
     ("camera",): "must be a table headed [camera]",
     ("render",): "must be a table headed [render]",
     ("background",): "must be a table headed [background]",
+    ("sun",): "must be a table headed [sun]",
     ("lights",): "must be a table headed [lights]",
     ("materials",): "must be a table of tables, each headed [materials.NAME]",
     ("objects",): "must be a list of tables, each headed [[objects]]",

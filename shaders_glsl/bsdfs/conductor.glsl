@@ -20,8 +20,8 @@ float fresnel_conductor(float cosine, float n, float k) {
 
 // Of metal, at an angle to its normal or to that of its facet.
 vec3 metal_reflectance(Material material, float cosine) {
-    if (!HAS_CONDUCTOR || material.conductor == NO_CONDUCTOR) return material.color;
-    precise Conductor metal = conductor_at(material.conductor);
+    if (!HAS_CONDUCTOR || material.details == NO_DETAILS) return material.color;
+    precise Conductor metal = conductor_at(material.details);
     precise vec3 reflectance = vec3(fresnel_conductor(cosine, metal.n.x, metal.k.x),
                                     fresnel_conductor(cosine, metal.n.y, metal.k.y),
                                     fresnel_conductor(cosine, metal.n.z, metal.k.z));

@@ -19,7 +19,8 @@ float fresnel(float cos_i, float eta) {
 
 // One of the two directions, with the probability of its share: the weight is 1. Radiance that
 // crosses is squeezed into another solid angle and scales by eta^2.
-Scattering sample_dielectric(Vertex vertex, float eta, float u) {
+Scattering sample_dielectric(Vertex vertex, float u) {
+    precise float eta = vertex.eta;
     precise float cos_i = vertex.wo.z;
     precise vec3 n = vertex.frame[2];
     precise vec3 incoming = -(vertex.frame * vertex.wo);

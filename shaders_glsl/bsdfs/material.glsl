@@ -2,29 +2,33 @@
 // is a delta, in eval_material and pdf_material; MATTE is what remains.
 
 bool is_delta(Material material) {
-    if (HAS_DIELECTRIC && material.kind == DIELECTRIC) return true;
+    if (HAS_DIELECTRIC && material.kind == DIELECTRIC) return !is_rough_glass(material);
+    if (HAS_PANE && material.kind == PANE) return true;
     return HAS_MIRROR && material.kind == METAL && material.alpha == 0.0;
 }
 
 vec3 eval_material(Vertex vertex, vec3 wi) {
     precise Material material = vertex.material;
     if (HAS_ROUGH_METAL && material.kind == METAL) return eval_metal(vertex, wi);
+    if (HAS_ROUGH_GLASS && material.kind == DIELECTRIC) return eval_rough_dielectric(vertex, wi);
     return eval_matte(material.color, wi);
 }
 
 float pdf_material(Vertex vertex, vec3 wi) {
     if (HAS_ROUGH_METAL && vertex.material.kind == METAL) return pdf_metal(vertex, wi);
+    if (HAS_ROUGH_GLASS && vertex.material.kind == DIELECTRIC) return pdf_rough_dielectric(vertex, wi);
     return pdf_matte(wi);
 }
 
-// `outside`: whether wo is on the outer side of the surface.
-Scattering sample_material(Vertex vertex, bool outside, precise inout Sampler rng) {
+Scattering sample_material(Vertex vertex, precise inout Sampler rng) {
     precise Material material = vertex.material;
     if (HAS_DIELECTRIC && material.kind == DIELECTRIC) {
-        precise float eta = outside ? 1.0 / material.ior : material.ior;
-        precise float u = next_1d(rng);
-        return sample_dielectric(vertex, eta, u);
+        precise float choice = next_1d(rng);
+        if (!is_rough_glass(material)) return sample_dielectric(vertex, choice);
+        precise vec2 u = next_2d(rng);
+        return sample_rough_dielectric(vertex, choice, u);
     }
+    if (HAS_PANE && material.kind == PANE) return sample_pane(vertex, next_1d(rng));
     precise vec2 u = next_2d(rng);
     if ((HAS_MIRROR || HAS_ROUGH_METAL) && material.kind == METAL) return sample_metal(vertex, u);
     return sample_matte(vertex, u);

@@ -8,6 +8,8 @@ struct Vertex {
     mat3 frame;         // world from local
     vec3 wo;            // local, z > 0
     Material material;
+    bool is_outside;    // whether wo is on the outer side of the surface
+    float eta;          // index of refraction here over there
 };
 
 struct Scattering {
@@ -17,6 +19,12 @@ struct Scattering {
     float scale;     // of radiance, by refraction: (eta)^2
     bool crosses;    // through the surface
 };
+
+// `is_outside`: whether wo is.
+Vertex vertex_of(mat3 frame, vec3 wo, Material material, bool is_outside) {
+    precise float eta = is_outside ? 1.0 / material.ior : material.ior;
+    return Vertex(frame, wo, material, is_outside, eta);
+}
 
 Scattering absorbed() {
     return Scattering(vec3(0.0), vec3(0.0), 0.0, 1.0, false);

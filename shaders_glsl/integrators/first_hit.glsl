@@ -8,7 +8,7 @@ vec3 nothing_met() {
 
 // Glass takes no light: 1. Metal has its reflectance, a lamp its own albedo.
 vec3 albedo_of(Material material) {
-    if (material.kind == DIELECTRIC) return vec3(1.0);
+    if (material.kind == DIELECTRIC || material.kind == PANE) return vec3(1.0);
     return head_on_reflectance(material);
 }
 

@@ -25,7 +25,9 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
 vec3 direct_light(Vertex vertex, LightSample light) {
     if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
     precise vec3 wi = to_local(vertex.frame, light.ray.direction);
-    if (wi.z <= 0.0) return vec3(0.0);
+    bool crosses = is_rough_glass(vertex.material) && wi.z < 0.0;
+    if (wi.z <= 0.0 && !crosses) return vec3(0.0);
+    if (crosses) light.ray.inward = !light.ray.inward;
     precise vec3 weight = eval_material(vertex, wi) / light.pdf;
     if (WEIGHT_BOTH) weight *= power_heuristic(light.pdf, pdf_material(vertex, wi));
     if (occluded(light.ray, light.distance, light.shape)) return vec3(0.0);
@@ -55,11 +57,15 @@ struct Path {
     float pdf;        // of the last scattering; 0 if it was a delta, or none yet
     float lamps;      // weight of all that are sampled, where it scattered last
     int depth;        // scattering events so far
+    vec3 absorption;  // of the glass that its next segment lies in
+    uint counts;      // of the glasses with a priority there
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
 Path start_path(Ray ray) {
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, NO_LAYERS);
+    precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
+    uint counts = HAS_NESTED ? frame.camera_counts : 0u;
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, NO_LAYERS);
 }
 
 // Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
@@ -102,26 +108,95 @@ mat3 shading_frame(vec3 facing, vec3 normal, vec3 direction) {
     return frame_around(normal);
 }
 
+// Of what lies behind a surface of this material; `enters`: whether behind is its inside.
+vec3 absorption_behind(Path path, Material material, bool enters) {
+    if (is_medium(material)) {
+        uint counts = counts_beyond(path.counts, material.details, enters);
+        return absorption_of_glass(medium_of(counts));
+    }
+    if (material.kind != DIELECTRIC) return path.absorption;
+    return enters ? absorption_of_glass(material.details) : vec3(0.0);
+}
+
+// What a segment that ends at this surface loses. That of glass met from inside lay in it.
+void absorb(precise inout Path path, Material material, bool inside, float distance) {
+    bool is_glass = material.kind == DIELECTRIC && !is_medium(material);
+    if (is_glass && inside) path.absorption = absorption_of_glass(material.details);
+    path.throughput *= share_left(path.absorption, distance);
+}
+
+// Whether a surface of glass lies in another glass that stays: nothing happens there, and no light that
+// was sampled has passed it.
+bool passes(precise inout Path path, Surface surface, Material material, bool enters) {
+    if (!is_medium(material)) return false;
+    uint beyond = counts_beyond(path.counts, material.details, enters);
+    if (medium_of(beyond) != medium_of(path.counts)) return false;
+    path.counts = beyond;
+    path.ray = Ray(surface.position, path.ray.direction, surface.shape, enters);
+    path.pdf = 0.0;
+    return true;
+}
+
+// Light of a sample, scattered at a vertex. `facing`: the true normal on the side of wo; `behind`: what the
+// other side absorbs.
+void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, vec3 facing, vec3 behind) {
+    precise float height = dot(light.ray.direction, facing);
+    precise float along = dot(light.ray.direction, vertex.frame[2]);
+    if (HAS_SMOOTH && height * along <= 0.0) light.pdf = 0.0;
+    precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light);
+    if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
+    gather(path, direct, light.layer, path.depth + 1);
+}
+
+// The share of the sky's light that scattering may count.
+float sky_weight(Path path) {
+    if (path.pdf == 0.0) return 1.0;
+    precise float light_pdf = pdf_sky(path.ray.direction);
+    if (light_pdf == 0.0) return 1.0;
+    return WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
+}
+
+// The sun, where a path that meets nothing meets it.
+void gather_sun(precise inout Path path) {
+    if (!meets_sun(path.ray.direction)) return;
+    precise vec3 light = path.scale * path.throughput * frame.sun_radiance;
+    if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
+    if (SAMPLE_SUN && path.pdf > 0.0) light *= WEIGHT_BOTH ? power_heuristic(path.pdf, pdf_sun()) : 0.0;
+    gather(path, light, SUN_LAYER, path.depth);
+}
+
 // Scatters at a surface, after gathering direct light there; false when the path ends.
 bool scatter_path(precise inout Path path, Surface surface, Material material, precise inout Sampler rng) {
     precise vec3 facing = true_normal(surface);
     precise float side = dot(path.ray.direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
     facing *= side;
     precise mat3 around = shading_frame(facing, side * surface.normal, path.ray.direction);
-    precise Vertex vertex = Vertex(around, to_local(around, -path.ray.direction), material);
+    precise Vertex vertex = vertex_of(around, to_local(around, -path.ray.direction), material, side > 0.0);
     precise Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
     if (!is_followed(material)) {
         shade(path, vertex, ray, rng);
         return false;
     }
+    uint beyond = path.counts;
+    if (is_medium(material)) {
+        beyond = counts_beyond(path.counts, material.details, side > 0.0);
+        vertex.eta = ior_of_medium(path.counts) / ior_of_medium(beyond);
+    }
+    precise vec3 behind = HAS_ATTENUATION ? absorption_behind(path, material, side > 0.0) : vec3(0.0);
     precise float lamps = total_weight(ray);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
-        if (HAS_SMOOTH && dot(light.ray.direction, facing) <= 0.0) light.pdf = 0.0;
-        precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light);
-        gather(path, direct, light.layer, path.depth + 1);
+        gather_sampled(path, vertex, light, facing, behind);
     }
-    precise Scattering next = sample_material(vertex, side > 0.0, rng);
+    if (SAMPLE_SKY && !is_delta(material)) {
+        precise LightSample light = sample_sky(ray, rng);
+        gather_sampled(path, vertex, light, facing, behind);
+    }
+    if (SAMPLE_SUN && !is_delta(material)) {
+        precise LightSample light = sample_sun(ray, rng);
+        gather_sampled(path, vertex, light, facing, behind);
+    }
+    precise Scattering next = sample_material(vertex, rng);
     if (HAS_SMOOTH && (dot(next.direction, facing) < 0.0) != next.crosses) return false;
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return false;
@@ -130,6 +205,8 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     ray.direction = next.direction;
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
+    if (HAS_ATTENUATION && next.crosses) path.absorption = behind;
+    if (HAS_NESTED && next.crosses) path.counts = beyond;
     path.pdf = next.pdf;
     path.lamps = lamps;
     path.depth += 1;
@@ -142,14 +219,19 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
     if (hit.shape == NO_SHAPE) {
         if (HAS_BACKGROUND) {
             precise vec3 sky = path.scale * path.throughput * background(path.ray.direction);
+            if (HAS_ATTENUATION) sky *= share_left_of_sky(path.absorption);
+            if (SAMPLE_SKY) sky *= sky_weight(path);
             gather(path, sky, BACKGROUND_LAYER, path.depth);
         }
+        if (HAS_SUN) gather_sun(path);
         return false;
     }
     precise Surface surface = surface_at(path.ray, hit);
     precise Material material = material_of(path.ray, surface);
     precise float share = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
     bool facing = dot(path.ray.direction, true_normal(surface)) < 0.0;
+    if (HAS_ATTENUATION) absorb(path, material, !facing, hit.distance);
+    if (HAS_NESTED && passes(path, surface, material, facing)) return true;
     precise vec3 emission = emitted(material, -path.ray.direction, facing);
     precise vec3 light = path.scale * path.throughput * emission * share;
     gather(path, light, material.layer, path.depth);

@@ -10,28 +10,53 @@ float angle_of(float sine, float cosine) {
 }
 
 // The image of the sky, of all directions: the top row is +y, the middle column -z, three quarters of the
-// width +x. Between the centres of four pixels; around the vertical axis there is no edge.
-vec3 environment(vec3 direction) {
-    ivec2 size = environment_size();
+// width +x. Between the middles of four pixels it is bilinear; around the vertical axis there is no edge.
+
+struct SkyPlace {
+    ivec2 corner;  // the pixel left above; above the first row -1
+    vec2 share;    // of the way to the pixel right below
+};
+
+struct SkyPatch {
+    vec3 left_above;  // the pixels around it
+    vec3 right_above;
+    vec3 left_below;
+    vec3 right_below;
+};
+
+SkyPlace sky_place(vec3 direction) {
     precise float across = sqrt(direction.x * direction.x + direction.z * direction.z);
     precise float azimuth = abs(direction.x) + abs(direction.z) > 0.0 ? angle_of(abs(direction.x), -direction.z) : 0.0;
     precise float turned = direction.x < 0.0 ? -azimuth : azimuth;
     precise float turns = 0.5 / PI * turned + 0.5 + frame.background_turn;
     precise float height = angle_of(across, direction.y) / PI;
-    precise vec2 place = vec2(turns, height) * vec2(size) - 0.5;
+    precise vec2 place = vec2(turns, height) * vec2(environment_size()) - 0.5;
     precise vec2 corner = floor(place);
     precise vec2 share = place - corner;
-    ivec2 low = ivec2(corner);
-    ivec2 columns = (ivec2(low.x, low.x + 1) + size.x) % size.x;
-    ivec2 rows = clamp(ivec2(low.y, low.y + 1), 0, size.y - 1);
-    precise vec3 upper_left = environment_pixel(columns.x, rows.x);
-    precise vec3 upper_right = environment_pixel(columns.y, rows.x);
-    precise vec3 lower_left = environment_pixel(columns.x, rows.y);
-    precise vec3 lower_right = environment_pixel(columns.y, rows.y);
-    precise vec3 upper = upper_left + share.x * (upper_right - upper_left);
-    precise vec3 lower = lower_left + share.x * (lower_right - lower_left);
-    precise vec3 radiance = upper + share.y * (lower - upper);
+    return SkyPlace(ivec2(corner), share);
+}
+
+SkyPatch sky_patch(ivec2 corner) {
+    ivec2 size = environment_size();
+    ivec2 columns = (ivec2(corner.x, corner.x + 1) + size.x) % size.x;
+    ivec2 rows = clamp(ivec2(corner.y, corner.y + 1), 0, size.y - 1);
+    precise vec3 left_above = environment_pixel(columns.x, rows.x);
+    precise vec3 right_above = environment_pixel(columns.y, rows.x);
+    precise vec3 left_below = environment_pixel(columns.x, rows.y);
+    precise vec3 right_below = environment_pixel(columns.y, rows.y);
+    return SkyPatch(left_above, right_above, left_below, right_below);
+}
+
+vec3 radiance_between(SkyPatch around, vec2 share) {
+    precise vec3 above = around.left_above + share.x * (around.right_above - around.left_above);
+    precise vec3 below = around.left_below + share.x * (around.right_below - around.left_below);
+    precise vec3 radiance = above + share.y * (below - above);
     return radiance;
+}
+
+vec3 environment(vec3 direction) {
+    precise SkyPlace place = sky_place(direction);
+    return radiance_between(sky_patch(place.corner), place.share);
 }
 
 vec3 background(vec3 direction) {

@@ -36,5 +36,12 @@ struct Frame {
     int slot_count;
     vec3 tree_center;       // of its grid, relative to the camera
     float tree_cell;        // edge of a cell, a power of two
+    vec3 sun_direction;      // unit, towards it; where HAS_SUN
+    float sun_versine;       // 1 - cos of half its angle
+    vec3 sun_radiance;
+    float spare;             // fills the row
+    vec3 camera_absorption;  // of the glass around the camera, per unit length
+    uint camera_counts;      // of the glasses with a priority around it (integrators/media.glsl)
     float background_turn;  // of its image about +y, in turns from 0 to 1
+    float sky_density;      // of its samples per solid angle: lights/sky_sampling.glsl
 };

@@ -3,6 +3,6 @@
 
 #include "structs/shapes.glsl"
 #include "structs/material.glsl"
-#include "structs/conductor.glsl"
+#include "structs/details.glsl"
 #include "structs/lights.glsl"
 #include "structs/frame.glsl"

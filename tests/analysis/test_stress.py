@@ -28,6 +28,7 @@ VERDICTS = {
     "bulb": 18,
     "caustic": 3,
     "fireflies": 1,
+    "frosted": 7,
     "seeds": 7,
 }
 SWEEP = Sweep(

@@ -27,9 +27,11 @@ from tests.mitsuba.scenes import (
     ROUND_LAMP,
     TUBE,
     everything,
+    frosted,
     glowing,
     measured,
     meshes,
+    pictured,
     solids,
     solids_but,
 )
@@ -143,6 +145,26 @@ def test_measured_metals_look_the_same_to_mitsuba(context: Context, mitsuba: Pee
     assert found, str(found)
     assert found.sensitivity.light < 0.03
     assert not judged(ours(context, measured("brass")), picture)
+
+
+def test_rough_and_thin_glass_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    picture = theirs(mitsuba, frosted())
+    found = judged(ours(context, frosted()), picture)
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    assert not judged(ours(context, frosted(0.7)), picture)
+    assert not judged(ours(context, frosted(ior=2.0)), picture)
+
+
+def test_an_image_of_the_sky_looks_the_same_to_mitsuba(
+    context: Context, mitsuba: Peer, tmp_path: Path
+) -> None:
+    picture = theirs(mitsuba, pictured(tmp_path))
+    found = judged(ours(context, pictured(tmp_path)), picture)
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    assert not judged(ours(context, pictured(tmp_path, rotation=40)), picture)
+    assert not judged(ours(context, pictured(tmp_path, radiance=300.0)), picture)
 
 
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

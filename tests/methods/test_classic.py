@@ -250,7 +250,7 @@ def test_a_loop_that_a_driver_cuts_is_noticed(
     shaded = """
         Ray from = Ray(vec3(0.0, 0.1 * float(x & 1u), 0.0), vec3(0.0, -1.0, 0.0), NO_SHAPE, false);
         mat3 around = frame_around(vec3(0.0, 1.0, 0.0));
-        Vertex vertex = Vertex(around, vec3(0.0, 0.0, 1.0), material_at(0));
+        Vertex vertex = vertex_of(around, vec3(0.0, 0.0, 1.0), material_at(0), true);
         Sampler rng = make_sampler(x);
         Path path = start_path(from);
         shade(path, vertex, from, rng);"""

@@ -54,9 +54,21 @@ PROBES = {
     "HAS_SMOOTH": ("shapes/mesh.glsl", "shares.y * normalized(", "{} * shares.y * normalized("),
     "HAS_VERTEX_COLOR": ("shapes/mesh.glsl", "first + shares.y", "first + {} * shares.y"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
-    "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "2.0 * PI * u.x", "{} * u.x"),
+    "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "_normal(alpha, vertex.wo", "_normal({}, vertex.wo"),
     "HAS_CONDUCTOR": ("bsdfs/conductor.glsl", "= cosine * cosine;", "= {} * cosine * cosine;"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
+    "HAS_ROUGH_GLASS": (
+        "bsdfs/rough_dielectric.glsl",
+        "vertex.eta * cos_o + cos_i",
+        "{} * cos_o + cos_i",
+    ),
+    "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
+    "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
+    "HAS_NESTED": (
+        "integrators/media.glsl",
+        "return glass_at(medium).ior",
+        "return {} * glass_at(medium).ior",
+    ),
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
         "integrators/path.glsl",
@@ -64,6 +76,12 @@ PROBES = {
         "{} * path.throughput * background(",
     ),
     "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
+    "HAS_SUN": (
+        "lights/sun.glsl",
+        "direction - frame.sun_direction",
+        "direction - {} * frame.sun_direction",
+    ),
+    "SAMPLE_SUN": ("lights/sun.glsl", "sample_cone(frame.sun_versine", "sample_cone({}"),
     "HAS_CONE": ("lights/emission.glsl", "0.5 * dot(aside, aside)", "{} * dot(aside, aside)"),
     "HAS_ONE_SIDED": (
         "lights/emission.glsl",
@@ -75,9 +93,9 @@ PROBES = {
     "HAS_DISK_LIGHT": ("lights/sampling.glsl", "vec3(place, 0.0)", "vec3({} * place, 0.0)"),
     "HAS_MESH_LIGHT": ("lights/sampling.glsl", "share_b * triangle.edge_b", "{} * triangle.edge_b"),
     "SAMPLE_LIGHTS": (
-        "integrators/path.glsl",
-        "weight * light.radiance",
-        "{} * weight * light.radiance",
+        "lights/sampling.glsl",
+        "ray.direction = point.direction",
+        "ray.direction = {} * point.direction",
     ),
     "WEIGHT_BOTH": ("integrators/path.glsl", "p_b / p_a", "{} * p_b / p_a"),
     "QUADS_BY_AREA": ("lights/sampling.glsl", "quad.width * quad.height", "{} * quad.width"),
@@ -89,6 +107,10 @@ NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
     "HAS_TREE": {"HAS_DISK"},
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
+    "SAMPLE_SUN": {"HAS_SUN"},
+    "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
+    "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
+    "HAS_NESTED": {"HAS_DIELECTRIC"},
     "HAS_SMOOTH": {"HAS_MESH"},
     "HAS_VERTEX_COLOR": {"HAS_MESH"},
     "HAS_ONE_SIDED": {"HAS_DISK"},
@@ -106,6 +128,7 @@ NEEDED_TOO = {
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
+    "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},
@@ -113,8 +136,10 @@ GONE_TOO = {
     "WEIGHT_BOTH": {"QUADS_BY_AREA"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
-    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT"},
+    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT", "SAMPLE_SUN"},
+    "HAS_SUN": {"SAMPLE_SUN"},
 }
+GONE_TOO["SAMPLE_SUN"] = GONE_TOO["SAMPLE_LIGHTS"] - {"SAMPLE_SUN"} | {"SAMPLE_LIGHTS"}
 
 
 def smallest_with(flag: str) -> set[str]:
@@ -137,6 +162,10 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "mirror": {"type": "metal", "color": [1, 1, 1], "roughness": 0},
     "rough": {"type": "metal", "color": [1, 1, 1], "roughness": 0.5},
     "glass": glass(),
+    "frosted": glass(roughness=0.5),
+    "pane": glass(thin=True),
+    "tinted": glass(attenuation_color=[0.5] * 3, attenuation_distance=1.0),
+    "water": glass(1.33, priority=1),
     "lamp": lamp(),
     "spot": lamp(cone={"axis": [0, 1, 0]}),
 }
@@ -186,6 +215,8 @@ def needs_with(flags: set[str]) -> Needs:
         return plane([0, 0, -3], [0, 0, 1], material)
 
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
+    made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane"}
+    made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []
     ball, flat = sphere([9, 9, 9], 1, "matte"), _flat_shape(flags)
@@ -214,8 +245,10 @@ def needs_with(flags: set[str]) -> Needs:
         MATERIALS | (metals if "HAS_CONDUCTOR" in flags else {}),
         {"defocus_angle": 2.0 if "HAS_LENS" in flags else 0.0},
         background=sky_with(flags),
+        **({"sun": {"elevation": 40, "irradiance": [1, 1, 1]}} if "HAS_SUN" in flags else {}),
     )
-    method = "mis" if "WEIGHT_BOTH" in flags else "nee" if "SAMPLE_LIGHTS" in flags else "naive"
+    samples = bool(flags & {"SAMPLE_LIGHTS", "SAMPLE_SUN"})
+    method = "mis" if "WEIGHT_BOTH" in flags else "nee" if samples else "naive"
     settings = settings_for(scene.render, method=method, roulette="ROULETTE" in flags)
     return needs_of(scene, settings)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from glrt.errors import SceneError
 from glrt.scene.cylinder import Cylinder
+from glrt.scene.facets import facet_loss
 from glrt.scene.materials import Dielectric, Metal, Opaque
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
@@ -15,9 +16,10 @@ from glrt.scene.shapes import Disk, Plane, Quad, Sphere
 from glrt.scene.solids import Box
 from glrt.scene.values import Radiance
 from glrt.settings import Settings
-from tests.mitsuba import metal
+from tests.mitsuba import metal, rough_glass
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
 from tests.mitsuba.near import EXTENT, Near, Vector, around, corners, length, near, normal_of, unit
+from tests.mitsuba.skies import sky
 
 ROULETTE_DEPTH = 5  # where it starts by Mitsuba's own choice
 NEVER = 1 << 30
@@ -30,7 +32,6 @@ GRID = EXTENT * np.array([-(2.0**15), -8.0, 8.0, 2.0**15])
 CELL = EXTENT * np.array([-1000.0, 1000.0])  # of a plane that may end
 GAP = 5e-6 * EXTENT  # between the two faces of a lamp
 CLIP = (1e-3, 2.0**20 * EXTENT)  # from the lens; Mitsuba renders nothing before it and beyond
-SKY_ROWS = 512  # from pole to pole: the gradient is then right to 3e-6 of its range
 
 Words = dict[str, Any]
 
@@ -51,6 +52,7 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
     """
     refuse_coincident(scene)
     metal.register(mi.variant())
+    rough_glass.register(mi.variant())
     at = near(scene)
     words = {
         "type": "scene",
@@ -62,7 +64,7 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
         "camera": _camera(mi, scene, settings, at, liberties.sampler),
     }
     if any(map(any, scene.background_colors)):
-        words["background"] = _background(mi, *scene.background_colors)
+        words["background"] = sky(mi, scene)
     for index, item in enumerate(scene.visible):
         for side, part in enumerate(_shape(mi, scene, item, at, liberties)):
             words[f"object {index} {side}"] = part
@@ -95,19 +97,6 @@ def _camera(mi: Any, scene: Scene, settings: Settings, at: Near, sampler: str) -
             "rfilter": {"type": "box"},
         },
     }
-
-
-def _background(mi: Any, bottom: Radiance, *rest: Radiance) -> Words:
-    *horizon, top = rest
-    if {bottom, *rest} == {bottom}:
-        return {"type": "constant", "radiance": _color(top)}
-    # Rows run from the upper pole to the lower one, both included, and are interpolated.
-    cosine = np.cos(np.pi * np.arange(SKY_ROWS) / (SKY_ROWS - 1))
-    knots = np.linspace(-1, 1, 2 + len(horizon))
-    colors = np.array([bottom, *horizon, top])
-    rows = np.stack([np.interp(cosine, knots, channel) for channel in colors.T], axis=-1)
-    pixels = np.repeat(rows[:, None].astype(np.float32), 2, axis=1)
-    return {"type": "envmap", "bitmap": mi.Bitmap(pixels)}
 
 
 def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> Iterator[Any]:
@@ -252,13 +241,23 @@ def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
     """How a surface scatters, on both sides, and what it emits from its front."""
     material = scene.materials[finish.material]
     if isinstance(material, Dielectric):
-        return {"bsdf": {"type": "dielectric", "int_ior": material.ior, "ext_ior": 1.0}}
+        return {"bsdf": _glass(finish.material, material)}
     surface: Words = {"bsdf": {"type": "twosided", "bsdf": _scattering(material, is_native)}}
     if any(scene.emission(finish)):
         if isinstance(material, Opaque) and material.cone:
             raise SceneError(f"material '{finish.material}': Mitsuba has no lamp with a cone.")
         surface["emitter"] = {"type": "area", "radiance": _color(scene.emission(finish))}
     return surface
+
+
+def _glass(name: str, material: Dielectric) -> Words:
+    if any(material.absorption) or material.priority is not None:
+        raise SceneError(f"material '{name}': the converter to Mitsuba knows clear glass alone.")
+    if material.alpha:
+        loss = facet_loss(material.alpha, material.ior)
+        return rough_glass.words(material.alpha, material.ior, loss)
+    kind = "thindielectric" if material.thin else "dielectric"
+    return {"type": kind, "int_ior": material.ior, "ext_ior": 1.0}
 
 
 def _scattering(material: Any, is_native: bool) -> Words:

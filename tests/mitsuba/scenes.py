@@ -1,10 +1,14 @@
 """The scenes that both glrt and Mitsuba render."""
 
+from pathlib import Path
 from typing import Any
 
+from glrt.scene.assets import AssetFolder
+from glrt.scene.loading import with_files
 from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import blob, icosphere, mesh, quads
+from tests.support.sky_images import random_sky, write_exr
 
 # Each shape and material; a lamp seen from both sides, and sheared: Mitsuba has rectangles for
 # those that are not.
@@ -43,6 +47,36 @@ SOLIDS = [
     cylinder([1.5, 0.1, -0.9], [1.6, 1.0, -0.9], 0.15, "bulb", capped=False),
     disk([-0.9, 1.3, -0.9], [0.4, -0.2, 1], 0.5, "white"),
 ]
+
+
+def frosted(roughness: float = 0.6, **pane: Any) -> Scene:
+    """A ball and a box of rough glass, a ball with a lamp in it, and a pane before a wall."""
+    materials = MATERIALS | {
+        "frosted": glass(1.5, roughness=roughness),
+        "matt": glass(1.33, roughness=0.3),
+        "pane": glass(1.5, thin=True) | pane,
+    }
+    objects = [
+        plane([0, 0, 0], [0, 2, 0], "white"),
+        sphere([-1.1, 0.55, 0.2], 0.5, "frosted"),
+        box([0.7, 0.1, -0.2], [1.5, 0.9, 0.5], "matt", [0, 30, 0]),
+        sphere([0.1, 0.6, 0.5], 0.45, "frosted"),
+        sphere([0.1, 0.6, 0.5], 0.2, "bulb"),
+        quad([-1.6, 0.9, -1.0], [1.2, 0.2, 0], [0.2, 1.1, -0.1], "screen"),
+        quad([-0.3, 0.02, 1.2], [1.5, 0, 0.4], [0, 0.8, 0], "pane"),
+    ]
+    return scene_of(objects, materials, CAMERA, background=SKY)
+
+
+def pictured(folder: Path, radiance: float = 200.0, **background: Any) -> Scene:
+    """Things under an image of the sky with a small sun, in a file of this folder."""
+    pixels = random_sky(32, 16, seed=8)
+    pixels[4, 11] = radiance
+    write_exr(folder / "sky.exr", pixels)
+    things = [item for item in OBJECTS if item["material"] != "bulb"]
+    sky = {"image": "sky.exr", "rotation": 20, "color": [0.7, 0.8, 1.0], **background}
+    scene = scene_of(things, MATERIALS, CAMERA, background=sky)
+    return with_files(scene, AssetFolder(folder), "test")
 
 
 def solids(*objects: dict[str, Any]) -> Scene:

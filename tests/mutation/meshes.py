@@ -5,6 +5,7 @@ from tests.mutation.mutant import Edit, Mutant, edit
 _HITS = "rendering/test_mesh_hits.py"
 _TRUTHS = "truths/test_meshes.py"
 _COLORS = "truths/test_vertex_colors.py"
+_OWN = "scene/test_own_materials.py"
 
 MESHES = [
     Mutant(
@@ -108,5 +109,36 @@ MESHES = [
         "floats of PLY files are taken for sRGB",
         (Edit("glrt/scene/mesh_formats.py", 'if suffix == ".obj" else', "if True else"),),
         "scene/test_mesh_colors.py::test_colours_are_read_as_linear_light",
+    ),
+    Mutant(
+        "each material of a mesh has normals of its own",
+        (Edit("glrt/scene/triangle_meshes.py", "normals[used], colors)", "None, colors)"),),
+        f"{_OWN}::test_normals_at_borders_are_those_of_the_whole",
+    ),
+    Mutant(
+        "the materials of an OBJ file go to its parts in the wrong order",
+        (Edit("glrt/scene/mesh_formats.py", "return found[::-1]", "return found"),),
+        f"{_OWN}::test_an_object_becomes_a_mesh_for_each_material",
+    ),
+    Mutant(
+        "a part of a mesh is all of it",
+        (Edit("glrt/scene/meshes.py", "return mesh.parts[self.part]", "return mesh"),),
+        f"{_OWN}::test_the_picture_is_that_of_two_meshes_to_the_bit",
+    ),
+    Mutant(
+        "the alpha of Phong's exponent is taken for the roughness",
+        (Edit("glrt/scene/mtl_files.py", "math.sqrt(alpha))", "alpha)"),),
+        "scene/test_mtl_files.py::test_values_become_a_material",
+    ),
+    Mutant(
+        "materials of a file replace those of the scene",
+        (
+            Edit(
+                "glrt/scene/own_materials.py",
+                'self.materials.setdefault(f"{file.file}:{name}", material_of(entries[name])[0])',
+                'self.materials[f"{file.file}:{name}"] = material_of(entries[name])[0]',
+            ),
+        ),
+        f"{_OWN}::test_python_may_leave_the_material_out",
     ),
 ]

@@ -39,8 +39,8 @@ METALS = [
         (
             Edit(
                 "glrt/rendering/pack_materials.py",
-                'row["conductor"] = place',
-                'row["conductor"] = 0',
+                'number_of.get(finish.material, row["details"])',
+                'number_of.get(finish.material, row["details"]) and 0',
             ),
         ),
         f"{_TRUTHS}::test_two_metals_are_told_apart",

@@ -7,12 +7,14 @@ copy of the tree and runs its test, which must fail.
 from tests.mutation.aovs import AOVS
 from tests.mutation.comparing import COMPARING
 from tests.mutation.film import FILM
+from tests.mutation.glass import GLASS
 from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
+from tests.mutation.sky import SKY
 from tests.mutation.transport import TRANSPORT
 
 MUTANTS = [
@@ -20,7 +22,9 @@ MUTANTS = [
     *SHAPES,
     *MESHES,
     *METALS,
+    *GLASS,
     *LIGHTS,
+    *SKY,
     *SAMPLING,
     *FILM,
     *AOVS,

@@ -16,9 +16,9 @@ TRANSPORT = [
     Mutant(
         "the index of refraction is inverted",
         edit(
-            "bsdfs/material.glsl",
-            "outside ? 1.0 / material.ior : material.ior",
-            "outside ? material.ior : 1.0 / material.ior",
+            "bsdfs/scattering.glsl",
+            "is_outside ? 1.0 / material.ior : material.ior",
+            "is_outside ? material.ior : 1.0 / material.ior",
         ),
         "shaders/test_dielectric.py::test_glass_knows_its_inside",
     ),
@@ -242,7 +242,7 @@ TRANSPORT = [
     ),
     Mutant(
         "pixels of the sky are half a pixel off",
-        edit("lights/sky.glsl", "* vec2(size) - 0.5", "* vec2(size)"),
+        edit("lights/sky.glsl", "* vec2(environment_size()) - 0.5", "* vec2(environment_size())"),
         "truths/test_sky_image.py::test_a_floor_gathers_the_upper_half",
     ),
 ]

@@ -46,6 +46,8 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "1.2379400392853803e27",  # 2^90: slopes beyond it are as good as none
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
     "65536.0",  # 2^16: the chances of roulette
+    *("1.44269504", "0.693359375", "2.12194440e-4", "87.0"),  # 1 / ln 2, ln 2; of exp(-depth)
+    *("6.0", "24.0", "120.0", "720.0", "5040.0"),  # factorials
     "1.1920928955078125e-7",  # 2^-23: the last place of a float from its power of two
     *("0.333323916", "0.19974214", "0.140413272", "0.0996847111"),  # of an arc tangent
     *("0.0602030977", "0.0247340375", "0.00482252624"),

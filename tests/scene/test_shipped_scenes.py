@@ -73,7 +73,7 @@ def test_a_scene_names_no_material_in_vain(name: str) -> None:
 def test_light_is_sampled_where_there_are_lamps(name: str) -> None:
     scene = load(name)
     has_lamps = any(isinstance(material, Light) for material in scene.materials.values())
-    assert scene.render.method == ("mis" if has_lamps else "naive")
+    assert scene.render.method == ("mis" if has_lamps or scene.sun else "naive")
 
 
 @pytest.mark.parametrize("name", scene_names())

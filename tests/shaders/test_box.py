@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from glrt.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.features import explain
+from glrt.methods.explanation import explain
 from glrt.methods.omissions import omissions
 from glrt.rendering.pack import pack_scene
 from glrt.scene.scene import Scene

@@ -100,8 +100,8 @@ def test_reflectance_is_the_same_from_either_side(call_glsl: CallGlsl, ior: floa
 def through_glass(call_glsl: CallGlsl, what: str, returns: str, **inputs: Any) -> Array:
     """A field of the Scattering of `wo` (local) about the world normal `n`."""
     setup = f"""
-        Vertex vertex = Vertex(frame_around(n), wo, {GLASS});
-        Scattering next = sample_dielectric(vertex, eta, u);
+        Vertex vertex = Vertex(frame_around(n), wo, {GLASS}, true, eta);
+        Scattering next = sample_dielectric(vertex, u);
         vec3 local = to_local(vertex.frame, next.direction);"""
     return call_glsl(what, returns, setup=setup, **inputs)
 
@@ -168,8 +168,8 @@ def test_reflection_is_chosen_with_the_probability_of_its_share(call_glsl: CallG
 def test_glass_knows_its_inside(call_glsl: CallGlsl) -> None:
     setup = f"""
         Sampler rng = make_sampler(uint(seed));
-        Vertex vertex = Vertex(frame_around(vec3(0.0, 0.0, 1.0)), wo, {GLASS});
-        Scattering next = sample_material(vertex, outside == 1, rng);"""
+        Vertex vertex = vertex_of(frame_around(vec3(0.0, 0.0, 1.0)), wo, {GLASS}, outside == 1);
+        Scattering next = sample_material(vertex, rng);"""
     count = 400
     wo = np.repeat(wo_at(0.9), count, axis=0)
     for outside, eta in ((1, 1 / 1.5), (0, 1.5)):

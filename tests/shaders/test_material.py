@@ -37,7 +37,7 @@ def test_matte_light_is_spread_by_the_cosine_and_weighs_its_colour(call_glsl: Ca
     u = np.random.default_rng(2).uniform(size=(len(n), 2))
     setup = """
         Material matte = Material(vec3(0.1, 0.5, 0.9), MATTE, vec3(0.0), 0.0, 1.0, 0, 0, -1);
-        Vertex vertex = Vertex(frame_around(n), vec3(0.0, 0.0, 1.0), matte);
+        Vertex vertex = vertex_of(frame_around(n), vec3(0.0, 0.0, 1.0), matte, true);
         Scattering next = sample_matte(vertex, u);
         vec3 wi = to_local(vertex.frame, next.direction);"""
     wi = call_glsl("wi", "vec3", setup=setup, n=n, u=u)
@@ -59,7 +59,7 @@ def test_a_mirror_reflects_at_the_angle_of_incidence(call_glsl: CallGlsl) -> Non
     wo = wo[wo[:, 2] > 0]
     setup = """
         Material mirror = Material(vec3(0.25), METAL, vec3(0.0), 0.0, 1.0, 0, 0, -1);
-        Scattering next = sample_metal(Vertex(frame_around(n), wo, mirror), vec2(0.3));
+        Scattering next = sample_metal(vertex_of(frame_around(n), wo, mirror, true), vec2(0.3));
         vec3 wi = to_local(frame_around(n), next.direction);"""
     n = np.resize(directions(100), (len(wo), 3))
     wi = call_glsl("wi", "vec3", setup=setup, wo=wo, n=n)
@@ -114,7 +114,9 @@ def test_rough_metal_equals_the_textbook_formula_and_is_reciprocal(call_glsl: Ca
     alpha = random.uniform(0.05, 1, 20_000)
     wo, wi = (directions(20_000, seed)[:20_000] for seed in (8, 9))
     wo[:, 2], wi[:, 2] = np.abs(wo[:, 2]) + 0.01, np.abs(wi[:, 2]) + 0.01
-    setup = f"Vertex a = Vertex({UP}, wo, {METAL}); Vertex b = Vertex({UP}, wi, {METAL});"
+    setup = f"""
+        Vertex a = vertex_of({UP}, wo, {METAL}, true);
+        Vertex b = vertex_of({UP}, wi, {METAL}, true);"""
     args = {"setup": setup, "alpha": alpha, "wo": wo, "wi": wi}
     there = call_glsl("eval_material(a, wi).x", **args)
     back = call_glsl("eval_material(b, wo).x", **args)
@@ -136,7 +138,7 @@ def over_the_sphere(call_glsl: CallGlsl, what: str, side: int) -> Array:
     setup = f"""
         float sum = 0.0;
         float r = sqrt(1.0 - z * z);
-        Vertex vertex = Vertex({UP}, wo, {METAL});
+        Vertex vertex = vertex_of({UP}, wo, {METAL}, true);
         for (int k = 0; k < {columns}; ++k) {{
             float phi = 2.0 * PI * (float(k) + 0.5) / {columns}.0;
             vec3 wi = vec3(r * cos(phi), r * sin(phi), z);
@@ -157,7 +159,7 @@ def over_the_sphere(call_glsl: CallGlsl, what: str, side: int) -> Array:
 def scattered(call_glsl: CallGlsl, what: str, returns: str, **inputs: Any) -> Array:
     """Something of the Scattering that rough metal samples from `alpha`, `wo` and `u`."""
     setup = f"""
-        Vertex vertex = Vertex({UP}, wo, {METAL});
+        Vertex vertex = vertex_of({UP}, wo, {METAL}, true);
         Scattering next = sample_metal(vertex, u);
         vec3 wi = next.direction;"""
     return call_glsl(what, returns, setup=setup, **inputs)

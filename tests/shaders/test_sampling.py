@@ -69,7 +69,7 @@ def integrals(
 
 VERTEX = """
     Material material = Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0, -1);
-    Vertex vertex = Vertex(frame_around(vec3(0.0, 0.0, 1.0)), wo, material);"""
+    Vertex vertex = vertex_of(frame_around(vec3(0.0, 0.0, 1.0)), wo, material, true);"""
 MATTE_KIND, METAL_KIND = 0, 1
 
 
@@ -92,7 +92,7 @@ def test_surfaces_scatter_by_their_density(
     assert share.sum() < 1 + 1e-4
     if kind == MATTE_KIND:
         assert share.sum() == pytest.approx(1, abs=1e-4)
-    setup = RNG + VERTEX + "Scattering next = sample_material(vertex, true, rng);"
+    setup = RNG + VERTEX + "Scattering next = sample_material(vertex, rng);"
     wo = np.repeat(wo_at(cosine), DRAWS, axis=0)
     sample = "vec4(next.direction, next.weight.x)"
     drawn = call_glsl(sample, "vec4", setup=setup, wo=wo, **given)
@@ -109,8 +109,9 @@ def test_glass_reflects_as_often_as_fresnel_says(call_glsl: CallGlsl) -> None:
     place = np.arange(DRAWS) % 32
     for outside, eta in ((1, 1 / 1.5), (0, 1.5)):
         setup = f"""{RNG}
-            Vertex vertex = Vertex(frame_around(vec3(0.0, 0.0, 1.0)), wo, material_at(0));
-            Scattering next = sample_material(vertex, {outside} == 1, rng);"""
+            mat3 around = frame_around(vec3(0.0, 0.0, 1.0));
+            Vertex vertex = vertex_of(around, wo, material_at(0), {outside} == 1);
+            Scattering next = sample_material(vertex, rng);"""
         wo = wo_at(cosines[place])
         crosses = call_glsl("next.crosses", "bool", setup=setup, scene=scene, wo=wo)
         refracted = np.bincount(place[crosses], minlength=32)

@@ -25,9 +25,9 @@ def lamp(radiance: float = 1.0, albedo: float = 0.0, **more: Any) -> dict[str, A
     return {"type": "light", "emission": [radiance] * 3, "color": [albedo] * 3, **more}
 
 
-def glass(ior: float = 1.5) -> dict[str, Any]:
+def glass(ior: float = 1.5, **more: Any) -> dict[str, Any]:
     """A dielectric."""
-    return {"type": "dielectric", "ior": ior}
+    return {"type": "dielectric", "ior": ior, **more}
 
 
 def sphere(center: Any, radius: float, material: str) -> dict[str, Any]:

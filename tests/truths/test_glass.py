@@ -18,8 +18,8 @@ REFLECTED = """
     for (int k = 0; k < 64; ++k) {
         Surface surface = surface_at(ray, closest_hit(ray));
         mat3 around = frame_around(-surface.normal);
-        Vertex vertex = Vertex(around, to_local(around, -ray.direction), material_at(0));
-        Scattering next = sample_dielectric(vertex, 1.5, 0.0);
+        Vertex vertex = vertex_of(around, to_local(around, -ray.direction), material_at(0), false);
+        Scattering next = sample_dielectric(vertex, 0.0);
         ray = Ray(surface.position, next.direction, surface.shape, true);
         drift = max(drift, abs(length(ray.direction) - 1.0));
         off = max(off, abs(length(ray.origin) - 1.0));
@@ -57,8 +57,9 @@ def test_ball_lens_focuses_where_geometry_says(call_glsl: CallGlsl, height: floa
             Surface surface = surface_at(ray, closest_hit(ray));
             float side = k == 0 ? 1.0 : -1.0;
             mat3 around = frame_around(side * surface.normal);
-            Vertex vertex = Vertex(around, to_local(around, -ray.direction), material_at(0));
-            Scattering next = sample_dielectric(vertex, k == 0 ? 1.0 / 1.5 : 1.5, through);
+            vec3 wo = to_local(around, -ray.direction);
+            Vertex vertex = vertex_of(around, wo, material_at(0), k == 0);
+            Scattering next = sample_dielectric(vertex, through);
             ray = Ray(surface.position, next.direction, surface.shape, k == 0);
         }
         float crossing = -ray.origin.z + ray.origin.y / ray.direction.y * ray.direction.z;"""
@@ -106,8 +107,8 @@ def test_rays_at_the_critical_angle_stay_numbers(call_glsl: CallGlsl, ior: float
     given = {"eta": np.array([ior]), "wo": wo_at(np.maximum(cosine, 1e-9))}
     setup = """
         Material glass = Material(vec3(1.0), DIELECTRIC, vec3(0.0), 0.0, 1.5, 0, 0, -1);
-        Vertex vertex = Vertex(frame_around(vec3(0.6, 0.0, 0.8)), wo, glass);
-        Scattering next = sample_dielectric(vertex, eta, u);"""
+        Vertex vertex = Vertex(frame_around(vec3(0.6, 0.0, 0.8)), wo, glass, true, eta);
+        Scattering next = sample_dielectric(vertex, u);"""
     for u in (0.0, 0.3, 0.9, BELOW_ONE):
         args = {"setup": setup, "u": np.array([u]), **given}
         found = call_glsl("vec4(next.direction, fresnel(wo.z, eta))", "vec4", **args)

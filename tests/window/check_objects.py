@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from glrt.methods.features import explain
+from glrt.methods.explanation import explain
 from glrt.scene.cone import Cone
 from glrt.scene.materials import Opaque
 from glrt.scene.shapes import Shape

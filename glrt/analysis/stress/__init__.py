@@ -10,6 +10,8 @@ Modules, each importing only what stands above it:
 - lamps: small lamps, many lamps, a lamp below a ceiling
 - spots: edges of cones, one spot among many
 - glass: refraction and caustics
+- sky: a sun of one pixel in an image of the sky
+- rough_glass: the light that rough glass keeps, a lamp inside it
 - sums: accumulation, random numbers, long paths
 - views: positions and fields of view of the camera
 - cases: all cases by name

@@ -1,6 +1,6 @@
 """Every case of `glrt stress`, by name."""
 
-from glrt.analysis.stress import glass, lamps, rays, spots, sums, triangles, views
+from glrt.analysis.stress import glass, lamps, rays, rough_glass, sky, spots, sums, triangles, views
 from glrt.analysis.stress.sweep import Case
 
 _ALL = (
@@ -20,6 +20,9 @@ _ALL = (
     Case("bulb", "A small lamp inside a glass sphere", glass.bulb),
     Case("caustic", "A glass sphere and a small lamp", glass.caustic),
     Case("fireflies", "The brightest samples of a caustic", glass.fireflies),
+    Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
+    Case("rough", "The light that rough glass keeps", rough_glass.furnace),
+    Case("frosted", "A lamp inside frosted glass", rough_glass.frosted),
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),
     Case("frames", "Many frames accumulated", sums.frames),

@@ -20,6 +20,7 @@ from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
+from glrt.view.panels.sun import draw_sun
 from glrt.view.panels.widgets import COLORS, beside, button, edited, edited_fields, legend
 from glrt.view.state.controls import Control, controls_of, replaced, switch
 from glrt.view.state.costs import reach_of_bounces, reach_of_size
@@ -231,6 +232,7 @@ _SECTIONS = (
     ("Object", draw_object, _OPEN),
     ("Compare", draw_compare, _OPEN),
     ("Background", _background, 0),
+    ("Sun", draw_sun, 0),
     ("Frame", _frame, 0),
     ("Files", draw_files, 0),
     ("Mouse and keys", draw_key_table, 0),

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
-from glrt.methods.features import explain
+from glrt.methods.explanation import explain
 from glrt.methods.light_layers import Plan
 from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App

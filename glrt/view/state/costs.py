@@ -3,7 +3,7 @@
 from typing import Literal
 
 from glrt.methods.light_layers import MOST_LAYERS, emitters, layer_of_group
-from glrt.scene.scene import SKY_GROUP, Finish, Scene
+from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.memo import kept_for_the_same
@@ -18,7 +18,8 @@ def cost_of_light(session: Session, group: str) -> Cost:
     shares = [other for other in layers if layers[other] == layers.get(group)]
     if len(shares) == 1 and session.layering == "groups":
         return Cost.RELIGHT
-    return Cost.RECOMPILE if group == SKY_GROUP else Cost.RESTART
+    is_sun = group == SUN_GROUP and session.scene.sun is not None
+    return Cost.RECOMPILE if is_sun or group == SKY_GROUP else Cost.RESTART
 
 
 def cost_of_tint(session: Session, name: str) -> Cost:

@@ -1,0 +1,107 @@
+"""Rough glass: the light that it keeps, and a lamp inside it."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from glrt.analysis.stress.scenes import glass, lamp, matte, scene_of, sphere
+from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
+from glrt.scene.scene import Scene
+
+INDEX = 1.5
+_VERTEX = """
+    mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
+    Vertex vertex = vertex_of(up, wo, material_at(0), outside == 1);
+"""
+_ONCE = """
+    vec3 h = sample_ggx_normal(vertex.material.alpha, vertex.wo, u.yz);
+    vec3 wi = beyond_facet(vertex, h, u.x);
+    float weight = ggx_weight(vertex.material.alpha, vertex.wo, vec3(wi.xy, abs(wi.z)));
+    float kept = wi.z == 0.0 ? 0.0 : weight;"""
+# The lobes of lost light hold all that the table of albedos says is lost, by their normalisation.
+_ALL = f"""{_ONCE}
+    Glass glass = glass_at(vertex.material.details);
+    if (has_lost_light(glass)) kept += 1.0 - facet_albedo(glass, outside == 1, wo.z);"""
+
+
+def furnace(lab: Lab) -> Sweep:
+    """Share of light that rough glass loses or gains: the worst of twelve directions."""
+    x = [1e-3, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+    count = lab.count(1 << 16, 1 << 15)
+    ways = {"glrt: what facets lose comes back": _ALL, "facets that scatter once": _ONCE}
+    errors: dict[str, list[float]] = {name: [] for name in ways}
+    for roughness in x:
+        materials = {"glass": {**glass(INDEX), "roughness": roughness}}
+        scene = scene_of([sphere([0, 0, -3], 1, "glass")], materials)
+        for name, way in ways.items():
+            errors[name].append(_error(lab, scene, _VERTEX + way, count))
+    first, *others = errors.items()
+    return Sweep(
+        parameter="roughness",
+        measure="light lost or gained at one surface\n(share, largest)",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="at most 0.01",
+        bound=[0.01] * len(x),
+    )
+
+
+def _error(lab: Lab, scene: Scene, setup: str, count: int) -> float:
+    worst = 0.0
+    points = _lattice(count)
+    for outside in (1, 0):
+        for cosine in (1.0, 0.8, 0.5, 0.3, 0.1, 0.03):
+            wo = np.tile([math.sqrt(1 - cosine**2), 0, cosine], (count, 1))
+            given = {"u": points, "wo": wo, "outside": np.array([outside])}
+            kept = lab.path("kept", given, scene=scene, setup=setup)
+            worst = max(worst, abs(float(kept.astype(np.float64).mean()) - 1))
+    return worst
+
+
+def _lattice(count: int) -> Array:
+    """Points of the unit cube that are spread evenly, (n, 3): Kronecker's sequence."""
+    root = 1.2207440846057596  # of x^4 = x + 1
+    steps = np.arange(count)[:, None] * root ** -np.arange(1.0, 4.0)
+    points: Array = (steps + 0.5) % 1
+    return points
+
+
+def frosted(lab: Lab) -> Sweep:
+    """Noise of a lamp inside a ball of frosted glass in a room."""
+    x = [0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0]
+    samples = lab.count(1024, 256)
+    side = 32
+    noise: dict[str, list[float]] = {"mis": [], "naive": [], "nee": []}
+    wrong = []
+    for roughness in x:
+        scene = _lamp_in_glass(roughness)
+        size: dict[str, Any] = {"width": side, "height": side, "bounces": 3}
+        means = {m: mean_of(lab.render(scene, samples, method=m, **size)) for m in noise}
+        for method, (mean, stderr) in means.items():
+            noise[method].append(stderr * math.sqrt(samples) * side / mean)
+        (mean, stderr), (other, spread) = means["mis"], means["naive"]
+        if not abs(mean - other) <= SIGMAS * math.hypot(stderr, spread):
+            wrong.append(roughness)
+    first, *others = noise.items()
+    return Sweep(
+        parameter="roughness of the glass",
+        measure="relative noise of one sample",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="as bright by mis as by naive, within 5.3 standard errors; no bound for the noise",
+        wrong=wrong,
+    )
+
+
+def _lamp_in_glass(roughness: float) -> Scene:
+    shapes = [
+        sphere([0, 0, 0], 1, "wall"),
+        sphere([0, 0, 0], 0.3, "glass"),
+        sphere([0, 0, 0], 0.1, "lamp"),
+    ]
+    frosted_glass = {**glass(INDEX), "roughness": roughness}
+    materials = {"wall": matte(0.5), "lamp": lamp(1), "glass": frosted_glass}
+    return scene_of(shapes, materials, {"position": [0, 0, 0.8], "look_at": [0, 0, 1], "fov": 60})

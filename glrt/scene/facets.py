@@ -1,0 +1,113 @@
+"""What facets of rough glass lose to each other: their directional albedo, by quadrature.
+
+Facets scatter light once; what then meets another facet is lost. The kernel sends it back
+(shaders_glsl/bsdfs/rough_dielectric.glsl), and needs to know how much that is.
+"""
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+STEPS = 64  # of the root of the cosine, between albedos: ALBEDO_STEPS of the kernel
+LEAST_LOSS = 1e-4  # of even light: less is left lost
+_POINTS, _TURN = 4181, 2584  # of a lattice by neighbours in Fibonacci's sequence
+
+
+class FacetLoss(NamedTuple):
+    """Of light from outside, and from inside."""
+
+    albedos: tuple[Array, Array]  # at STEPS + 1 even steps of the root of the cosine
+    means: tuple[float, float]  # share of even light that is lost
+    crossing: tuple[float, float]  # of what is lost, the share that goes to the other side
+
+
+@lru_cache(maxsize=64)
+def facet_loss(alpha: float, ior: float) -> FacetLoss | None:
+    """Of GGX facets between air and glass; None where they lose next to nothing."""
+    albedos = _albedo(alpha, 1 / ior), _albedo(alpha, ior)
+    means = _mean_loss(albedos[0]), _mean_loss(albedos[1])
+    if max(means) < LEAST_LOSS:
+        return None
+    return FacetLoss(albedos, means, _crossing(ior, *means))
+
+
+def _crossing(ior: float, outer: float, inner: float) -> tuple[float, float]:
+    """As even light divides at smooth glass, less on the side that loses more: so f is reciprocal.
+
+    Reciprocal is what n^2 `crossing` mean loss is alike on both sides for. That is so of the
+    shares of even light that cross, if both sides lose the same.
+    """
+    even = 1 - _even_reflectance(1 / ior)
+    return even * min(1, inner / outer), even / ior**2 * min(1, outer / inner)
+
+
+def _even_reflectance(eta: float) -> float:
+    """Fresnel reflectance of light that is as bright from everywhere, by the midpoint rule."""
+    cosine = np.sqrt((np.arange(100_000) + 0.5) / 100_000)
+    return float(_fresnel(cosine, eta).mean())
+
+
+def _mean_loss(albedo: Array) -> float:
+    """The integral of 2 (1 - albedo) c over the cosine c, 4 (1 - albedo) s^3 over its root s.
+
+    The albedo is linear in s between its values, as in the kernel.
+    """
+    root = np.linspace(0, 1, STEPS + 1)
+    low, high = root[:-1], root[1:]
+    all_, first = high**4 - low**4, (high**5 - low**5) * 4 / 5
+    of_high = (first - low * all_) * STEPS
+    lost = 1 - albedo
+    return float(lost[1:] @ of_high + lost[:-1] @ (all_ - of_high))
+
+
+def _albedo(alpha: float, eta: float) -> Array:
+    """At even steps of the root of the cosine: the mean weight of samples by visible normals."""
+    cosine = np.maximum(np.linspace(0, 1, STEPS + 1) ** 2, 1e-9)[:, None]
+    wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
+    normal = _visible_normals(alpha, wo)
+    along = np.sum(wo * normal, axis=-1, keepdims=True)
+    reflectance = _fresnel(along, eta)
+    cos_t = np.sqrt(np.maximum(1 - eta**2 * (1 - along**2), 0))
+    mirrored = 2 * along * normal - wo
+    refracted = (eta * along - cos_t) * normal - eta * wo
+    share = [
+        part[..., 0] * (sign * wi[..., 2] > 0) * _weight(alpha, wo[..., 2], np.abs(wi[..., 2]))
+        for part, sign, wi in ((reflectance, 1, mirrored), (1 - reflectance, -1, refracted))
+    ]
+    return np.asarray((share[0] + share[1]).mean(axis=1).clip(0, 1))
+
+
+def _visible_normals(alpha: float, wo: Array) -> Array:
+    """Of wo, (n, 1, 3), whose y is 0, (n, _POINTS, 3): the half of them with y above 0.
+
+    Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023.
+    """
+    points = np.arange(_POINTS)
+    u = (points * _TURN % _POINTS + 0.5).reshape(1, -1, 1) / _POINTS / 2
+    v = (points + 0.5).reshape(1, -1, 1) / _POINTS
+    stretched = wo * [alpha, alpha, 1]
+    stretched /= np.linalg.norm(stretched, axis=-1, keepdims=True)
+    z = (1 - v) * (1 + stretched[..., 2:]) - stretched[..., 2:]
+    r, phi = np.sqrt(np.maximum(1 - z * z, 0)), 2 * np.pi * u
+    cap = np.concatenate([r * np.cos(phi), r * np.sin(phi), z], axis=-1) + stretched
+    normal = cap * [alpha, alpha, 1]
+    return np.asarray(normal / np.linalg.norm(normal, axis=-1, keepdims=True))
+
+
+def _weight(alpha: float, cos_o: Array, cos_i: Array) -> Array:
+    """G2 / G1(wo), with G2 = 1 / (1 + L(wo) + L(wi))."""
+    mask_o, mask_i = (
+        np.sqrt(1 + alpha**2 * (1 - c**2) / np.maximum(c, 1e-300) ** 2) for c in (cos_o, cos_i)
+    )
+    return np.asarray((1 + mask_o) / (mask_o + mask_i))
+
+
+def _fresnel(cosine: Array, eta: float) -> Array:
+    """Of unpolarised light; `eta`: index of refraction here over there."""
+    cos_t = np.sqrt(np.maximum(1 - eta**2 * (1 - cosine**2), 0))
+    rs = (eta * cosine - cos_t) / (eta * cosine + cos_t)
+    rp = (cosine - eta * cos_t) / (cosine + eta * cos_t)
+    return np.asarray((rs**2 + rp**2) / 2)

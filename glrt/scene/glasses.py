@@ -1,0 +1,91 @@
+"""The glasses of a scene, which of them overlap by priority, and what a camera inside sees from."""
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.scene.materials import Dielectric
+from glrt.scene.meshes import Mesh
+from glrt.scene.nesting import BITS
+from glrt.scene.scene import Finish, Scene
+from glrt.scene.shapes import Plane, Shape
+from glrt.scene.values import BLACK, Color
+
+Array = np.ndarray[Any, Any]
+
+
+class Around(NamedTuple):
+    """The glass around a point."""
+
+    absorption: Color  # per unit length
+    counts: int  # of objects of each glass with a priority, as the kernel counts them
+
+
+AIR = Around(BLACK, 0)
+
+
+def glasses_of(scene: Scene, finishes: Iterable[Finish]) -> dict[str, Dielectric]:
+    """The glasses of these finishes that are more than clear and smooth, by name.
+
+    Those with a priority come first, the highest before the others.
+    """
+    found: dict[str, Dielectric] = {}
+    for finish in finishes:
+        material = scene.materials[finish.material]
+        if isinstance(material, Dielectric) and material.has_details:
+            found[finish.material] = material
+    return dict(sorted(found.items(), key=lambda item: _rank(item[1])))
+
+
+def _rank(glass: Dielectric) -> tuple[bool, int]:
+    return glass.priority is None, -(glass.priority or 0)
+
+
+def media_of(glasses: dict[str, Dielectric]) -> list[str]:
+    """Those of `glasses_of` that have a priority."""
+    return [name for name, glass in glasses.items() if glass.priority is not None]
+
+
+def around_camera(scene: Scene, finishes: Iterable[Finish]) -> Around:
+    """The glass around the middle of the lens: of priorities the highest, else the smallest object.
+
+    `finishes` are those of the scene.
+    """
+    glasses = glasses_of(scene, finishes)
+    if not glasses:
+        return AIR
+    point = np.array(scene.camera.position, np.float64)
+    inside = [it for it in scene.visible if it.material in glasses and holds(it, point)]
+    media = media_of(glasses)
+    counts = [sum(it.material == name for it in inside) for name in media]
+    there = [name for name, count in zip(media, counts, strict=True) if count]
+    there += [it.material for it in sorted(inside, key=lambda it: it.reach)]
+    absorption = glasses[there[0]].absorption if there else BLACK
+    return Around(absorption, sum(count << BITS * k for k, count in enumerate(counts)))
+
+
+def holds(shape: Shape, point: Array) -> bool:
+    """Whether a point, (3,), lies inside a shape that encloses a volume."""
+    if isinstance(shape, Plane):
+        return bool((point - shape.point) @ np.asarray(shape.normal) < 0)
+    if isinstance(shape, Mesh):
+        return _turns(shape, point) > 0.5
+    rows = np.array([shape.row], np.float64)  # convex: a line from inside leaves it both ways
+    line = np.array([0.6, 0.64, 0.48])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ways = [type(shape).distances(rows, point, way)[0] for way in (line, -line)]
+    return bool(np.isfinite(ways).all())
+
+
+def _turns(mesh: Mesh, point: Array) -> float:
+    """How often a mesh goes around a point (van Oosterom and Strackee 1983)."""
+    if np.linalg.norm(point - mesh.middle) > mesh.reach:
+        return 0.0
+    corners = mesh.world_vertices - point
+    a, b, c = (corners[mesh.triangles.faces[:, k]] for k in range(3))
+    la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
+    volume = (a * np.cross(b, c)).sum(axis=1)
+    rest = la * lb * lc + (a * b).sum(axis=1) * lc
+    rest += (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+    return float(abs(np.arctan2(volume, rest).sum()) / (2 * np.pi))

@@ -1,0 +1,128 @@
+"""Meshes without a material: one for each material that their OBJ file has of its own."""
+
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
+from typing import Any, TypeVar
+
+from glrt.errors import SceneError
+from glrt.scene.assets import AssetReader
+from glrt.scene.contents import MAX_OBJECTS, Contents
+from glrt.scene.materials import Material
+from glrt.scene.mesh_formats import libraries
+from glrt.scene.meshes import Mesh
+from glrt.scene.mtl_files import Entry, decode_mtl, material_of
+from glrt.scene.named_meshes import MeshFile
+from glrt.scene.validation import validated
+from glrt.text import counted, quoted, unknown
+
+SceneType = TypeVar("SceneType", bound=Contents)
+
+_REMEDY = "give the object a `material`"
+
+
+def lacks_material(shape: Any) -> bool:
+    """Whether an object is to have the materials of its file."""
+    return isinstance(shape, Mesh) and not shape.material
+
+
+def with_own_materials(scene: SceneType, reader: AssetReader, source: str) -> SceneType:
+    """The scene with a mesh for each material of files whose objects have none; else the same one.
+
+    The first part of an object stands in its place and the others behind all objects, so that no
+    object gets another number. Their materials are named `FILE:NAME`, unless the scene has one of
+    that name. Raises `SceneError`, as `source: key: ...`, for a file without materials, and for an
+    MTL file that is missing, outside of the folder or wrong.
+    """
+    division = _Division(reader, dict(scene.materials))
+    objects: list[Any] = list(scene.objects)
+    for index, shape in enumerate(scene.objects):
+        if isinstance(shape, Mesh) and lacks_material(shape):
+            where = f"{source}: objects[{index}].file"
+            first, *others = division.parts(shape, where)
+            objects[index] = first
+            objects += others
+            if len(objects) > MAX_OBJECTS:
+                raise SceneError(
+                    f"{where}: with a mesh for each material of {shape.file.file} the scene has "
+                    f"more than {MAX_OBJECTS:,} objects: {_REMEDY}."
+                )
+    if not division.files:
+        return scene
+    update = {"objects": tuple(objects), "materials": division.materials}
+    return validated(type(scene), dict(scene) | update, source)
+
+
+@dataclass
+class _Division:
+    """The materials of a scene and of the files that were divided so far."""
+
+    reader: AssetReader
+    materials: dict[str, Material]
+    files: dict[MeshFile, tuple[MeshFile, dict[str, Entry]]] = field(default_factory=dict)
+
+    def parts(self, shape: Mesh, where: str) -> list[Mesh]:
+        """A mesh for each material, in the order in which the file uses them."""
+        names = _names(shape, where)
+        if shape.file not in self.files:
+            self.files[shape.file] = self._read(shape, where)
+        file, entries = self.files[shape.file]
+        for name in names:
+            if name not in entries:
+                advice = unknown("material", name, sorted(entries), "Its MTL files have")
+                raise SceneError(f"{where}: {file.file}: {advice} Or {_REMEDY}.")
+            self.materials.setdefault(f"{file.file}:{name}", material_of(entries[name])[0])
+        return [
+            shape.model_copy(update={"file": file, "part": name, "material": f"{file.file}:{name}"})
+            for name in names
+        ]
+
+    def _read(self, shape: Mesh, where: str) -> tuple[MeshFile, dict[str, Entry]]:
+        """The file with the hashes of its MTL files, and what those say; the first of a name."""
+        asset = self.reader.read(shape.file.file, where)
+        paths = libraries(asset.content)
+        if not paths:
+            raise SceneError(
+                f"{where}: {shape.file.file} names no MTL file by mtllib: {_REMEDY}, or export it "
+                "with its materials."
+            )
+        entries, hashes = dict[str, Entry](), dict[str, str]()
+        for path in paths:
+            found = self.reader.read(path, where, asset)
+            entries = decode_mtl(found.content, f"{where}: {found.path}") | entries
+            hashes[found.path] = found.sha256
+        used = [entries[name] for name in shape.triangles_of_file.parts if name in entries]
+        unread = [key for entry in used for key in material_of(entry)[1]]
+        return shape.file.with_libraries(hashes, tuple(sorted(set(unread)))), entries
+
+
+def _names(shape: Mesh, where: str) -> list[str]:
+    """The materials of an object that has none in the scene."""
+    file, mesh = shape.file.file, shape.triangles_of_file
+    if PurePosixPath(file).suffix.lower() != ".obj":
+        raise SceneError(
+            f"{where}: {file} has no materials of its own, as OBJ files have: {_REMEDY}."
+        )
+    names = list(mesh.parts)
+    if not names:
+        raise SceneError(f"{where}: {file} uses no materials of its own (usemtl): {_REMEDY}.")
+    if shape.part is not None:
+        if shape.part not in names:
+            advice = unknown("part", shape.part, sorted(names), "The file has")
+            raise SceneError(f"{where}: {file}: {advice}")
+        return [shape.part]
+    if "" in names:
+        count = counted(len(mesh.parts[""].faces), "triangle")
+        raise SceneError(
+            f"{where}: {file}: {count} have no material (usemtl): {_REMEDY}, or export it again."
+        )
+    return names
+
+
+def part_problem(shape: Mesh) -> str:
+    """What is wrong with the part that an object is of; empty if nothing is."""
+    names = shape.triangles_of_file.parts if shape.part is not None else {}
+    if shape.part is None or shape.part in names:
+        return ""
+    if not names:
+        return f"it has no part {quoted(shape.part)}: only OBJ files with usemtl have parts"
+    return unknown("part", shape.part, sorted(names), "The file has")

@@ -1,0 +1,35 @@
+"""The part of the panel that places the sun."""
+
+from functools import partial
+from typing import Any
+
+from glrt.scene.scene import Scene
+from glrt.scene.sun import Sun
+from glrt.settings import Cost
+from glrt.view.app import App
+from glrt.view.panels.widgets import edited, edited_fields
+from glrt.view.state.controls import controls_of, replaced, switch
+
+SUN = {c.name: c for c in controls_of(Sun)}
+SHINES = switch("sun", "a disc at infinity, which is sampled", Cost.RECOMPILE)
+_FIRST = Sun(elevation=40, azimuth=30, irradiance=(3.0, 2.8, 2.5))
+
+
+def draw_sun(app: App) -> None:
+    """Whether there is one, where it stands, how wide and how bright it is."""
+    sun = app.session.scene.sun
+    wanted = edited(SHINES, sun is not None)
+    if wanted is not None:
+        app.edit_scene("", partial(replaced, sun=_FIRST if wanted else None))
+    if sun is None:
+        return
+    values: dict[str, Any] = {name: value for name, value in sun if value is not None}
+    if sun.direction is None:
+        values = {"elevation": sun.elevation, "azimuth": sun.azimuth or 0.0, **values}
+    changes = edited_fields(tuple(SUN[name] for name in values), values, "sun")
+    if changes:
+        app.edit_scene(f"sun {list(changes)}", partial(_with_sun, **changes))
+
+
+def _with_sun(scene: Scene, **changes: Any) -> Scene:
+    return replaced(scene, sun=replaced(scene.sun or _FIRST, **changes))

@@ -1,0 +1,65 @@
+// Between surfaces: glass that absorbs light, by Beer's law, and glasses that overlap.
+//
+// Of glasses with a priority, which stand first among the rows of the struct Glass, highest first, MEDIA are
+// there. A path counts for each how many objects of it hold the path: in all of them, the first is the one
+// that is there (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 2002).
+
+const int BITS_OF_COUNT = 5;  // of one glass: MOST_MEDIA of them in a word
+
+bool is_medium(Material material) {
+    return HAS_NESTED && material.kind == DIELECTRIC && material.details != NO_DETAILS && material.details < MEDIA;
+}
+
+// The counts after an outer or an inner face of this glass.
+uint counts_beyond(uint counts, int medium, bool enters) {
+    uint one = 1u << uint(BITS_OF_COUNT * medium);
+    uint own = counts >> uint(BITS_OF_COUNT * medium) & (1u << uint(BITS_OF_COUNT)) - 1u;
+    if (enters) return counts + one;
+    return own == 0u ? counts : counts - one;
+}
+
+// Its row, or NO_DETAILS in air.
+int medium_of(uint counts) {
+    return counts == 0u ? NO_DETAILS : findLSB(counts) / BITS_OF_COUNT;
+}
+
+float ior_of_medium(uint counts) {
+    int medium = medium_of(counts);
+    if (medium == NO_DETAILS) return 1.0;
+    return glass_at(medium).ior;
+}
+
+vec3 absorption_of_glass(int details) {
+    if (details == NO_DETAILS) return vec3(0.0);
+    return glass_at(details).absorption;
+}
+
+const float MOST_DEPTH = 87.0;  // what more leaves is no normal float
+
+// exp(-depth), which differs between drivers: 2^-n times a polynomial of what the multiple n of ln 2 leaves,
+// at most half of that. Taylor's of degree 7 is right to 5e-9. ln 2 in two parts, the first of 9 bits.
+float decay(float depth) {
+    if (depth > MOST_DEPTH) return 0.0;
+    precise float n = floor(depth * 1.44269504 + 0.5);
+    precise float rest = n * 0.693359375 - depth;
+    rest -= n * 2.12194440e-4;
+    precise float p = 1.0 / 720.0 + rest / 5040.0;
+    p = p * rest + 1.0 / 120.0;
+    p = p * rest + 1.0 / 24.0;
+    p = p * rest + 1.0 / 6.0;
+    p = p * rest + 0.5;
+    precise float sum = 1.0 + rest + rest * rest * p;
+    precise float left = sum * uintBitsToFloat(uint(127 - int(n)) << 23);
+    return left;
+}
+
+// The share of light that is left after a distance.
+vec3 share_left(vec3 absorption, float distance) {
+    precise vec3 depth = absorption * distance;
+    return vec3(decay(depth.x), decay(depth.y), decay(depth.z));
+}
+
+// What is left of light from infinitely far away.
+vec3 share_left_of_sky(vec3 absorption) {
+    return vec3(equal(absorption, vec3(0.0)));
+}

@@ -1,0 +1,32 @@
+"""The directional albedo of facets: as the kernel steps, and against finer quadratures."""
+
+import numpy as np
+import pytest
+
+from glrt.gpu.glsl import expanded
+from glrt.gpu.structs import read_constants
+from glrt.scene import facets
+
+
+def test_host_and_kernel_step_alike() -> None:
+    assert read_constants(expanded("bsdfs/rough_dielectric.glsl"))["ALBEDO_STEPS"] == facets.STEPS
+
+
+@pytest.mark.parametrize(("alpha", "ior"), [(0.01, 1.5), (0.09, 1.1), (0.36, 2.4), (1.0, 1.5)])
+def test_albedos_are_those_of_a_finer_quadrature(
+    monkeypatch: pytest.MonkeyPatch, alpha: float, ior: float
+) -> None:
+    """At the steps, and between them, where the kernel takes them to be linear."""
+    found = facets.facet_loss(alpha, ior)
+    assert found
+    monkeypatch.setattr(facets, "STEPS", 2 * facets.STEPS)
+    monkeypatch.setattr(facets, "_POINTS", 28657)
+    monkeypatch.setattr(facets, "_TURN", 17711)
+    for albedo, eta in zip(found.albedos, (1 / ior, ior), strict=True):
+        fine = facets._albedo(alpha, eta)
+        assert np.abs(fine[::2] - albedo).max() < 2e-3
+        assert np.abs(fine[1::2] - (albedo[1:] + albedo[:-1]) / 2).max() < 3e-3
+
+
+def test_smooth_glass_loses_nothing_worth_restoring() -> None:
+    assert facets.facet_loss(1e-6, 1.5) is None
