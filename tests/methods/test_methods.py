@@ -47,13 +47,17 @@ def test_methods_agree_closely_where_it_is_hard(context: Context, name: str) -> 
     methods_agree(hard_scene(name), context, samples, 0.02, width=32, height=32)
 
 
-def is_lit_by_lamps(name: str) -> bool:
+def sampled(name: str) -> set[str]:
+    """What `mis` samples in the scene: its lamps, its sun, its sky."""
     scene = load(name)
-    return needs_of(scene, settings_for(scene.render, method="mis")).sample_lights
+    needs = needs_of(scene, settings_for(scene.render, method="mis"))
+    found = {"lamps": needs.sample_lights, "sun": needs.sample_sun, "sky": needs.sample_sky}
+    return {source for source, is_sampled in found.items() if is_sampled}
 
 
-LIT = [name for name in scene_names() if is_lit_by_lamps(name)]
-UNLIT = [name for name in scene_names() if not is_lit_by_lamps(name)]
+LIT = [name for name in scene_names() if "lamps" in sampled(name)]
+SUNNY = [name for name in scene_names() if sampled(name) == {"sun"}]
+UNLIT = [name for name in scene_names() if not sampled(name)]
 
 
 SPOTS = 32, 5  # times the samples of `naive`, and its width: small lamps that it seldom finds
@@ -81,6 +85,16 @@ def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> No
     rare, loose = SPOTS if name == "stage" else (1, 1)
     samples = Samples(naive=8192 * more * rare, nee=8192 * more, mis=4096 * more)
     methods_agree(load(name), context, samples, 0.015, loose, **small(name, 32))
+
+
+@pytest.mark.parametrize("name", SUNNY)
+def test_methods_agree_under_a_sun(context: Context, name: str) -> None:
+    """Without `naive`, which meets a sun of half a degree once in 100,000 directions."""
+    nee, mis = (
+        rendered(load(name), context, 1024, method=method, seed=seed, **small(name, 16))
+        for seed, method in enumerate(("nee", "mis"))
+    )
+    assert_agree(nee, mis, 0.05)
 
 
 @pytest.mark.parametrize("name", UNLIT)
