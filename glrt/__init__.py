@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from glrt.rendering.renderer import Renderer
     from glrt.scene.background import Background
     from glrt.scene.camera import Camera
+    from glrt.scene.clear_sky import ClearSky
     from glrt.scene.cone import Cone
     from glrt.scene.cylinder import Cylinder
     from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
@@ -58,6 +59,7 @@ __all__ = [
     "Background",
     "Box",
     "Camera",
+    "ClearSky",
     "Comparison",
     "Cone",
     "Cylinder",
@@ -86,6 +88,7 @@ __version__ = VERSION
 
 _HOMES = {
     "Background": "scene.background",
+    "ClearSky": "scene.clear_sky",
     "Sun": "scene.sun",
     "Box": "scene.solids",
     "Camera": "scene.camera",

@@ -10,6 +10,7 @@ from reference_markdown import GENERATED, table
 from glrt.scene import (
     background,
     camera,
+    clear_sky,
     cone,
     cylinder,
     materials,
@@ -25,6 +26,11 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[camera]", "Required.", camera.Camera),
     ("[render]", "Optional. Options of the command line override it.", RenderSettings),
     ("[background]", "Optional; black by default.", background.Background),
+    (
+        "sky of [background]",
+        "In TOML: `sky = { turbidity = 3.0 }`. [A clear sky](../how-to/lights.md#a-clear-sky).",
+        clear_sky.ClearSky,
+    ),
     ("[sun]", "Optional; there is none by default.", sun.Sun),
     ("[materials.NAME] of type lambertian", "", materials.Lambertian),
     ("[materials.NAME] of type metal", "", materials.Metal),

@@ -132,7 +132,7 @@ def closed_form(scene: Scene) -> float | None:
     interpolated normals lose some near the silhouette, and colours of vertices are not looked at.
     """
     found = contents_of(scene)
-    if scene.sun or scene.background.image is not None or found.is_smooth or found.is_colored:
+    if scene.sun or scene.background.is_pictured or found.is_smooth or found.is_colored:
         return None
     levels = {level for color in scene.background_colors for level in color}
     level = min(levels)

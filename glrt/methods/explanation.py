@@ -150,10 +150,10 @@ def _horizon(scene: Scene) -> str:
 
 
 def _environment(scene: Scene) -> str:
+    if scene.background.sky:
+        return "background.sky is given"
     image = scene.background.image
-    if image is None:
-        return "background.image is not given"
-    return f"background.image is {image.file}"
+    return f"background.image is {image.file}" if image else "background.image is not given"
 
 
 def _model(settings: Settings) -> str:

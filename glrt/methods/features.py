@@ -141,7 +141,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
 
 def has_image(scene: Scene) -> bool:
     """Whether light comes from an image of the sky."""
-    return any(map(any, scene.background_colors)) and bool(scene.background.image)
+    return any(map(any, scene.background_colors)) and scene.background.is_pictured
 
 
 def _model_number(method: str, metals: Sequence[Metal]) -> int:

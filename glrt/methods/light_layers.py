@@ -99,8 +99,8 @@ def emitters(scene: Scene) -> dict[str, list[Radiance]]:
         material = scene.materials[finish.material]
         if finish.group and isinstance(material, Opaque):
             found.setdefault(finish.group, []).append(material.emission)
-    if scene.sun and any(scene.sun.irradiance):
-        found.setdefault(SUN_GROUP, []).append(scene.sun.irradiance)
+    if any(scene.sun_irradiance):
+        found.setdefault(SUN_GROUP, []).append(scene.sun_irradiance)
     if any(map(any, scene.background.gradient)):
         found[SKY_GROUP] = list(scene.background.gradient)
     return found
@@ -182,7 +182,8 @@ def _unlit(scene: Scene) -> Scene:
     }
     ends = ("bottom", "horizon", "top")
     given = {n: NONE for n in ends if getattr(scene.background, n) is not None}
-    background = scene.background.model_copy(update={"color": None, **given})
+    sky = scene.background.sky and scene.background.sky.model_copy(update={"scale": 1.0})
+    background = scene.background.model_copy(update={"color": None, "sky": sky, **given})
     sun = scene.sun.model_copy(update={"irradiance": ONE}) if scene.sun else None
     update = {"materials": materials, "lights": {}, "background": background, "sun": sun}
     return scene.model_copy(update=update)

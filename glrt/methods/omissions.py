@@ -50,7 +50,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         if kind in lamps and kind not in contents.sampled:
             yield f"{kind} lamps light nothing"
     has_sky = any(map(any, scene.background_colors))
-    if has_sky and scene.background.image is not None:
+    if has_sky and scene.background.is_pictured:
         yield "the image of the sky lights nothing"
     elif has_sky and len(scene.visible) > 1:
         yield "nothing hides the sky"

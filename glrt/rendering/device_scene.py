@@ -181,18 +181,18 @@ class DeviceScene:
 
 
 def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> ImageTexture | None:
-    image = scene.background.image
-    if image is None:
+    picture = scene.sky
+    if picture is None:
         return None
-    if known and known.shows(image):
+    if known and known.shows(picture):
         return known.shared()
-    return ImageTexture(context, image, "background.image")
+    return ImageTexture(context, picture)
 
 
 def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTable:
-    image = scene.background.image
-    assert image is not None
-    return known.shared() if known and known.samples(image) else SkyTable(context.gl, image)
+    picture = scene.sky
+    assert picture is not None
+    return known.shared() if known and known.samples(picture) else SkyTable(context.gl, picture)
 
 
 def _packed(

@@ -59,8 +59,8 @@ def resources_of(
 ) -> dict[str, Resource]:
     """The buffers and textures that the functions read; a frame of zeros without a scene."""
     frame = bytes(STRUCTS["Frame"].itemsize)
-    image = scene.background.image if scene else None
-    pixels = image.pixels if image else None
+    picture = scene.sky if scene else None
+    pixels = picture.pixels if picture else None
     sampling = sky_sampling(pixels) if pixels is not None else None
     if scene:
         counts = {struct: len(rows) for struct, rows in arrays.items()}

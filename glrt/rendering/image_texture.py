@@ -1,4 +1,4 @@
-"""An image of a scene as a texture, which renderers of edited scenes share."""
+"""The image of the sky as a texture, which renderers of edited scenes share."""
 
 import moderngl
 import numpy as np
@@ -6,7 +6,8 @@ import numpy as np
 from glrt.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.shared import Shared
-from glrt.scene.named_images import ImageFile, Pixels
+from glrt.scene.named_images import Pixels
+from glrt.scene.sky_picture import SkyPicture
 
 
 def texture_of(gl: moderngl.Context, pixels: Pixels) -> moderngl.Texture:
@@ -21,19 +22,19 @@ def texture_of(gl: moderngl.Context, pixels: Pixels) -> moderngl.Texture:
 class ImageTexture(Shared):
     """The pixels of an image on the driver, RGB in float32, freed by its last user."""
 
-    def __init__(self, context: Context, image: ImageFile, key: str) -> None:
-        """SceneError for an image beyond the driver; `key` names it in messages."""
-        assert image.pixels is not None
-        height, width, _ = image.pixels.shape
+    def __init__(self, context: Context, picture: SkyPicture) -> None:
+        """SceneError for an image beyond the driver."""
+        assert picture.pixels is not None
+        height, width, _ = picture.pixels.shape
         most = int(context.gl.info["GL_MAX_TEXTURE_SIZE"])
         if max(height, width) > most:
             raise SceneError(
-                f"{key}: {image.file} has {width} x {height} pixels, and a texture of this driver "
-                f"{most} on a side at most. Scale the image down."
+                f"background: {picture.name} has {width} x {height} pixels, and a texture of this "
+                f"driver {most} on a side at most. Scale the image down."
             )
-        super().__init__(texture_of(context.gl, image.pixels))
-        self._image = image
+        super().__init__(texture_of(context.gl, picture.pixels))
+        self._source = picture.source
 
-    def shows(self, image: ImageFile) -> bool:
+    def shows(self, picture: SkyPicture) -> bool:
         """Whether it is of this image."""
-        return self._image == image
+        return self._source == picture.source

@@ -72,10 +72,10 @@ def iterations_per_sample(
 
 def _levels_of_sky(scene: Scene) -> int:
     """Of the tree by which an image of the sky is sampled."""
-    image = scene.background.image
-    if not has_image(scene) or image is None or image.pixels is None:
+    picture = scene.sky
+    if not has_image(scene) or picture is None or picture.pixels is None:
         return 0
-    height, width, _ = image.pixels.shape
+    height, width, _ = picture.pixels.shape
     return int(max(width, height + 1) - 1).bit_length()
 
 

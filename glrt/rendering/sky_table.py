@@ -6,7 +6,8 @@ import moderngl
 import numpy as np
 
 from glrt.gpu.shared import Shared
-from glrt.scene.named_images import ImageFile, Pixels
+from glrt.scene.named_images import Pixels
+from glrt.scene.sky_picture import SkyPicture
 
 Array = np.ndarray[Any, Any]
 
@@ -59,16 +60,16 @@ def _tree(patches: Array) -> Array:
 class SkyTable(Shared):
     """That tree on the driver, freed by its last user."""
 
-    def __init__(self, gl: moderngl.Context, image: ImageFile) -> None:
+    def __init__(self, gl: moderngl.Context, picture: SkyPicture) -> None:
         """Of an image that was read."""
-        assert image.pixels is not None
-        found = sky_sampling(image.pixels)
+        assert picture.pixels is not None
+        found = sky_sampling(picture.pixels)
         super().__init__(tree_texture(gl, found.tree))
-        self.density, self._image = found.density, image
+        self.density, self._source = found.density, picture.source
 
-    def samples(self, image: ImageFile) -> bool:
+    def samples(self, picture: SkyPicture) -> bool:
         """Whether it is of this image."""
-        return self._image == image
+        return self._source == picture.source
 
 
 def tree_texture(gl: moderngl.Context, tree: Array) -> moderngl.Texture:

@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - mesh_formats: files of meshes as arrays
 - named_meshes: meshes that a scene names by a path
 - camera: where a scene is seen from
+- clear_sky: a clear sky for a direction of the sun
 - background: light from infinity
 - objects: what every shape has
 - cone: the directions that a lamp lights
@@ -23,6 +24,7 @@ Modules, each importing only what stands above it:
 - cylinder: the round one of them, with ends or without
 - shapes: what there is to see
 - sun: a disc at infinity
+- sky_picture: the image of all directions that a scene has
 - contents: the fields of a scene
 - validation: what is wrong with a scene, in words
 - mtl_files: materials of OBJ files

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, model_validator
 
+from glrt.scene.clear_sky import ClearSky
 from glrt.scene.named_images import ImageFile, NamedImage
 from glrt.scene.values import BLACK, Angle, Number, Radiance, Triple, Value
 from glrt.settings import Cost, Editable
@@ -12,7 +13,10 @@ WHITE = (1.0, 1.0, 1.0)
 
 
 class Background(Value):
-    """Light from infinitely far away: a colour, one or two vertical gradients, or an image."""
+    """Light from infinitely far away.
+
+    A colour, one or two vertical gradients, an image, or a clear sky.
+    """
 
     color: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
@@ -27,6 +31,9 @@ class Background(Value):
     rotation: Annotated[Angle | None, Editable(Cost.RESTART, "degrees", (-180, 180))] = Field(
         None,
         description="turns the image about the y axis: 90 moves what stood at -z to -x; default: 0",
+    )
+    sky: ClearSky | None = Field(
+        None, description="a clear sky for the direction of [sun], which it needs"
     )
     bottom: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
         None,
@@ -50,6 +57,7 @@ class Background(Value):
             color: Triple | None = None,
             image: ImageFile | str | None = None,
             rotation: Number | None = None,
+            sky: ClearSky | None = None,
             bottom: Triple | None = None,
             horizon: Triple | None = None,
             top: Triple | None = None,
@@ -59,11 +67,18 @@ class Background(Value):
     def gradient(self) -> tuple[Radiance, ...]:
         """Radiance from straight below, the horizon where it is given, and straight above.
 
-        With an image, the factor of its radiance.
+        With an image or a clear sky, the factor of its radiance.
         """
+        if self.sky:
+            return ((self.sky.scale,) * 3,) * 2
         flat = self.color or (WHITE if self.image else BLACK)
         middle = () if self.horizon is None else (self.horizon,)
         return (self.bottom or flat, *middle, self.top or flat)
+
+    @property
+    def is_pictured(self) -> bool:
+        """Whether its radiance is that of an image, of a file or of a clear sky."""
+        return self.image is not None or self.sky is not None
 
     @model_validator(mode="after")
     def _is_given_one_way(self) -> Self:
@@ -75,6 +90,8 @@ class Background(Value):
             raise ValueError("color excludes bottom and top; give color alone, or bottom and top")
         if self.image is not None and self.top is not None:
             raise ValueError("image excludes bottom and top; give image alone, or with color")
+        if self.sky is not None and (self.color or self.image or self.top):
+            raise ValueError("sky excludes color, image, bottom and top; give sky alone")
         if self.rotation is not None and self.image is None:
             raise ValueError("rotation turns an image; give image, or leave rotation out")
         return self

@@ -22,6 +22,7 @@ from glrt.scene.nesting import nesting_problems
 from glrt.scene.objects import Object
 from glrt.scene.own_materials import lacks_material
 from glrt.scene.shapes import Shape
+from glrt.scene.sky_picture import SkyPicture, sky_picture
 from glrt.scene.sun import Sun
 from glrt.scene.tables import to_tables, toml_text
 from glrt.scene.validation import MisfitError, Place, validated
@@ -136,7 +137,20 @@ class Scene(Contents):
         """Of the sun, intensity included; black without one."""
         if self.sun is None:
             return BLACK
-        return _scaled(self.sun.radiance, self._intensity(SUN_GROUP))
+        return _scaled(self.sun.radiance(self.sun_irradiance), self._intensity(SUN_GROUP))
+
+    @property
+    def sun_irradiance(self) -> Radiance:
+        """What a surface receives that faces the sun, at intensity 1: as given, or the model's."""
+        sky = self.background.sky
+        if self.sun is None:
+            return BLACK
+        return self.sun.irradiance or (sky.sun(self.sun.towards) if sky else BLACK)
+
+    @property
+    def sky(self) -> SkyPicture | None:
+        """The image of all directions; None where the background is a colour or a gradient."""
+        return sky_picture(self.background, self.sun)
 
     def emission(self, finish: Finish) -> Radiance:
         """Radiance of a surface, intensity of its group included; black for one without light."""
@@ -165,7 +179,8 @@ class Scene(Contents):
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
         nesting = nesting_problems(self.materials, self.visible)
-        problems = [*_object_problems(self), *nesting, *_light_problems(self), *_emptiness(self)]
+        lights = [*_sun_problems(self), *_light_problems(self)]
+        problems = [*_object_problems(self), *nesting, *lights, *_emptiness(self)]
         if problems:
             raise MisfitError(problems)
         return self
@@ -232,6 +247,17 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SUN_GROUP), _too_bright("radiance of the sun")
     if max(map(max, scene.background_colors)) > LARGEST:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
+
+
+def _sun_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
+    sun, sky = scene.sun, scene.background.sky
+    if sky and not sun:
+        yield ("background", "sky"), "needs [sun], which says where the sun stands"
+    if sky and sun and sun.towards[1] < 0:
+        place = "direction" if sun.elevation is None else "elevation"
+        yield ("sun", place), "is below the horizon; background.sky is a sky of the day"
+    if sun and sun.irradiance is None and not sky:
+        yield ("sun", "irradiance"), "is missing; give it, or a background with sky"
 
 
 _GLASS_ADVICE = (

@@ -29,8 +29,10 @@ class Sun(Value):
     angle: Annotated[float, Field(ge=1e-3, le=90), Editable(Cost.RESTART, "degrees", (0.1, 20))] = (
         Field(0.53, description="diameter of the disc in degrees")
     )
-    irradiance: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
-        description="what a surface receives that faces it, 0 or more each"
+    irradiance: Annotated[Radiance | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="what a surface receives that faces it, 0 or more each; default with a clear "
+        "sky: what its model says; without one it is required",
     )
 
     if TYPE_CHECKING:
@@ -42,7 +44,7 @@ class Sun(Value):
             azimuth: Number | None = None,
             direction: Triple | None = None,
             angle: Number = 0.53,
-            irradiance: Triple,
+            irradiance: Triple | None = None,
         ) -> None: ...
 
     @model_validator(mode="after")
@@ -69,9 +71,8 @@ class Sun(Value):
         """1 - cos of half its angle."""
         return 2 * math.sin(math.radians(self.angle) / 4) ** 2
 
-    @property
-    def radiance(self) -> Radiance:
+    def radiance(self, irradiance: Radiance) -> Radiance:
         """Of its points: the irradiance over pi sin^2 of half its angle."""
         area = math.pi * math.sin(math.radians(self.angle) / 2) ** 2
-        red, green, blue = self.irradiance
+        red, green, blue = irradiance
         return (red / area, green / area, blue / area)

@@ -34,6 +34,7 @@ from tests.mitsuba.scenes import (
     pictured,
     solids,
     solids_but,
+    sunlit,
 )
 from tests.support.alarms import ALPHA, book
 from tests.support.builders import glass, plane, scene_of, sphere
@@ -165,6 +166,15 @@ def test_an_image_of_the_sky_looks_the_same_to_mitsuba(
     assert found.sensitivity.light < 0.03
     assert not judged(ours(context, pictured(tmp_path, rotation=40)), picture)
     assert not judged(ours(context, pictured(tmp_path, radiance=300.0)), picture)
+
+
+def test_a_sun_under_a_clear_sky_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    picture = theirs(mitsuba, sunlit())
+    found = judged(ours(context, sunlit()), picture)
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    assert not judged(ours(context, sunlit(azimuth=122.0)), picture)
+    assert not judged(ours(context, with_lights(sunlit(), {"sun": 0.93})), picture)
 
 
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

@@ -19,7 +19,7 @@ from glrt.settings import Settings
 from tests.mitsuba import metal, rough_glass
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
 from tests.mitsuba.near import EXTENT, Near, Vector, around, corners, length, near, normal_of, unit
-from tests.mitsuba.skies import sky
+from tests.mitsuba.skies import sky, sun
 
 ROULETTE_DEPTH = 5  # where it starts by Mitsuba's own choice
 NEVER = 1 << 30
@@ -65,6 +65,8 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
     }
     if any(map(any, scene.background_colors)):
         words["background"] = sky(mi, scene)
+    if any(scene.sun_radiance):
+        words["sun"] = sun(mi, scene, EXTENT)
     for index, item in enumerate(scene.visible):
         for side, part in enumerate(_shape(mi, scene, item, at, liberties)):
             words[f"object {index} {side}"] = part

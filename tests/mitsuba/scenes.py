@@ -79,6 +79,14 @@ def pictured(folder: Path, radiance: float = 200.0, **background: Any) -> Scene:
     return with_files(scene, AssetFolder(folder), "test")
 
 
+def sunlit(**sun: Any) -> Scene:
+    """Matte and rough things under a clear sky and a sun that is wider than the real one."""
+    things = [item for item in OBJECTS if item["material"] in ("white", "rough")]
+    things.append(box([-1.2, 0.02, -0.3], [-0.4, 0.9, 0.6], "white", [0, 35, 0]))
+    above = {"elevation": 35.0, "azimuth": 120.0, "angle": 4.0, **sun}
+    return scene_of(things, MATERIALS, CAMERA, background={"sky": {"scale": 3.0}}, sun=above)
+
+
 def solids(*objects: dict[str, Any]) -> Scene:
     """Disks, boxes and cylinders of several materials."""
     return scene_of(list(objects) or SOLIDS, MATERIALS, CAMERA, background=SKY)

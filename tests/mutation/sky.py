@@ -10,6 +10,12 @@ _FIGURES = f"{_TESTS}::test_samples_tell_the_density_and_the_radiance_of_their_d
 _DRAWS = f"{_TESTS}::test_samples_follow_their_density"
 
 _SUN = "truths/test_sun.py"
+_CLEAR = "truths/test_clear_sky.py"
+
+
+def _model(old: str, new: str) -> tuple[Edit, ...]:
+    return (Edit("glrt/scene/clear_sky.py", old, new),)
+
 
 SKY = [
     Mutant(
@@ -113,5 +119,30 @@ SKY = [
             ),
         ),
         f"{_TESTS}::test_methods_agree_under_a_small_sun",
+    ),
+    Mutant(
+        "the image of a clear sky is mirrored",
+        _model("x * np.sin(azimuth) - z", "-x * np.sin(azimuth) - z"),
+        f"{_CLEAR}::test_its_image_is_the_formula",
+    ),
+    Mutant(
+        "the tables of a clear sky are those of the haze above",
+        _model("table[low - 1] * (1 - share) + table[low] * share", "table[low]"),
+        f"{_CLEAR}::test_it_is_the_sky_that_mitsuba_shows",
+    ),
+    Mutant(
+        "a clear sky stands above a ground of the other albedo",
+        _model("dark * (1 - ground) + bright * ground", "bright * (1 - ground) + dark * ground"),
+        f"{_CLEAR}::test_it_is_the_sky_that_mitsuba_shows",
+    ),
+    Mutant(
+        "the ground below a clear sky is lit by the sky alone",
+        _model(" + np.array(sky.sun(sun)) * towards[1]", ""),
+        f"{_CLEAR}::test_the_ground_is_lit_by_sun_and_sky",
+    ),
+    Mutant(
+        "the sun of a clear sky is not dimmed by its scale",
+        _model("_elevation(towards)) * self.scale", "_elevation(towards))"),
+        f"{_CLEAR}::test_scale_is_a_factor_of_sky_and_sun",
     ),
 ]

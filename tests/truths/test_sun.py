@@ -89,7 +89,7 @@ def test_the_disc_covers_its_solid_angle(context: Context) -> None:
     size = {"width": 64, "height": 64}
     image = rendered(sunny(camera=up, angle=1.0), context, 64, **size)
     disc = Sun(elevation=90, angle=1.0, irradiance=(3, 2, 1))
-    covered = image.radiance[..., 0].mean() / disc.radiance[0]
+    covered = image.radiance[..., 0].mean() / disc.radiance((3, 2, 1))[0]
     half, edge = np.tan(np.radians([0.5, 1.0]))  # on the plane of the picture
     assert covered == pytest.approx(np.pi * half**2 / (2 * edge) ** 2, rel=0.01)
 

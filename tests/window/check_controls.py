@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from glrt.settings import Cost
-from glrt.view.panels import lights, panel, widgets
+from glrt.view.panels import background, lights, panel, widgets
 from glrt.view.state.controls import Control
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import move
@@ -29,8 +29,8 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "defocus angle": (panel.CAMERA["defocus_angle"], 3.0),
     "position/$$2": (panel.CAMERA["position"], 3.0),
     "look at/$$0": (panel.CAMERA["look_at"], 0.3),
-    "color##background/##color/$$2": (panel.BACKGROUND["color"], 0.5),
-    "gradient": (panel.GRADIENT, None),
+    "color##background/##color/$$2": (background.BACKGROUND["color"], 0.5),
+    "gradient": (background.GRADIENT, None),
     "width": (panel.SETTINGS["width"], 30),
     "height": (panel.SETTINGS["height"], 30),
 }
@@ -40,7 +40,14 @@ UNSEEN = (
     "bounces live",
     "gradient",
 )  # no other picture is shown; of the second, without a lens
-SECTIONS = ("Background", "Frame", "Files", "Mouse and keys", "Window")  # closed at the start
+SECTIONS = (
+    "Background",
+    "Sun",
+    "Frame",
+    "Files",
+    "Mouse and keys",
+    "Window",
+)  # closed at the start
 
 
 @check

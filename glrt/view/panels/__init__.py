@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - objects: the selected object and its material
 - lights: the light groups and their lamps
 - files: open and save
+- background: light from infinity
 - sun: where the sun stands
 - panel: all subjects of the panel
 - viewport: the picture, the mouse and the keys

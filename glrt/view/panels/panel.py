@@ -7,14 +7,13 @@ from typing import Any, Literal
 from imgui_bundle import imgui
 
 from glrt.methods.light_layers import MOST_LAYERS
-from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
-from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.background import draw_background
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.key_table import draw_key_table
@@ -32,7 +31,6 @@ PATHS = ("method", "sampler", "roulette", "seed")
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
-BACKGROUND = {c.name: c for c in controls_of(Background)}
 PREFERENCES = controls_of(Preferences)
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
@@ -45,8 +43,6 @@ _LIVE = (
 LIVE = switch("bounces_live", _LIVE, Cost.RECOMPILE)
 _SHOWN = "the light of all paths, or of those of one length alone"
 SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGHT)
-GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
-HORIZON = switch("horizon", "a colour of its own between below and above", Cost.RECOMPILE)
 _RED = (0.95, 0.35, 0.35, 1.0)
 
 
@@ -107,10 +103,6 @@ def _with_camera(scene: Scene, **changes: Any) -> Scene:
     return replaced(scene, camera=replaced(scene.camera, **changes))
 
 
-def _with_background(scene: Scene, **colors: Any) -> Scene:
-    return replaced(scene, background=replaced(Background(), **colors))
-
-
 def _paths(app: App) -> None:
     session = app.session
     reach = reach_of_bounces(session)
@@ -159,40 +151,6 @@ def _display(app: App) -> None:
     draw_view(app)
 
 
-def _background(app: App) -> None:
-    """An image, one colour, or a gradient from bottom to top, with or without a horizon."""
-    background = app.session.scene.background
-    bottom, *_, top = background.gradient
-    values: dict[str, Any] = {n: value for n, value in background if value is not None}
-    kept = {"image": values.pop("image")} if background.image else {}
-    if background.image:
-        imgui.text_wrapped(background.image.file)
-        values = {"color": top, "rotation": background.rotation or 0.0}
-    values = values or {"color": bottom}
-    changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
-    if changes:
-        app.edit_scene("background", partial(_with_background, **{**kept, **values, **changes}))
-    if background.image:
-        return
-    ends: dict[str, Any] = {"bottom": bottom, "top": top}
-    wanted = edited(GRADIENT, background.top is not None)
-    if wanted is not None:
-        other: dict[str, Any] = ends if wanted else {"color": top}
-        app.edit_scene("", partial(_with_background, **other))
-    if background.top is None:
-        return
-    wanted = edited(HORIZON, background.horizon is not None)
-    if wanted is not None:
-        other = {**ends, "horizon": _between(bottom, top)} if wanted else ends
-        app.edit_scene("", partial(_with_background, **other))
-
-
-def _between(bottom: Radiance, top: Radiance) -> Radiance:
-    """The middle of a gradient: as a horizon it changes nothing."""
-    red, green, blue = (0.5 * (low + high) for low, high in zip(bottom, top, strict=True))
-    return (red, green, blue)
-
-
 def _frame(app: App) -> None:
     session = app.session
     usual = Cost.RECOMPILE if session.lacks_room else Cost.RESTART
@@ -231,7 +189,7 @@ _SECTIONS = (
     ("Camera", _camera, _OPEN),
     ("Object", draw_object, _OPEN),
     ("Compare", draw_compare, _OPEN),
-    ("Background", _background, 0),
+    ("Background", draw_background, 0),
     ("Sun", draw_sun, 0),
     ("Frame", _frame, 0),
     ("Files", draw_files, 0),

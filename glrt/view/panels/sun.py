@@ -1,5 +1,6 @@
 """The part of the panel that places the sun."""
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -26,7 +27,13 @@ def draw_sun(app: App) -> None:
     values: dict[str, Any] = {name: value for name, value in sun if value is not None}
     if sun.direction is None:
         values = {"elevation": sun.elevation, "azimuth": sun.azimuth or 0.0, **values}
-    changes = edited_fields(tuple(SUN[name] for name in values), values, "sun")
+    rows = [SUN[name] for name in values]
+    if app.session.scene.background.sky:  # of the day
+        rows = [
+            replace(row, low=0.0, slider=(0, 90)) if row.name == "elevation" else row
+            for row in rows
+        ]
+    changes = edited_fields(tuple(rows), values, "sun")
     if changes:
         app.edit_scene(f"sun {list(changes)}", partial(_with_sun, **changes))
 

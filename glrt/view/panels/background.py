@@ -1,0 +1,106 @@
+"""The part of the panel for light from infinity: an image, a clear sky, a colour or a gradient."""
+
+from functools import partial
+from typing import Any
+
+from imgui_bundle import imgui
+
+from glrt.scene.background import Background
+from glrt.scene.clear_sky import ClearSky
+from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.sun import Sun
+from glrt.scene.values import Radiance
+from glrt.settings import Cost
+from glrt.view.app import App
+from glrt.view.panels.widgets import edited, edited_fields
+from glrt.view.state.controls import controls_of, replaced, switch
+from glrt.view.state.costs import cost_of_light
+
+BACKGROUND = {c.name: c for c in controls_of(Background)}
+SKY = {c.name: c for c in controls_of(ClearSky)}
+GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
+HORIZON = switch("horizon", "a colour of its own between below and above", Cost.RECOMPILE)
+_CLEAR = "the sky of a clear day, with the sun that belongs to it; its place is set under Sun"
+CLEAR = switch("clear_sky", _CLEAR, Cost.RECOMPILE)
+_DULL = (0.5, 0.6, 0.8)  # after a clear sky was turned off
+_MORNING = Sun(elevation=40.0, azimuth=30.0)
+
+
+def draw_background(app: App) -> None:
+    """What it is, and the values of what it is."""
+    background = app.session.scene.background
+    if background.image:
+        _image(app)
+        return
+    wanted = edited(CLEAR, background.sky is not None)
+    if wanted is not None:
+        app.edit_scene("", _under_a_clear_sky if wanted else _under_a_color)
+    elif background.sky:
+        _sky(app, background.sky)
+    else:
+        _gradient(app)
+
+
+def _image(app: App) -> None:
+    background = app.session.scene.background
+    assert background.image
+    imgui.text_wrapped(background.image.file)
+    color, *_ = background.gradient
+    _edit(app, {"color": color, "rotation": background.rotation or 0.0}, image=background.image)
+
+
+def _sky(app: App, sky: ClearSky) -> None:
+    cost = cost_of_light(app.session, SKY_GROUP)
+    rows = tuple(row.costing(cost) if row.name == "scale" else row for row in SKY.values())
+    changes = edited_fields(rows, dict(sky), "sky")
+    if changes:
+        changed = partial(_with_background, sky=replaced(sky, **changes))
+        app.edit_scene(f"sky {list(changes)}", changed)
+
+
+def _gradient(app: App) -> None:
+    """One colour, or a gradient from bottom to top, with or without a horizon."""
+    background = app.session.scene.background
+    bottom, *_, top = background.gradient
+    values = {name: value for name, value in background if value is not None}
+    _edit(app, values or {"color": bottom})
+    ends: dict[str, Any] = {"bottom": bottom, "top": top}
+    wanted = edited(GRADIENT, background.top is not None)
+    if wanted is not None:
+        other: dict[str, Any] = ends if wanted else {"color": top}
+        app.edit_scene("", partial(_with_background, **other))
+    if background.top is None:
+        return
+    wanted = edited(HORIZON, background.horizon is not None)
+    if wanted is not None:
+        other = {**ends, "horizon": _between(bottom, top)} if wanted else ends
+        app.edit_scene("", partial(_with_background, **other))
+
+
+def _edit(app: App, values: dict[str, Any], **kept: Any) -> None:
+    """Draw the widgets of some keys; what was edited takes its place beside the others."""
+    changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
+    if changes:
+        app.edit_scene("background", partial(_with_background, **{**kept, **values, **changes}))
+
+
+def _with_background(scene: Scene, **keys: Any) -> Scene:
+    return replaced(scene, background=replaced(Background(), **keys))
+
+
+def _under_a_clear_sky(scene: Scene) -> Scene:
+    """A sun that is there stays where it is, and shines as the model says."""
+    sun = replaced(scene.sun, irradiance=None) if scene.sun else _MORNING
+    return replaced(scene, background=Background(sky=ClearSky()), sun=sun)
+
+
+def _under_a_color(scene: Scene) -> Scene:
+    """The sun stays as bright as it was."""
+    sun = scene.sun and replaced(scene.sun, irradiance=scene.sun_irradiance)
+    return replaced(scene, background=Background(color=_DULL), sun=sun)
+
+
+def _between(bottom: Radiance, top: Radiance) -> Radiance:
+    """The middle of a gradient: as a horizon it changes nothing."""
+    red, green, blue = (0.5 * (low + high) for low, high in zip(bottom, top, strict=True))
+    return (red, green, blue)
