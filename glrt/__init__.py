@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from glrt.scene.clear_sky import ClearSky
     from glrt.scene.cone import Cone
     from glrt.scene.cylinder import Cylinder
-    from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
+    from glrt.scene.materials import Dielectric, Lambertian, Light, Metal, Principled
     from glrt.scene.meshes import Mesh
     from glrt.scene.scene import Scene
     from glrt.scene.shapes import Disk, Plane, Quad, Sphere
@@ -71,6 +71,7 @@ __all__ = [
     "Mesh",
     "Metal",
     "Plane",
+    "Principled",
     "Quad",
     "Renderer",
     "Scene",
@@ -102,6 +103,7 @@ _HOMES = {
     "Light": "scene.materials",
     "Mesh": "scene.meshes",
     "Metal": "scene.materials",
+    "Principled": "scene.materials",
     "Plane": "scene.shapes",
     "Quad": "scene.shapes",
     "Renderer": "rendering.renderer",

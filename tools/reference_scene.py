@@ -35,6 +35,11 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[materials.NAME] of type lambertian", "", materials.Lambertian),
     ("[materials.NAME] of type metal", "", materials.Metal),
     ("[materials.NAME] of type dielectric", "", materials.Dielectric),
+    (
+        "[materials.NAME] of type principled",
+        "[Principled surfaces](../explanation/principled.md).",
+        materials.Principled,
+    ),
     ("[materials.NAME] of type light", "", materials.Light),
     ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", cone.Cone),
     ("[[objects]] of shape sphere", "", shapes.Sphere),

@@ -63,7 +63,7 @@ def scene_arrays(
 # In no block: OpenGL 4.1 grants a kernel 12 of them, and the other structs take those.
 TEXTURED = (
     *("Mesh", "Corner", "Triangle", "Tint"),
-    *("Conductor", "Glass", "Albedo", "Emitter", "Aim"),
+    *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim"),
 )
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from glrt.scene.materials import Dielectric, Material, Metal
+from glrt.scene.materials import Dielectric, Material, Metal, Principled
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS
@@ -79,6 +79,12 @@ class Contents:
     def conductors(self) -> list[str]:
         """The metals whose reflectance depends on the angle."""
         return [n for n, it in self.materials.items() if isinstance(it, Metal) and it.conductor]
+
+    @property
+    def coated(self) -> list[str]:
+        """The principled materials that have a coat."""
+        own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
+        return [name for name, material in own.items() if material.clearcoat > 0]
 
     @property
     def rough_glasses(self) -> list[str]:

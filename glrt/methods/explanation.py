@@ -65,6 +65,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
             for name in TYPES
             if name not in WITHOUT_OWN_FLAG
         ),
+        Feature("coats", needs.has_coat, _made_of(found.coated, "principled with clearcoat")),
         *_kinds_of_glass(needs, found),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         Feature("cones", needs.has_cone, _lamps_with("a cone", found.cones)),

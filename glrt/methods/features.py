@@ -47,6 +47,7 @@ class Needs:
     has_attenuation: bool  # glass that absorbs light
     has_nested: bool  # glasses that overlap by priority
     media: int  # how many of them
+    has_coat: bool  # principled surfaces under a clear coat
     has_conductor: bool  # metal whose reflectance depends on the angle
     has_lens: bool
     has_cone: bool  # lamps that light a cone of directions
@@ -114,6 +115,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
         has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
         has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),
+        has_coat=bool(found.coated),
         has_conductor=bool(found.conductors),
         has_pane=traits.follows and bool(found.panes),
         has_attenuation=traits.follows and bool(found.tinted),

@@ -46,6 +46,8 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "rough glass is smooth"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
+    if "principled" in kinds and len(scene.visible) > 1:
+        yield "principled surfaces reflect lamps alone"
     for kind in KINDS:
         if kind in lamps and kind not in contents.sampled:
             yield f"{kind} lamps light nothing"

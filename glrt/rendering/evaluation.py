@@ -82,6 +82,7 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
         "CLUSTERS": found.clusters,
         "MANY_LIGHTS": found.has_many_lights,
         **aimed,
+        "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),
         "HAS_NESTED": bool(found.media),
@@ -95,5 +96,5 @@ def no_rows() -> dict[str, Array]:
         ("Node", "Slot", "Corner", "Triangle", "Tint"),
         ("Emitter", "Light", "Cluster", "Aim"),
     )
-    others = (*trees, "Material", "Conductor", "Glass", "Albedo", *lamps)
+    others = (*trees, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

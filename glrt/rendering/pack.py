@@ -11,7 +11,7 @@ from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
 from glrt.rendering.kernel_structs import STRUCTS
-from glrt.rendering.pack_details import pack_conductors, pack_glasses
+from glrt.rendering.pack_details import pack_conductors, pack_facets
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
 from glrt.rendering.pack_materials import pack_emitters, pack_materials
 from glrt.rendering.pack_mesh import pack_tints
@@ -54,7 +54,7 @@ def pack_scene(
         "Tint": pack_tints(scene, found),
         "Material": pack_materials(scene, found.finishes),
         "Conductor": pack_conductors(scene, found.finishes),
-        **pack_glasses(scene, found.finishes),
+        **pack_facets(scene, found.finishes),
         "Emitter": pack_emitters(scene, found.finishes),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),

@@ -10,13 +10,14 @@ import numpy as np
 
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
 from glrt.scene.conductors import Conductor
-from glrt.scene.facets import STEPS, FacetLoss, facet_loss
+from glrt.scene.facets import STEPS, facet_loss
 from glrt.scene.glasses import glasses_of
-from glrt.scene.materials import Metal
+from glrt.scene.gloss import FacetShares, facet_shares
+from glrt.scene.materials import Metal, Principled
 from glrt.scene.scene import Finish, Scene
 
 Array = np.ndarray[Any, Any]
-ALBEDOS = STEPS  # rows of the struct Albedo for each glass whose facets lose light
+ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
 
 
 def conductor_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
@@ -51,25 +52,88 @@ def glass_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
     return {glass: row for row, glass in enumerate(glasses_of(scene, finishes))}
 
 
-def pack_glasses(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
-    """Rows of the structs Glass and Albedo."""
+def pack_facets(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
+    """Rows of the structs Glass, Gloss and Albedo."""
+    albedos: Albedos = []
+    glasses = _pack_glasses(scene, finishes, albedos)
+    gloss = _pack_gloss(scene, finishes, albedos)
+    return {"Glass": glasses, "Gloss": gloss, "Albedo": _rows_of(albedos)}
+
+
+Albedos = list[tuple[Array, Array]]  # two numbers at each step
+
+
+def _pack_glasses(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
+    """Rows of the struct Glass; what their facets reflect is appended to `albedos`."""
     glasses = glasses_of(scene, finishes).values()
     rows = np.zeros(len(glasses), STRUCTS["Glass"])
-    losses: list[FacetLoss] = []
     for row, glass in zip(rows, glasses, strict=True):
         row["absorption"], row["ior"] = glass.absorption, glass.ior
         row["first_albedo"] = CONSTANTS["NO_DETAILS"]
         if loss := facet_loss(glass.alpha, glass.ior) if glass.alpha else None:
-            row["first_albedo"] = ALBEDOS * len(losses)
+            row["first_albedo"] = ALBEDOS * len(albedos)
             row["mean_outer"], row["mean_inner"] = loss.means
             row["crossing_outer"], row["crossing_inner"] = loss.crossing
-            losses.append(loss)
-    return {"Glass": rows, "Albedo": _albedos(losses)}
+            albedos.append(loss.albedos)
+    return rows
 
 
-def _albedos(losses: Sequence[FacetLoss]) -> Array:
-    rows = np.zeros((len(losses), ALBEDOS), STRUCTS["Albedo"])
-    for part, loss in zip(rows, losses, strict=True):
-        for side, albedo in zip(("outer", "inner"), loss.albedos, strict=True):
-            part[side], part[f"{side}_end"] = albedo[:-1], albedo[1:]
+def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
+    """The rows of the materials that have one in the array of the struct Gloss."""
+    return {name: row for row, name in enumerate(_principled(scene, finishes))}
+
+
+def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principled]:
+    named = ((finish.material, scene.materials[finish.material]) for finish in finishes)
+    return {name: material for name, material in named if isinstance(material, Principled)}
+
+
+def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
+    """Rows of the struct Gloss; what their facets reflect is appended to `albedos`."""
+    gloss = _principled(scene, finishes)
+    rows = np.zeros(len(gloss), STRUCTS["Gloss"])
+    first: dict[float, int] = {}  # of the albedos, by alpha
+
+    def place(alpha: float) -> int:
+        if alpha not in first:
+            first[alpha] = ALBEDOS * len(albedos)
+            shares = facet_shares(alpha)
+            albedos.append((shares.head_on, shares.grazing))
+        return first[alpha]
+
+    for row, it in zip(rows, gloss.values(), strict=True):
+        shares = facet_shares(it.alpha)
+        row["f0"], row["f90"], row["metallic"] = it.head_on, it.specular, it.metallic
+        row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
+        row["first"] = row["first_coat"] = place(it.alpha)
+        if it.clearcoat:
+            row["first_coat"] = place(it.coat_alpha)
+        row["kept"], row["brightest"] = shares.kept, max(it.head_on)
+        row["spread"] = 1 / (1 - shares.kept) if shares.kept < 1 else 0.0
+        row["again"] = again = _again(max(it.head_on), it.specular, shares.kept)
+        left = 1 - _taken(max(it.head_on), it.specular, again, shares)
+        row["even_base"] = 1 / left if left > 0 else 0.0
+    return rows
+
+
+def _again(f0: float, f90: float, kept: float) -> float:
+    """Share of light that returns after several facets: F^2 E / (1 - F (1 - E)), means over angles.
+
+    Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (2017).
+    """
+    mean = f0 + (f90 - f0) / 21
+    return mean**2 * kept / (1 - mean * (1 - kept))
+
+
+def _taken(f0: float, f90: float, again: float, shares: FacetShares) -> float:
+    """Share of even light that dielectric facets reflect."""
+    lost = 1 - shares.mean_head_on - shares.mean_grazing
+    return f0 * shares.mean_head_on + f90 * shares.mean_grazing + again * lost
+
+
+def _rows_of(albedos: Albedos) -> Array:
+    rows = np.zeros((len(albedos), ALBEDOS), STRUCTS["Albedo"])
+    for part, both in zip(rows, albedos, strict=True):
+        for name, albedo in zip(("one", "other"), both, strict=True):
+            part[name], part[f"{name}_end"] = albedo[:-1], albedo[1:]
     return rows.reshape(-1)

@@ -11,9 +11,9 @@ import numpy as np
 from glrt.methods.light_layers import layer_of_group
 from glrt.rendering.aims import cone_fields, everywhere
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
-from glrt.rendering.pack_details import conductor_rows, glass_rows
+from glrt.rendering.pack_details import conductor_rows, glass_rows, gloss_rows
 from glrt.scene.cone import Cone
-from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque
+from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque, Principled
 from glrt.scene.scene import Finish, Scene
 
 Array = np.ndarray[Any, Any]
@@ -41,10 +41,17 @@ def pack_light(row: Any, material: Light) -> None:
     row["kind"], row["color"] = CONSTANTS["MATTE"], material.color
 
 
+def pack_principled(row: Any, material: Principled) -> None:
+    """Base colour and the alpha of GGX; the rest stands in the struct Gloss."""
+    row["kind"], row["color"] = CONSTANTS["PRINCIPLED"], material.color
+    row["alpha"] = material.alpha
+
+
 PACKERS: dict[type, Callable[[Any, Any], None]] = {
     Lambertian: pack_lambertian,
     Metal: pack_metal,
     Dielectric: pack_dielectric,
+    Principled: pack_principled,
     Light: pack_light,
 }
 
@@ -64,7 +71,8 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
         row["emission"] = scene.emission(finish)
     shapes = _emitters(scene, finishes)
     places = {emitter: place for place, emitter in enumerate(shapes)}
-    for number_of in (conductor_rows(scene, finishes), glass_rows(scene, finishes)):
+    for rows_of in (conductor_rows, glass_rows, gloss_rows):
+        number_of = rows_of(scene, finishes)
         for row, finish in zip(rows, finishes, strict=True):
             row["details"] = number_of.get(finish.material, row["details"])
     rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]

@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - facets: what facets of rough glass lose to each other
+- gloss: what the facets of principled surfaces reflect
 - values: numbers, vectors and colours with their ranges
 - assets: files that a scene names, held to its folder and hashed
 - float_images: Radiance .hdr and OpenEXR files as arrays

@@ -6,10 +6,8 @@ from pydantic import Field, model_validator
 
 from glrt.scene.clear_sky import ClearSky
 from glrt.scene.named_images import ImageFile, NamedImage
-from glrt.scene.values import BLACK, Angle, Number, Radiance, Triple, Value
+from glrt.scene.values import BLACK, WHITE, Angle, Number, Radiance, Triple, Value
 from glrt.settings import Cost, Editable
-
-WHITE = (1.0, 1.0, 1.0)
 
 
 class Background(Value):

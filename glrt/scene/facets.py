@@ -28,7 +28,7 @@ class FacetLoss(NamedTuple):
 def facet_loss(alpha: float, ior: float) -> FacetLoss | None:
     """Of GGX facets between air and glass; None where they lose next to nothing."""
     albedos = _albedo(alpha, 1 / ior), _albedo(alpha, ior)
-    means = _mean_loss(albedos[0]), _mean_loss(albedos[1])
+    means = mean_loss(albedos[0]), mean_loss(albedos[1])
     if max(means) < LEAST_LOSS:
         return None
     return FacetLoss(albedos, means, _crossing(ior, *means))
@@ -50,7 +50,7 @@ def _even_reflectance(eta: float) -> float:
     return float(_fresnel(cosine, eta).mean())
 
 
-def _mean_loss(albedo: Array) -> float:
+def mean_loss(albedo: Array) -> float:
     """The integral of 2 (1 - albedo) c over the cosine c, 4 (1 - albedo) s^3 over its root s.
 
     The albedo is linear in s between its values, as in the kernel.
@@ -67,20 +67,20 @@ def _albedo(alpha: float, eta: float) -> Array:
     """At even steps of the root of the cosine: the mean weight of samples by visible normals."""
     cosine = np.maximum(np.linspace(0, 1, STEPS + 1) ** 2, 1e-9)[:, None]
     wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
-    normal = _visible_normals(alpha, wo)
+    normal = visible_normals(alpha, wo)
     along = np.sum(wo * normal, axis=-1, keepdims=True)
     reflectance = _fresnel(along, eta)
     cos_t = np.sqrt(np.maximum(1 - eta**2 * (1 - along**2), 0))
     mirrored = 2 * along * normal - wo
     refracted = (eta * along - cos_t) * normal - eta * wo
     share = [
-        part[..., 0] * (sign * wi[..., 2] > 0) * _weight(alpha, wo[..., 2], np.abs(wi[..., 2]))
+        part[..., 0] * (sign * wi[..., 2] > 0) * weight(alpha, wo[..., 2], np.abs(wi[..., 2]))
         for part, sign, wi in ((reflectance, 1, mirrored), (1 - reflectance, -1, refracted))
     ]
     return np.asarray((share[0] + share[1]).mean(axis=1).clip(0, 1))
 
 
-def _visible_normals(alpha: float, wo: Array) -> Array:
+def visible_normals(alpha: float, wo: Array) -> Array:
     """Of wo, (n, 1, 3), whose y is 0, (n, _POINTS, 3): the half of them with y above 0.
 
     Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023.
@@ -97,7 +97,7 @@ def _visible_normals(alpha: float, wo: Array) -> Array:
     return np.asarray(normal / np.linalg.norm(normal, axis=-1, keepdims=True))
 
 
-def _weight(alpha: float, cos_o: Array, cos_i: Array) -> Array:
+def weight(alpha: float, cos_o: Array, cos_i: Array) -> Array:
     """G2 / G1(wo), with G2 = 1 / (1 + L(wo) + L(wi))."""
     mask_o, mask_i = (
         np.sqrt(1 + alpha**2 * (1 - c**2) / np.maximum(c, 1e-300) ** 2) for c in (cos_o, cos_i)

@@ -14,6 +14,7 @@ from glrt.scene.conductors import PRESETS, Conductor, PresetName
 from glrt.scene.cone import Cone
 from glrt.scene.values import (
     BLACK,
+    WHITE,
     Color,
     Fraction,
     Length,
@@ -75,6 +76,11 @@ class Opaque(Surface):
     def emits(self) -> bool:
         """Whether some of its emission is not black."""
         return any(self.emission)
+
+
+def _alpha(roughness: float) -> float:
+    alpha = roughness**2
+    return alpha if alpha >= SMOOTHEST else 0.0
 
 
 class Lambertian(Opaque):
@@ -158,8 +164,7 @@ class Metal(Opaque):
     @property
     def alpha(self) -> float:
         """The alpha of GGX; 0 for a mirror, and for what a float32 cannot tell from one."""
-        alpha = self.roughness**2
-        return alpha if alpha >= SMOOTHEST else 0.0
+        return _alpha(self.roughness)
 
 
 class Dielectric(Surface):
@@ -254,6 +259,72 @@ class Dielectric(Surface):
         return red, green, blue
 
 
+class Principled(Opaque):
+    """glTF's metallic-roughness surface: a coat, over metal and dielectric facets, over matte.
+
+    Facets are GGX with Schlick's reflectance. docs/explanation/principled.md tells the formulas.
+    """
+
+    type: Literal["principled"] = Field("principled", description="the kind of material")
+    color: Color = Field(WHITE, description="albedo of the base, and reflectance of what is metal")
+    metallic: Annotated[Fraction, Editable()] = Field(
+        0.0, description="share of the surface that is metal"
+    )
+    roughness: Annotated[Fraction, Editable()] = Field(
+        0.4, description="of metal and dielectric; 0: smooth; the alpha of GGX is its square"
+    )
+    ior: Annotated[float, Field(ge=1, le=1e3), Editable(slider=(1, 3))] = Field(
+        1.5, description="index of refraction of what is no metal"
+    )
+    specular: Annotated[Fraction, Editable()] = Field(
+        1.0, description="factor of what is reflected by what is no metal"
+    )
+    specular_color: Annotated[Color, Editable()] = Field(
+        WHITE, description="factor of the same, head-on"
+    )
+    clearcoat: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        0.0, description="weight of a clear coat of index 1.5"
+    )
+    clearcoat_roughness: Annotated[Fraction, Editable()] = Field(
+        0.1, description="of the coat; 0: smooth; the alpha of GGX is its square"
+    )
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            color: Triple = WHITE,
+            metallic: Number = 0.0,
+            roughness: Number = 0.4,
+            ior: Number = 1.5,
+            specular: Number = 1.0,
+            specular_color: Triple = WHITE,
+            clearcoat: Number = 0.0,
+            clearcoat_roughness: Number = 0.1,
+            emission: Triple = BLACK,
+            group: str | None = None,
+            cone: Cone | Mapping[str, Any] | None = None,
+        ) -> None: ...
+
+    @property
+    def alpha(self) -> float:
+        """The alpha of GGX; 0 where a float32 cannot tell."""
+        return _alpha(self.roughness)
+
+    @property
+    def coat_alpha(self) -> float:
+        """The same of the coat."""
+        return _alpha(self.clearcoat_roughness)
+
+    @property
+    def head_on(self) -> Color:
+        """Reflectance at normal incidence of what is no metal: f0."""
+        share = ((self.ior - 1) / (self.ior + 1)) ** 2
+        red, green, blue = (min(share * tint, 1) * self.specular for tint in self.specular_color)
+        return red, green, blue
+
+
 class Light(Opaque):
     """An area light, evenly bright in all directions unless it has a cone."""
 
@@ -278,7 +349,9 @@ class Light(Opaque):
         return True
 
 
-Material = Annotated[Lambertian | Metal | Dielectric | Light, Field(discriminator="type")]
+Material = Annotated[
+    Lambertian | Metal | Dielectric | Principled | Light, Field(discriminator="type")
+]
 
 TYPES: dict[str, Any] = {  # the model of each type
     model.model_fields["type"].default: model for model in get_args(get_args(Material)[0])

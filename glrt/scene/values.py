@@ -58,6 +58,7 @@ Radiance = tuple[Intensity, Intensity, Intensity]
 Angle = Annotated[float, Field(ge=-360_000, le=360_000)]  # degrees
 
 BLACK = (0.0, 0.0, 0.0)
+WHITE = (1.0, 1.0, 1.0)
 
 # What Python code may give where a scene has a number, and where it has a vector or a colour.
 Number = float | np.floating[Any] | np.integer[Any]

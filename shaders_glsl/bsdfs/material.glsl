@@ -11,12 +11,14 @@ vec3 eval_material(Vertex vertex, vec3 wi) {
     precise Material material = vertex.material;
     if (HAS_ROUGH_METAL && material.kind == METAL) return eval_metal(vertex, wi);
     if (HAS_ROUGH_GLASS && material.kind == DIELECTRIC) return eval_rough_dielectric(vertex, wi);
+    if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return eval_principled(vertex, wi);
     return eval_matte(material.color, wi);
 }
 
 float pdf_material(Vertex vertex, vec3 wi) {
     if (HAS_ROUGH_METAL && vertex.material.kind == METAL) return pdf_metal(vertex, wi);
     if (HAS_ROUGH_GLASS && vertex.material.kind == DIELECTRIC) return pdf_rough_dielectric(vertex, wi);
+    if (HAS_PRINCIPLED && vertex.material.kind == PRINCIPLED) return pdf_principled(vertex, wi);
     return pdf_matte(wi);
 }
 
@@ -29,6 +31,11 @@ Scattering sample_material(Vertex vertex, precise inout Sampler rng) {
         return sample_rough_dielectric(vertex, choice, u);
     }
     if (HAS_PANE && material.kind == PANE) return sample_pane(vertex, next_1d(rng));
+    if (HAS_PRINCIPLED && material.kind == PRINCIPLED) {
+        precise float choice = next_1d(rng);
+        precise vec2 u = next_2d(rng);
+        return sample_principled(vertex, choice, u);
+    }
     precise vec2 u = next_2d(rng);
     if ((HAS_MIRROR || HAS_ROUGH_METAL) && material.kind == METAL) return sample_metal(vertex, u);
     return sample_matte(vertex, u);

@@ -5,8 +5,6 @@
 // (Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017). So the whole is reciprocal.
 // Values here are of energy: radiance that crosses scales by eta^2 beside.
 
-const int ALBEDO_STEPS = 64;  // of the root of the cosine, between the rows of albedos
-
 bool is_rough_glass(Material material) {
     return HAS_ROUGH_GLASS && material.kind == DIELECTRIC && material.alpha > 0.0;
 }
@@ -17,13 +15,8 @@ bool has_lost_light(Glass glass) {
 
 // Of light from a direction; `outside`: whether that is.
 float facet_albedo(Glass glass, bool outside, float cosine) {
-    precise float place = sqrt(min(cosine, 1.0)) * float(ALBEDO_STEPS);
-    int step = min(int(place), ALBEDO_STEPS - 1);
-    precise float beyond = place - float(step);
-    precise Albedo row = albedo_at(glass.first_albedo + step);
-    precise vec2 ends = outside ? vec2(row.outer, row.outer_end) : vec2(row.inner, row.inner_end);
-    precise float share = ends.x + beyond * (ends.y - ends.x);
-    return share;
+    precise vec2 both = albedos(glass.first_albedo, cosine);
+    return outside ? both.x : both.y;
 }
 
 // Value and density.

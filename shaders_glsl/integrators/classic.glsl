@@ -13,8 +13,9 @@ const int MOST_EXPONENT = 16777216;  // 2^24
 
 // Whether light is followed beyond this surface. Glass divides it by a random choice, not by a
 // tree: the mean is the same, work does not double at each surface, and antialiasing takes many
-// samples a pixel anyway.
+// samples a pixel anyway. Principled surfaces reflect lamps alone.
 bool is_followed(Material material) {
+    if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return MODEL == 0;
     return MODEL == 0 || MODEL >= WHITTED && material.kind != MATTE;
 }
 
@@ -59,6 +60,7 @@ float eval_highlight(float alpha, vec3 wo, vec3 wi) {
 vec3 eval_local(Vertex vertex, vec3 wi) {
     precise Material material = vertex.material;
     if (material.kind == MATTE) return eval_matte(material.color, wi);
+    if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return eval_principled(vertex, wi);
     if (!HAS_ROUGH_METAL || material.kind != METAL || material.alpha == 0.0) return vec3(0.0);
     precise vec3 value = head_on_reflectance(material) * eval_highlight(material.alpha, vertex.wo, wi);
     return value;

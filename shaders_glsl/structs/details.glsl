@@ -21,11 +21,27 @@ struct Glass {
     float ior;             // inside over air
 };
 
-// Directional albedo of the facets of rough glass, which scatter once: at both ends of a step of the
-// root of the cosine.
+// A principled surface, beside its colour and the alpha of its facets.
+struct Gloss {
+    vec3 f0;           // of its dielectric facets, head-on
+    float f90;         // of the same, grazing
+    float metallic;    // share of the surface that is metal
+    float coat;        // weight of the coat; 0: none
+    float coat_alpha;  // of its facets
+    int first;         // of the rows of albedos of the facets
+    int first_coat;    // of those of the coat
+    float kept;        // share of even light that white facets do not lose to each other
+    float spread;      // 1 / (1 - kept); 0 where nothing is lost
+    float again;       // share of what dielectric facets lose that returns, of the brightest channel
+    float brightest;   // channel of f0
+    float even_base;   // 1 over the share of even light that dielectric facets leave
+};
+
+// Directional albedos of facets, which scatter once: at both ends of a step of the root of the cosine. Of rough
+// glass, of light from outside and from inside; of gloss, the factors of f0 and f90.
 struct Albedo {
-    float outer;  // of light from outside
-    float inner;
-    float outer_end;
-    float inner_end;
+    float one;
+    float other;
+    float one_end;
+    float other_end;
 };

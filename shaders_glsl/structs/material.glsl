@@ -4,16 +4,17 @@ const int MATTE = 0;       // Lambert's law; lamps are of this kind too
 const int METAL = 1;       // mirror or GGX
 const int DIELECTRIC = 2;  // interface with Fresnel reflection, smooth or GGX
 const int PANE = 3;        // two smooth ones, so near each other that they are one surface
+const int PRINCIPLED = 4;  // a coat over metal and dielectric facets over a matte base
 
 struct Material {
     vec3 color;      // albedo or reflectance; of a conductor, a factor of it
-    int kind;        // MATTE, METAL, DIELECTRIC or PANE
+    int kind;        // MATTE, METAL, DIELECTRIC, PANE or PRINCIPLED
     vec3 emission;   // radiance, light intensity included
     float alpha;     // GGX roughness, the square of the scene file's; 0: smooth
     float ior;       // inside over outside
     int layer;       // of its light group, where light is kept by layers
     int emitter;     // how it emits: index into the emitters
-    int details;     // index into the conductors or the glasses; or NO_DETAILS
+    int details;     // index into the conductors, the glasses or the gloss; or NO_DETAILS
 };
 
 // How lamps emit that do not so evenly and to both sides.

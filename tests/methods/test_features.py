@@ -62,6 +62,16 @@ PROBES = {
         "vertex.eta * cos_o + cos_i",
         "{} * cos_o + cos_i",
     ),
+    "HAS_PRINCIPLED": (
+        "bsdfs/principled.glsl",
+        "chances.z * even",
+        "{} * chances.z * even",
+    ),
+    "HAS_COAT": (
+        "bsdfs/principled.glsl",
+        "chances.x * density",
+        "{} * chances.x * density",
+    ),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
     "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
     "HAS_NESTED": (
@@ -107,6 +117,7 @@ NEEDED_TOO = {
     "HAS_SPHERE_TREE": {"HAS_SPHERE"},
     "HAS_TREE": {"HAS_DISK"},
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
+    "HAS_COAT": {"HAS_PRINCIPLED"},
     "SAMPLE_SUN": {"HAS_SUN"},
     "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
     "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
@@ -128,6 +139,7 @@ NEEDED_TOO = {
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
+    "HAS_PRINCIPLED": {"HAS_COAT"},
     "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
@@ -166,6 +178,8 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "pane": glass(thin=True),
     "tinted": glass(attenuation_color=[0.5] * 3, attenuation_distance=1.0),
     "water": glass(1.33, priority=1),
+    "plastic": {"type": "principled"},
+    "painted": {"type": "principled", "clearcoat": 1.0},
     "lamp": lamp(),
     "spot": lamp(cone={"axis": [0, 1, 0]}),
 }
@@ -216,6 +230,7 @@ def needs_with(flags: set[str]) -> Needs:
 
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
     made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane"}
+    made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []

@@ -9,7 +9,7 @@ from glrt.scene import facets
 
 
 def test_host_and_kernel_step_alike() -> None:
-    assert read_constants(expanded("bsdfs/rough_dielectric.glsl"))["ALBEDO_STEPS"] == facets.STEPS
+    assert read_constants(expanded("bsdfs/albedos.glsl"))["ALBEDO_STEPS"] == facets.STEPS
 
 
 @pytest.mark.parametrize(("alpha", "ior"), [(0.01, 1.5), (0.09, 1.1), (0.36, 2.4), (1.0, 1.5)])

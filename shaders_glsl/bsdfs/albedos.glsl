@@ -1,0 +1,16 @@
+// Directional albedos of facets that scatter once, by quadrature on the host: two numbers at steps of the
+// root of the cosine.
+
+const int ALBEDO_STEPS = 64;
+
+// The two, at an angle to the normal; `first`: of the rows.
+vec2 albedos(int first, float cosine) {
+    precise float place = sqrt(min(cosine, 1.0)) * float(ALBEDO_STEPS);
+    int step = min(int(place), ALBEDO_STEPS - 1);
+    precise float beyond = place - float(step);
+    precise Albedo row = albedo_at(first + step);
+    precise vec2 start = vec2(row.one, row.other);
+    precise vec2 end = vec2(row.one_end, row.other_end);
+    precise vec2 share = start + beyond * (end - start);
+    return share;
+}

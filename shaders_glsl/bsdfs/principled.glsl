@@ -1,0 +1,162 @@
+// A coat, over facets that are metal and dielectric in parts, over a matte base: glTF's metallic roughness.
+//
+// Facets are GGX with Schlick's reflectance f0 + (f90 - f0) (1 - cos)^5. What lies below gets what they leave of
+// light, on its way in and out, in forms that are symmetric and never gain energy (E: directional albedo):
+//   the base, (1 - E(wo)) (1 - E(wi)) / mean(1 - E) of the dielectric facets (Kelemen and Szirmay-Kalos, "A
+//   Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001);
+//   all below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
+// Light that facets lose to each other returns as one lobe (Kulla and Conty 2017, as rough_dielectric.glsl).
+// Smooth facets are deltas: they are sampled, and neither evaluated nor have a density.
+
+const float COAT_F0 = 0.04;  // of ior 1.5
+
+float schlick_weight(float cosine) {
+    precise float x = max(1.0 - cosine, 0.0);
+    precise float x2 = x * x;
+    precise float weight = x2 * x2 * x;
+    return weight;
+}
+
+// The facets of a surface, metal and dielectric together, and its base.
+struct Principled {
+    Gloss gloss;
+    vec3 f0;
+    float f90;
+    vec3 again;  // share of light that returns after it has met several facets
+    vec3 base;   // albedo
+};
+
+// Share of what facets lose to each other that returns, F^2 E / (1 - F (1 - E)): F, the mean reflectance, is
+// f0 + (f90 - f0) / 21.
+vec3 returned(vec3 f0, float f90, float kept) {
+    precise vec3 mean = f0 + (f90 - f0) / 21.0;
+    precise vec3 share = mean * mean * kept / (1.0 - mean * (1.0 - kept));
+    return share;
+}
+
+Principled principled_of(Material material) {
+    precise Gloss gloss = gloss_at(material.details);
+    precise vec3 f0 = gloss.f0 + gloss.metallic * (material.color - gloss.f0);
+    precise float f90 = gloss.f90 + gloss.metallic * (1.0 - gloss.f90);
+    precise vec3 of_dielectric = returned(gloss.f0, gloss.f90, gloss.kept);
+    precise vec3 of_metal = returned(material.color, 1.0, gloss.kept);
+    precise vec3 again = of_dielectric + gloss.metallic * (of_metal - of_dielectric);
+    precise vec3 base = (1.0 - gloss.metallic) * material.color;
+    return Principled(gloss, f0, f90, again, base);
+}
+
+// Shares of light from a direction: by f0 and f90 what facets reflect, and what they lose to each other.
+struct Shares {
+    vec2 facets;
+    float lost;
+    float base;  // what dielectric facets leave
+};
+
+Shares shares_of(Gloss gloss, float cosine) {
+    precise vec2 facets = albedos(gloss.first, cosine);
+    precise float lost = 1.0 - facets.x - facets.y;
+    precise float taken = gloss.brightest * facets.x + gloss.f90 * facets.y + gloss.again * lost;
+    precise float left = 1.0 - taken;
+    return Shares(facets, lost, left);
+}
+
+// What the coat leaves of light from a direction.
+float below_coat(Gloss gloss, float cosine) {
+    if (!HAS_COAT || gloss.coat == 0.0) return 1.0;
+    precise vec2 facets = albedos(gloss.first_coat, cosine);
+    precise float left = 1.0 - gloss.coat * (COAT_F0 * facets.x + facets.y);
+    return left;
+}
+
+float mean_of(vec3 color) {
+    precise float mean = (color.x + color.y + color.z) / 3.0;
+    return mean;
+}
+
+// With which chance a sample is one of the coat, of the facets, and of the base and what facets lose: about
+// their shares of light that comes from wo.
+vec3 lobe_chances(Principled it, float cosine, Shares shares) {
+    precise float left = below_coat(it.gloss, cosine);
+    precise float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
+    precise float base = left * mean_of(it.base * shares.base + it.again * shares.lost);
+    precise float all = 1.0 - left + facets + base;
+    if (all <= 0.0) return vec3(0.0, 0.0, 1.0);
+    precise vec3 chances = vec3(1.0 - left, facets, base) / all;
+    return chances;
+}
+
+// Value of a BSDF with the cosine, and density.
+struct ColorLobe {
+    vec3 value;
+    float pdf;
+};
+
+// What is not a delta; h: half vector.
+ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
+    precise Gloss gloss = it.gloss;
+    precise Shares from = shares_of(gloss, wi.z);
+    precise Shares to = shares_of(gloss, vertex.wo.z);
+    precise vec3 chances = lobe_chances(it, vertex.wo.z, to);
+    precise float even = wi.z / PI;
+    precise float pdf = chances.z * even;
+    precise vec3 value = it.again * (from.lost * to.lost * gloss.spread);
+    value += it.base * (from.base * to.base * gloss.even_base);
+    value *= even;
+    precise float alpha = vertex.material.alpha;
+    precise float edge = schlick_weight(dot(vertex.wo, h));
+    if (alpha > 0.0) {
+        precise float density = pdf_ggx(alpha, vertex.wo, h);
+        value += (it.f0 + (it.f90 - it.f0) * edge) * (density * ggx_weight(alpha, vertex.wo, wi));
+        pdf += chances.y * density;
+    }
+    if (!HAS_COAT || gloss.coat == 0.0) return ColorLobe(value, pdf);
+    value *= min(below_coat(gloss, wi.z), below_coat(gloss, vertex.wo.z));
+    if (gloss.coat_alpha > 0.0) {
+        precise float density = pdf_ggx(gloss.coat_alpha, vertex.wo, h);
+        precise float reflected = gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge);
+        value += reflected * (density * ggx_weight(gloss.coat_alpha, vertex.wo, wi));
+        pdf += chances.x * density;
+    }
+    return ColorLobe(value, pdf);
+}
+
+vec3 eval_principled(Vertex vertex, vec3 wi) {
+    precise Principled it = principled_of(vertex.material);
+    return principled_lobe(it, vertex, wi, normalized(vertex.wo + wi)).value;
+}
+
+float pdf_principled(Vertex vertex, vec3 wi) {
+    precise Principled it = principled_of(vertex.material);
+    return principled_lobe(it, vertex, wi, normalized(vertex.wo + wi)).pdf;
+}
+
+Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
+    precise Principled it = principled_of(vertex.material);
+    precise Gloss gloss = it.gloss;
+    precise float cosine = vertex.wo.z;
+    precise vec3 chances = lobe_chances(it, cosine, shares_of(gloss, cosine));
+    bool is_coat = HAS_COAT && choice < chances.x;
+    precise vec3 h = vec3(0.0, 0.0, 1.0);
+    precise vec3 wi = vec3(-vertex.wo.xy, cosine);
+    if (is_coat || choice < chances.x + chances.y) {
+        precise float alpha = is_coat ? gloss.coat_alpha : vertex.material.alpha;
+        if (alpha == 0.0) {
+            precise float edge = schlick_weight(cosine);
+            precise vec3 weight = (it.f0 + (it.f90 - it.f0) * edge) * below_coat(gloss, cosine) / chances.y;
+            if (is_coat) weight = vec3(gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge) / chances.x);
+            precise vec3 mirrored = normalized(vertex.frame * wi);
+            return Scattering(mirrored, weight, 0.0, 1.0, false);
+        }
+        h = sample_ggx_normal(alpha, vertex.wo, u);
+        wi = 2.0 * dot(vertex.wo, h) * h - vertex.wo;
+    } else {
+        wi = sample_cosine_hemisphere(u);
+        h = normalized(vertex.wo + wi);
+    }
+    if (wi.z <= 0.0) return absorbed();
+    precise ColorLobe lobe = principled_lobe(it, vertex, wi, h);
+    if (lobe.pdf == 0.0) return absorbed();
+    precise vec3 direction = normalized(vertex.frame * wi);
+    precise vec3 weight = lobe.value / lobe.pdf;
+    return Scattering(direction, weight, lobe.pdf, 1.0, false);
+}
