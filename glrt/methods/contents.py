@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from glrt.scene.materials import Dielectric, Material, Metal, Principled
+from glrt.scene.materials import Dielectric, Material, Metal, Principled, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS
@@ -87,6 +87,16 @@ class Contents:
         return [name for name, material in own.items() if material.clearcoat > 0]
 
     @property
+    def transmitting(self) -> list[str]:
+        """The principled materials that are glass in part."""
+        return [n for n, it in self.materials.items() if isinstance(it, Principled) and it.glass]
+
+    @property
+    def solid_glasses(self) -> list[str]:
+        """The glasses that enclose a volume."""
+        return self._glasses(lambda glass: not glass.thin)
+
+    @property
     def rough_glasses(self) -> list[str]:
         """The glasses whose surface is rough."""
         return self._glasses(lambda glass: glass.alpha > 0)
@@ -107,7 +117,8 @@ class Contents:
         return self._glasses(lambda glass: glass.priority is not None)
 
     def _glasses(self, are: Callable[[Dielectric], bool]) -> list[str]:
-        return [n for n, it in self.materials.items() if isinstance(it, Dielectric) and are(it)]
+        glasses = ((name, glass_of(material)) for name, material in self.materials.items())
+        return [name for name, glass in glasses if glass and are(glass)]
 
     @property
     def cones(self) -> list[str]:

@@ -65,6 +65,9 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
             for name in TYPES
             if name not in WITHOUT_OWN_FLAG
         ),
+        Feature(
+            "transmission", needs.has_transmission, _made_of(found.transmitting, "glass in part")
+        ),
         Feature("coats", needs.has_coat, _made_of(found.coated, "principled with clearcoat")),
         *_kinds_of_glass(needs, found),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),

@@ -47,6 +47,7 @@ class Needs:
     has_attenuation: bool  # glass that absorbs light
     has_nested: bool  # glasses that overlap by priority
     media: int  # how many of them
+    has_transmission: bool  # principled surfaces that are glass in part
     has_coat: bool  # principled surfaces under a clear coat
     has_conductor: bool  # metal whose reflectance depends on the angle
     has_lens: bool
@@ -102,8 +103,9 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     metals = [m for m in found.materials.values() if m.type == "metal"]
-    solid = (m for name, m in found.materials.items() if name not in found.panes)
-    types = {m.type for m in solid if traits.follows or not m.is_transparent}
+    types = {m.type for m in found.materials.values() if not m.is_transparent}
+    if traits.follows and found.solid_glasses:
+        types.add("dielectric")
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
         materials=frozenset(types),
@@ -115,6 +117,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
         has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
         has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),
+        has_transmission=bool(found.transmitting),
         has_coat=bool(found.coated),
         has_conductor=bool(found.conductors),
         has_pane=traits.follows and bool(found.panes),

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from glrt.methods.contents import contents_of
 from glrt.methods.table import CLASSIC, METHODS
+from glrt.scene.materials import glass_of
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
@@ -32,7 +33,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
     )
     if is_local and any(metal.alpha == 0 for metal in metals):
         yield "mirrors reflect nothing"
-    if is_local and "dielectric" in kinds:
+    if is_local and any(map(glass_of, materials)):
         yield "glass is black"
     if reflects:
         yield "no indirect light"

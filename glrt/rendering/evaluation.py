@@ -82,6 +82,7 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
         "CLUSTERS": found.clusters,
         "MANY_LIGHTS": found.has_many_lights,
         **aimed,
+        "HAS_TRANSMISSION": bool(found.transmitting),
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),

@@ -13,7 +13,7 @@ from glrt.scene.conductors import Conductor
 from glrt.scene.facets import STEPS, facet_loss
 from glrt.scene.glasses import glasses_of
 from glrt.scene.gloss import FacetShares, facet_shares
-from glrt.scene.materials import Metal, Principled
+from glrt.scene.materials import Dielectric, Metal, Principled
 from glrt.scene.scene import Finish, Scene
 
 Array = np.ndarray[Any, Any]
@@ -83,6 +83,12 @@ def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
     return {name: row for row, name in enumerate(_principled(scene, finishes))}
 
 
+def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Dielectric]:
+    """The glass that principled materials are in part: rows of Material after those of finishes."""
+    found = ((name, material.glass) for name, material in _principled(scene, finishes).items())
+    return {name: glass for name, glass in found if glass}
+
+
 def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principled]:
     named = ((finish.material, scene.materials[finish.material]) for finish in finishes)
     return {name: material for name, material in named if isinstance(material, Principled)}
@@ -101,9 +107,12 @@ def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> A
             albedos.append((shares.head_on, shares.grazing))
         return first[alpha]
 
-    for row, it in zip(rows, gloss.values(), strict=True):
-        shares = facet_shares(it.alpha)
-        row["f0"], row["f90"], row["metallic"] = it.head_on, it.specular, it.metallic
+    parts = {name: len(finishes) + k for k, name in enumerate(glass_parts(scene, finishes))}
+    for row, (name, it) in zip(rows, gloss.items(), strict=True):
+        shares, rest = facet_shares(it.alpha), 1 - it.glass_share
+        row["f0"], row["f90"] = it.head_on, it.specular
+        row["metallic"] = it.metallic / rest if rest > 0 else 0.0
+        row["transmission"], row["glass"] = it.glass_share, parts.get(name, 0)
         row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
         row["first"] = row["first_coat"] = place(it.alpha)
         if it.clearcoat:

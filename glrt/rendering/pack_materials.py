@@ -11,7 +11,7 @@ import numpy as np
 from glrt.methods.light_layers import layer_of_group
 from glrt.rendering.aims import cone_fields, everywhere
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
-from glrt.rendering.pack_details import conductor_rows, glass_rows, gloss_rows
+from glrt.rendering.pack_details import conductor_rows, glass_parts, glass_rows, gloss_rows
 from glrt.scene.cone import Cone
 from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Opaque, Principled
 from glrt.scene.scene import Finish, Scene
@@ -33,6 +33,7 @@ def pack_metal(row: Any, material: Metal) -> None:
 def pack_dielectric(row: Any, material: Dielectric) -> None:
     """Index of refraction, and the alpha of GGX."""
     row["kind"] = CONSTANTS["PANE" if material.thin else "DIELECTRIC"]
+    row["color"] = 1.0
     row["ior"], row["alpha"] = material.ior, material.alpha
 
 
@@ -76,6 +77,16 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
         for row, finish in zip(rows, finishes, strict=True):
             row["details"] = number_of.get(finish.material, row["details"])
     rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]
+    return np.concatenate([rows, _glass_parts(scene, finishes)])
+
+
+def _glass_parts(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the glass that some materials are in part, in the order of `glass_parts`."""
+    parts, number_of = glass_parts(scene, finishes), glass_rows(scene, finishes)
+    rows = np.zeros(len(parts), STRUCTS["Material"])
+    for row, (name, glass) in zip(rows, parts.items(), strict=True):
+        pack_dielectric(row, glass)
+        row["details"] = number_of.get(name, CONSTANTS["NO_DETAILS"])
     return rows
 
 

@@ -19,6 +19,9 @@ Modules, each importing only what stands above it:
 - objects: what every shape has
 - cone: the directions that a lamp lights
 - conductors: metals by their complex index of refraction
+- surfaces: what all materials have
+- dielectric: glass and liquids
+- principled: glTF's metallic roughness
 - materials: what surfaces are made of
 - solids: shapes with faces that enclose a volume
 - meshes: triangle meshes and their places

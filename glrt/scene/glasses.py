@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.scene.materials import Dielectric
+from glrt.scene.materials import Dielectric, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.nesting import BITS
 from glrt.scene.scene import Finish, Scene
@@ -32,9 +32,9 @@ def glasses_of(scene: Scene, finishes: Iterable[Finish]) -> dict[str, Dielectric
     """
     found: dict[str, Dielectric] = {}
     for finish in finishes:
-        material = scene.materials[finish.material]
-        if isinstance(material, Dielectric) and material.has_details:
-            found[finish.material] = material
+        glass = glass_of(scene.materials[finish.material])
+        if glass and glass.has_details:
+            found[finish.material] = glass
     return dict(sorted(found.items(), key=lambda item: _rank(item[1])))
 
 

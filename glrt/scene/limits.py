@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
-from glrt.scene.materials import Dielectric
+from glrt.scene.materials import Dielectric, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
@@ -128,14 +128,14 @@ def _dense_inside(scene: Scene, inner: int, outer: int) -> str:
 
 
 def _is_solid_glass(scene: Scene, thing: Shape) -> bool:
-    material = scene.materials[thing.material]
-    return isinstance(material, Dielectric) and not material.thin
+    glass = glass_of(scene.materials[thing.material])
+    return glass is not None and not glass.thin
 
 
 def _glass_of(scene: Scene, index: int) -> Dielectric:
-    material = scene.materials[scene.objects[index].material]
-    assert isinstance(material, Dielectric)
-    return material
+    glass = glass_of(scene.materials[scene.objects[index].material])
+    assert glass
+    return glass
 
 
 def _walled_in(scene: Scene) -> str:

@@ -12,7 +12,7 @@ from glrt.files import write_whole
 from glrt.scene.assets import AssetFolder, AssetReader
 from glrt.scene.contents import Contents
 from glrt.scene.image_files import decode_image
-from glrt.scene.materials import Dielectric
+from glrt.scene.materials import glass_of
 from glrt.scene.mesh_formats import decode_mesh
 from glrt.scene.meshes import Mesh
 from glrt.scene.named_images import ImageFile, Pixels
@@ -164,8 +164,8 @@ def mesh_problems(scene: Contents) -> Iterator[str]:
                 f"{key}: with it the scene has {count:,} triangles, and it may have "
                 f"{MOST_TRIANGLES:,}. Use meshes of fewer."
             )
-        material = scene.materials.get(shape.material)
-        if isinstance(material, Dielectric) and mesh.opening and not material.thin:
+        glass = glass_of(scene.materials.get(shape.material))
+        if glass and mesh.opening and not glass.thin:
             yield (
                 f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot be dielectric. "
                 "Close it in the program that it comes from, or use another material."

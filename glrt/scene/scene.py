@@ -17,7 +17,7 @@ from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.contents import Contents
 from glrt.scene.loading import copy_files, with_files
-from glrt.scene.materials import Dielectric, Material, Opaque
+from glrt.scene.materials import Material, Opaque, glass_of
 from glrt.scene.nesting import nesting_problems
 from glrt.scene.objects import Object
 from glrt.scene.own_materials import lacks_material
@@ -221,7 +221,8 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             missing.add(item.material)  # named once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
-        if isinstance(material, Dielectric) and not (item.encloses or material.thin):
+        glass = glass_of(material)
+        if glass and not (item.encloses or glass.thin):
             article = "an open" if item.has_inside else "a"
             yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
 

@@ -29,7 +29,8 @@ vec3 metal_reflectance(Material material, float cosine) {
     return reflectance;
 }
 
-// What a surface reflects of light that comes along its normal.
+// What a surface reflects of light that comes along its normal; glass counts as black.
 vec3 head_on_reflectance(Material material) {
+    if (material.kind == DIELECTRIC || material.kind == PANE) return vec3(0.0);
     return material.kind == METAL ? metal_reflectance(material, 1.0) : material.color;
 }

@@ -31,5 +31,5 @@ Scattering sample_dielectric(Vertex vertex, float u) {
     precise float cos_t = sqrt(max(refracted_cos2(cos_i, eta), 0.0));
     precise vec3 direction = normalized(eta * incoming + (eta * cos_i - cos_t) * n);
     precise float scale = eta * eta;
-    return Scattering(direction, vec3(1.0), 0.0, scale, true);
+    return Scattering(direction, crossing_tint(vertex.material), 0.0, scale, true);
 }

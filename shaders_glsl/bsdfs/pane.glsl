@@ -13,5 +13,6 @@ Scattering sample_pane(Vertex vertex, float u) {
     bool reflects = u < pane_reflectance(vertex.wo.z, vertex.material.ior);
     if (reflects) incoming += 2.0 * vertex.wo.z * vertex.frame[2];
     precise vec3 direction = normalized(incoming);
-    return Scattering(direction, vec3(1.0), 0.0, 1.0, !reflects);
+    precise vec3 weight = reflects ? vec3(1.0) : crossing_tint(vertex.material);
+    return Scattering(direction, weight, 0.0, 1.0, !reflects);
 }

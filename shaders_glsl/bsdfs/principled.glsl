@@ -10,6 +10,15 @@
 
 const float COAT_F0 = 0.04;  // of ior 1.5
 
+// What a path meets of a surface that is glass in part: the glass, or the rest.
+Material met_part(Material material, float u) {
+    precise Gloss gloss = gloss_at(material.details);
+    if (u >= gloss.transmission) return material;
+    precise Material glass = material_at(gloss.glass);
+    glass.color = material.color;
+    return glass;
+}
+
 float schlick_weight(float cosine) {
     precise float x = max(1.0 - cosine, 0.0);
     precise float x2 = x * x;

@@ -78,6 +78,7 @@ float glass_scale(Vertex vertex, vec3 wi) {
 vec3 eval_rough_dielectric(Vertex vertex, vec3 wi) {
     precise Lobe lobe = glass_lobe(vertex, glass_half(vertex, wi), wi);
     precise vec3 value = vec3(lobe.value * glass_scale(vertex, wi));
+    if (wi.z < 0.0) value *= crossing_tint(vertex.material);
     return value;
 }
 
@@ -114,5 +115,6 @@ Scattering sample_rough_dielectric(Vertex vertex, float choice, vec2 u) {
     if (lobe.pdf == 0.0) return absorbed();
     precise vec3 direction = normalized(vertex.frame * wi);
     precise vec3 weight = vec3(lobe.value / lobe.pdf);
+    if (wi.z < 0.0) weight *= crossing_tint(vertex.material);
     return Scattering(direction, weight, lobe.pdf, glass_scale(vertex, wi), wi.z < 0.0);
 }

@@ -26,6 +26,12 @@ Vertex vertex_of(mat3 frame, vec3 wo, Material material, bool is_outside) {
     return Vertex(frame, wo, material, is_outside, eta);
 }
 
+// What is left of light that crosses glass, beside what its inside absorbs: its colour where it is a part of a
+// principled surface.
+vec3 crossing_tint(Material material) {
+    return HAS_TRANSMISSION ? material.color : vec3(1.0);
+}
+
 Scattering absorbed() {
     return Scattering(vec3(0.0), vec3(0.0), 0.0, 1.0, false);
 }

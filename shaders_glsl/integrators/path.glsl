@@ -167,6 +167,7 @@ void gather_sun(precise inout Path path) {
 
 // Scatters at a surface, after gathering direct light there; false when the path ends.
 bool scatter_path(precise inout Path path, Surface surface, Material material, precise inout Sampler rng) {
+    if (HAS_TRANSMISSION && material.kind == PRINCIPLED) material = met_part(material, next_1d(rng));
     precise vec3 facing = true_normal(surface);
     precise float side = dot(path.ray.direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
     facing *= side;

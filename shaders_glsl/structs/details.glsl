@@ -34,6 +34,8 @@ struct Gloss {
     float spread;      // 1 / (1 - kept); 0 where nothing is lost
     float again;       // share of what dielectric facets lose that returns, of the brightest channel
     float brightest;   // channel of f0
+    float transmission;  // chance that a path meets its glass
+    int glass;         // row of that among the materials
     float even_base;   // 1 over the share of even light that dielectric facets leave
 };
 

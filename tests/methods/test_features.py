@@ -57,21 +57,10 @@ PROBES = {
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "_normal(alpha, vertex.wo", "_normal({}, vertex.wo"),
     "HAS_CONDUCTOR": ("bsdfs/conductor.glsl", "= cosine * cosine;", "= {} * cosine * cosine;"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
-    "HAS_ROUGH_GLASS": (
-        "bsdfs/rough_dielectric.glsl",
-        "vertex.eta * cos_o + cos_i",
-        "{} * cos_o + cos_i",
-    ),
-    "HAS_PRINCIPLED": (
-        "bsdfs/principled.glsl",
-        "chances.z * even",
-        "{} * chances.z * even",
-    ),
-    "HAS_COAT": (
-        "bsdfs/principled.glsl",
-        "chances.x * density",
-        "{} * chances.x * density",
-    ),
+    "HAS_ROUGH_GLASS": ("bsdfs/rough_dielectric.glsl", "vertex.eta * cos_o +", "{} * cos_o +"),
+    "HAS_PRINCIPLED": ("bsdfs/principled.glsl", "chances.z * even", "{} * chances.z * even"),
+    "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
+    "HAS_TRANSMISSION": ("bsdfs/principled.glsl", "u >= gloss.", "u >= {} * gloss."),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
     "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
     "HAS_NESTED": (
@@ -86,11 +75,7 @@ PROBES = {
         "{} * path.throughput * background(",
     ),
     "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
-    "HAS_SUN": (
-        "lights/sun.glsl",
-        "direction - frame.sun_direction",
-        "direction - {} * frame.sun_direction",
-    ),
+    "HAS_SUN": ("lights/sun.glsl", "direction - frame.sun", "direction - {} * frame.sun"),
     "SAMPLE_SUN": ("lights/sun.glsl", "sample_cone(frame.sun_versine", "sample_cone({}"),
     "HAS_CONE": ("lights/emission.glsl", "0.5 * dot(aside, aside)", "{} * dot(aside, aside)"),
     "HAS_ONE_SIDED": (
@@ -118,6 +103,7 @@ NEEDED_TOO = {
     "HAS_TREE": {"HAS_DISK"},
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
     "HAS_COAT": {"HAS_PRINCIPLED"},
+    "HAS_TRANSMISSION": {"HAS_PRINCIPLED", "HAS_DIELECTRIC"},
     "SAMPLE_SUN": {"HAS_SUN"},
     "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
     "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
@@ -139,8 +125,8 @@ NEEDED_TOO = {
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
-    "HAS_PRINCIPLED": {"HAS_COAT"},
-    "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED"},
+    "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION"},
+    "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED", "HAS_TRANSMISSION"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},
@@ -180,6 +166,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "water": glass(1.33, priority=1),
     "plastic": {"type": "principled"},
     "painted": {"type": "principled", "clearcoat": 1.0},
+    "wax": {"type": "principled", "transmission": 0.5, "roughness": 0},
     "lamp": lamp(),
     "spot": lamp(cone={"axis": [0, 1, 0]}),
 }
@@ -230,7 +217,7 @@ def needs_with(flags: set[str]) -> Needs:
 
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
     made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane"}
-    made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted"}
+    made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []

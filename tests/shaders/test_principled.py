@@ -109,7 +109,9 @@ def eval64(look: Look, o: Array, i: Array) -> Array:
     below = [1 - look.clearcoat * (0.04 * at(coat.head_on, w[:, 2]) + at(coat.grazing, w[:, 2]))
              for w in (o, i)]  # fmt: skip
     value = value * np.minimum(*below)[:, None]
-    return value + look.clearcoat * facets(look.clearcoat_roughness, np.full(3, 0.04), 1.0)
+    return np.asarray(
+        value + look.clearcoat * facets(look.clearcoat_roughness, np.full(3, 0.04), 1.0)
+    )
 
 
 @named
@@ -128,7 +130,7 @@ def test_light_goes_both_ways(call_glsl: CallGlsl, look: Look) -> None:
         call_glsl(value, "vec3", setup=setup, wo=wo, wi=wi, **look.given)
         for value in ("eval_material(vertex, wi) * wo.z", "eval_material(back, wo) * wi.z")
     ]
-    assert_allclose(*ways, rtol=2e-3, atol=1e-7)
+    assert_allclose(ways[0], ways[1], rtol=2e-3, atol=1e-7)
 
 
 def lattice(count: int = 128) -> Array:
