@@ -33,8 +33,8 @@ GLASS = [
         "facets lose as much of light from inside as of that from outside",
         edit(
             _ROUGH,
-            "outside ? vec2(row.outer, row.outer_end) : vec2(row.inner, row.inner_end)",
-            "vec2(row.outer, row.outer_end)",
+            "outside ? both.x : both.y",
+            "both.x",
         ),
         f"{_SHADERS}::test_no_light_is_lost_or_gained",
     ),

@@ -12,6 +12,7 @@ from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
+from tests.mutation.principled import PRINCIPLED
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
@@ -19,6 +20,7 @@ from tests.mutation.transport import TRANSPORT
 
 MUTANTS = [
     *TRANSPORT,
+    *PRINCIPLED,
     *SHAPES,
     *MESHES,
     *METALS,

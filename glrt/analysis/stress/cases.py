@@ -1,6 +1,17 @@
 """Every case of `glrt stress`, by name."""
 
-from glrt.analysis.stress import glass, lamps, rays, rough_glass, sky, spots, sums, triangles, views
+from glrt.analysis.stress import (
+    glass,
+    lamps,
+    plastic,
+    rays,
+    rough_glass,
+    sky,
+    spots,
+    sums,
+    triangles,
+    views,
+)
 from glrt.analysis.stress.sweep import Case
 
 _ALL = (
@@ -22,6 +33,7 @@ _ALL = (
     Case("fireflies", "The brightest samples of a caustic", glass.fireflies),
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
+    Case("plastic", "The light that white plastic keeps", plastic.grazing),
     Case("frosted", "A lamp inside frosted glass", rough_glass.frosted),
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),

@@ -50,7 +50,7 @@ def furnace(lab: Lab) -> Sweep:
 
 def _error(lab: Lab, scene: Scene, setup: str, count: int) -> float:
     worst = 0.0
-    points = _lattice(count)
+    points = lattice(count)
     for outside in (1, 0):
         for cosine in (1.0, 0.8, 0.5, 0.3, 0.1, 0.03):
             wo = np.tile([math.sqrt(1 - cosine**2), 0, cosine], (count, 1))
@@ -60,7 +60,7 @@ def _error(lab: Lab, scene: Scene, setup: str, count: int) -> float:
     return worst
 
 
-def _lattice(count: int) -> Array:
+def lattice(count: int) -> Array:
     """Points of the unit cube that are spread evenly, (n, 3): Kronecker's sequence."""
     root = 1.2207440846057596  # of x^4 = x + 1
     steps = np.arange(count)[:, None] * root ** -np.arange(1.0, 4.0)
