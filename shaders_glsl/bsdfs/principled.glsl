@@ -5,7 +5,7 @@
 //   the base, (1 - E(wo)) (1 - E(wi)) / mean(1 - E) of the dielectric facets (Kelemen and Szirmay-Kalos, "A
 //   Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001);
 //   all below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
-// Light that facets lose to each other returns as one lobe (Kulla and Conty 2017, as rough_dielectric.glsl).
+// Light that facets lose to each other comes back as one lobe (Kulla and Conty 2017, as rough_dielectric.glsl).
 // Smooth facets are deltas: they are sampled, and neither evaluated nor have a density.
 
 const float COAT_F0 = 0.04;  // of ior 1.5
@@ -31,13 +31,13 @@ struct Principled {
     Gloss gloss;
     vec3 f0;
     float f90;
-    vec3 again;  // share of light that returns after it has met several facets
+    vec3 again;  // share of light that comes back after several facets
     vec3 base;   // albedo
 };
 
-// Share of what facets lose to each other that returns, F^2 E / (1 - F (1 - E)): F, the mean reflectance, is
+// Share of what facets lose to each other that comes back, F^2 E / (1 - F (1 - E)): F, the mean reflectance, is
 // f0 + (f90 - f0) / 21.
-vec3 returned(vec3 f0, float f90, float kept) {
+vec3 sent_back(vec3 f0, float f90, float kept) {
     precise vec3 mean = f0 + (f90 - f0) / 21.0;
     precise vec3 share = mean * mean * kept / (1.0 - mean * (1.0 - kept));
     return share;
@@ -47,8 +47,8 @@ Principled principled_of(Material material) {
     precise Gloss gloss = gloss_at(material.details);
     precise vec3 f0 = gloss.f0 + gloss.metallic * (material.color - gloss.f0);
     precise float f90 = gloss.f90 + gloss.metallic * (1.0 - gloss.f90);
-    precise vec3 of_dielectric = returned(gloss.f0, gloss.f90, gloss.kept);
-    precise vec3 of_metal = returned(material.color, 1.0, gloss.kept);
+    precise vec3 of_dielectric = sent_back(gloss.f0, gloss.f90, gloss.kept);
+    precise vec3 of_metal = sent_back(material.color, 1.0, gloss.kept);
     precise vec3 again = of_dielectric + gloss.metallic * (of_metal - of_dielectric);
     precise vec3 base = (1.0 - gloss.metallic) * material.color;
     return Principled(gloss, f0, f90, again, base);
@@ -131,12 +131,14 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
 
 vec3 eval_principled(Vertex vertex, vec3 wi) {
     precise Principled it = principled_of(vertex.material);
-    return principled_lobe(it, vertex, wi, normalized(vertex.wo + wi)).value;
+    precise vec3 h = normalized(vertex.wo + wi);
+    return principled_lobe(it, vertex, wi, h).value;
 }
 
 float pdf_principled(Vertex vertex, vec3 wi) {
     precise Principled it = principled_of(vertex.material);
-    return principled_lobe(it, vertex, wi, normalized(vertex.wo + wi)).pdf;
+    precise vec3 h = normalized(vertex.wo + wi);
+    return principled_lobe(it, vertex, wi, h).pdf;
 }
 
 Scattering sample_principled(Vertex vertex, float choice, vec2 u) {

@@ -32,7 +32,7 @@ struct Gloss {
     int first_coat;    // of those of the coat
     float kept;        // share of even light that white facets do not lose to each other
     float spread;      // 1 / (1 - kept); 0 where nothing is lost
-    float again;       // share of what dielectric facets lose that returns, of the brightest channel
+    float again;       // share of what dielectric facets lose that comes back, of the brightest channel
     float brightest;   // channel of f0
     float transmission;  // chance that a path meets its glass
     int glass;         // row of that among the materials

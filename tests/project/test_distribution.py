@@ -18,12 +18,13 @@ ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOLDERS = ("glrt", "shaders_glsl", "scenes")
 SUFFIXES = {
-    "glrt": {".py", ".typed"},
+    "glrt": {".py", ".typed", ".npz", ".txt"},
     "shaders_glsl": {".glsl", ".comp", ".vert", ".frag"},
     "scenes": {".toml", ".ply"},
 }
 EXTRA = re.compile(r"glrt\[(\w+)\]")  # as in `pip install 'glrt[view]'`
 INFO = f"glrt-{VERSION}.dist-info"
+LICENSES = {f"{INFO}/licenses/{name}" for name in ("LICENSE", "glrt/scene/clear_sky_license.txt")}
 
 
 def sources() -> set[str]:
@@ -71,7 +72,7 @@ def test_what_glrt_needs_is_code_shaders_and_scenes() -> None:
 def test_the_wheel_holds_code_shaders_and_scenes_and_nothing_else(wheel: zipfile.ZipFile) -> None:
     inside = {name if name.startswith("glrt/") else f"glrt/{name}" for name in sources()}
     about = {f"{INFO}/{name}" for name in ("METADATA", "WHEEL", "RECORD", "entry_points.txt")}
-    assert set(wheel.namelist()) == inside | about | {f"{INFO}/licenses/LICENSE"}
+    assert set(wheel.namelist()) == inside | about | LICENSES
     assert "glrt/py.typed" in inside
     assert {"glrt/shaders_glsl/trace.comp", "glrt/scenes/cornell.toml"} <= inside
 
@@ -90,7 +91,7 @@ def test_extras_are_those_that_exist(metadata: Message) -> None:
     assert metadata["Requires-Python"] == ">=3.11"
     required = [line for line in metadata.get_all("Requires-Dist", []) if "extra ==" not in line]
     assert len(required) == len(PROJECT["dependencies"])
-    assert metadata["License-Expression"] == "MIT"
+    assert metadata["License-Expression"] == "MIT AND BSD-3-Clause"
 
 
 def test_every_package_asked_for_has_a_lowest_version(metadata: Message) -> None:
