@@ -88,8 +88,15 @@ class Contents:
 
     @property
     def transmitting(self) -> list[str]:
-        """The principled materials that are glass in part."""
-        return [n for n, it in self.materials.items() if isinstance(it, Principled) and it.glass]
+        """The principled materials that are glass in part, or have holes."""
+        own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
+        return [name for name, it in own.items() if it.glass or it.alpha < 1]
+
+    @property
+    def holed(self) -> list[str]:
+        """The principled materials that light passes in part."""
+        own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
+        return [name for name, it in own.items() if it.alpha < 1]
 
     @property
     def solid_glasses(self) -> list[str]:

@@ -47,7 +47,7 @@ class Needs:
     has_attenuation: bool  # glass that absorbs light
     has_nested: bool  # glasses that overlap by priority
     media: int  # how many of them
-    has_transmission: bool  # principled surfaces that are glass in part
+    has_transmission: bool  # principled surfaces that are glass in part, or have holes
     has_coat: bool  # principled surfaces under a clear coat
     has_conductor: bool  # metal whose reflectance depends on the angle
     has_lens: bool
@@ -120,7 +120,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_transmission=bool(found.transmitting),
         has_coat=bool(found.coated),
         has_conductor=bool(found.conductors),
-        has_pane=traits.follows and bool(found.panes),
+        has_pane=traits.follows and bool(found.panes or found.holed),
         has_attenuation=traits.follows and bool(found.tinted),
         has_nested=traits.follows and bool(found.media),
         media=len(found.media) if traits.follows else 0,

@@ -83,10 +83,22 @@ def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
     return {name: row for row, name in enumerate(_principled(scene, finishes))}
 
 
-def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Dielectric]:
-    """The glass that principled materials are in part: rows of Material after those of finishes."""
-    found = ((name, material.glass) for name, material in _principled(scene, finishes).items())
-    return {name: glass for name, glass in found if glass}
+GLASS, HOLE = "glass", "hole"
+_NOTHING = Dielectric(ior=1.0, thin=True)  # a pane that light passes as if it were not there
+
+
+def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[tuple[str, str], Dielectric]:
+    """The glass and the holes that principled materials are in part.
+
+    They are rows of the struct Material after those of the finishes.
+    """
+    found: dict[tuple[str, str], Dielectric] = {}
+    for name, material in _principled(scene, finishes).items():
+        if material.glass:
+            found[name, GLASS] = material.glass
+        if material.alpha < 1:
+            found[name, HOLE] = _NOTHING
+    return found
 
 
 def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principled]:
@@ -107,14 +119,15 @@ def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> A
             albedos.append((shares.head_on, shares.grazing))
         return first[alpha]
 
-    parts = {name: len(finishes) + k for k, name in enumerate(glass_parts(scene, finishes))}
+    parts = {part: len(finishes) + k for k, part in enumerate(glass_parts(scene, finishes))}
     for row, (name, it) in zip(rows, gloss.items(), strict=True):
-        shares, rest = facet_shares(it.alpha), 1 - it.glass_share
+        shares, rest = facet_shares(it.facet_alpha), 1 - it.glass_share
         row["f0"], row["f90"] = it.head_on, it.specular
         row["metallic"] = it.metallic / rest if rest > 0 else 0.0
-        row["transmission"], row["glass"] = it.glass_share, parts.get(name, 0)
+        row["transmission"], row["glass"] = it.glass_share, parts.get((name, GLASS), 0)
+        row["coverage"], row["hole"] = it.alpha, parts.get((name, HOLE), 0)
         row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
-        row["first"] = row["first_coat"] = place(it.alpha)
+        row["first"] = row["first_coat"] = place(it.facet_alpha)
         if it.clearcoat:
             row["first_coat"] = place(it.coat_alpha)
         row["kept"], row["brightest"] = shares.kept, max(it.head_on)

@@ -45,7 +45,7 @@ def pack_light(row: Any, material: Light) -> None:
 def pack_principled(row: Any, material: Principled) -> None:
     """Base colour and the alpha of GGX; the rest stands in the struct Gloss."""
     row["kind"], row["color"] = CONSTANTS["PRINCIPLED"], material.color
-    row["alpha"] = material.alpha
+    row["alpha"] = material.facet_alpha
 
 
 PACKERS: dict[type, Callable[[Any, Any], None]] = {
@@ -84,9 +84,9 @@ def _glass_parts(scene: Scene, finishes: Sequence[Finish]) -> Array:
     """Rows of the glass that some materials are in part, in the order of `glass_parts`."""
     parts, number_of = glass_parts(scene, finishes), glass_rows(scene, finishes)
     rows = np.zeros(len(parts), STRUCTS["Material"])
-    for row, (name, glass) in zip(rows, parts.items(), strict=True):
+    for row, ((name, _), glass) in zip(rows, parts.items(), strict=True):
         pack_dielectric(row, glass)
-        row["details"] = number_of.get(name, CONSTANTS["NO_DETAILS"])
+        row["details"] = CONSTANTS["NO_DETAILS"] if glass.thin else number_of.get(name, -1)
     return rows
 
 

@@ -47,6 +47,9 @@ class Principled(Opaque):
     thin: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         False, description="whether its glass is a pane, which has roughness 0"
     )
+    alpha: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        1.0, description="share of the surface that is there; light passes the rest; not of lamps"
+    )
     clearcoat: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         0.0, description="weight of a clear coat of index 1.5; not with transmission"
     )
@@ -69,6 +72,7 @@ class Principled(Opaque):
             attenuation_color: Triple | None = None,
             attenuation_distance: Number | None = None,
             thin: bool = False,
+            alpha: Number = 1.0,
             clearcoat: Number = 0.0,
             clearcoat_roughness: Number = 0.1,
             emission: Triple = BLACK,
@@ -77,7 +81,7 @@ class Principled(Opaque):
         ) -> None: ...
 
     @property
-    def alpha(self) -> float:
+    def facet_alpha(self) -> float:
         """The alpha of GGX; 0 where a float32 cannot tell."""
         return alpha_of(self.roughness)
 
@@ -85,6 +89,8 @@ class Principled(Opaque):
     def _has_glass_that_can_be(self) -> Self:
         if self.transmission > 0 and self.clearcoat > 0:
             raise ValueError("a coat over transmission is not known; leave one of the two out")
+        if self.alpha < 1 and self.emits:
+            raise ValueError("a lamp has no alpha; leave alpha or emission out")
         self.glass  # noqa: B018 - raises what does not fit
         return self
 

@@ -23,20 +23,22 @@ struct Glass {
 
 // A principled surface, beside its colour and the alpha of its facets.
 struct Gloss {
-    vec3 f0;           // of its dielectric facets, head-on
-    float f90;         // of the same, grazing
-    float metallic;    // share of the surface that is metal
-    float coat;        // weight of the coat; 0: none
-    float coat_alpha;  // of its facets
-    int first;         // of the rows of albedos of the facets
-    int first_coat;    // of those of the coat
-    float kept;        // share of even light that white facets do not lose to each other
-    float spread;      // 1 / (1 - kept); 0 where nothing is lost
-    float again;       // share of what dielectric facets lose that comes back, of the brightest channel
-    float brightest;   // channel of f0
+    vec3 f0;             // of its dielectric facets, head-on
+    float f90;           // of the same, grazing
+    float metallic;      // share of the surface that is metal
+    float coat;          // weight of the coat; 0: none
+    float coat_alpha;    // of its facets
+    int first;           // of the rows of albedos of the facets
+    int first_coat;      // of those of the coat
+    float kept;          // share of even light that white facets do not lose to each other
+    float spread;        // 1 / (1 - kept); 0 where nothing is lost
+    float again;         // share of what dielectric facets lose that comes back, of the brightest channel
+    float brightest;     // channel of f0
     float transmission;  // chance that a path meets its glass
-    int glass;         // row of that among the materials
-    float even_base;   // 1 over the share of even light that dielectric facets leave
+    int glass;           // row of that among the materials
+    float coverage;      // chance that a path does not meet a hole
+    int hole;            // row of that
+    float even_base;     // 1 over the share of even light that dielectric facets leave
 };
 
 // Directional albedos of facets, which scatter once: at both ends of a step of the root of the cosine. Of rough

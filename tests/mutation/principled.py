@@ -72,6 +72,11 @@ PRINCIPLED = [
         f"{_TRUTHS}::test_glass_in_part_is_a_mean_of_glass_and_the_rest",
     ),
     Mutant(
+        "holes are as rare as the surface",
+        edit(_FILE, "u >= gloss.coverage) return", "u < gloss.coverage) return"),
+        f"{_TRUTHS}::test_holes_let_light_through",
+    ),
+    Mutant(
         "glass that is a part does not tint what crosses",
         edit("bsdfs/scattering.glsl", "HAS_TRANSMISSION ? material.color : vec3(1.0)", "vec3(1.0)"),
         f"{_TRUTHS}::test_light_takes_the_colour_at_each_crossing",

@@ -246,12 +246,35 @@ def test_glass_in_part_is_a_mean_of_glass_and_the_rest(context: Context) -> None
     assert_allclose(mixed, 0.25 * metal + 0.75 * (0.6 * glass + 0.4 * matte), rtol=0.01)
 
 
+BLACK = {"color": [0.0, 0.0, 0.0], "specular": 0.0}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_holes_let_light_through(context: Context, method: str) -> None:
+    """A black sheet, before a white sky, and between a lamp and the floor."""
+    sheet = quad([-9, 1, -9], [18, 0, 0], [0, 0, 18], "p")
+    scene = scene_of([sheet], {"p": principled(alpha=0.25, **BLACK)},
+                     {"position": [0, 0, 0], "look_at": [0, 1, 0], "up": [0, 0, 1]},
+                     background=WHITE_SKY)  # fmt: skip
+    seen = rendered(scene, context, 1024, method=method).radiance.mean()
+    assert seen == pytest.approx(0.75, abs=0.006)
+    materials = {"m": MATTE, "lamp": lamp(4.0)}
+    things = [plane([0, 0, 0], [0, 1, 0], "m"), quad([-1, 2, -1], [2, 0, 0], [0, 0, 2], "lamp")]
+    eye = {"position": [0, 0.5, 1], "look_at": [0, 0, 0], "fov": 20}
+    lit = rendered(scene_of(things, materials, eye), context, 512, method=method, bounces=3)
+    holed = materials | {"p": principled(alpha=0.6, **BLACK)}
+    shaded = rendered(scene_of([*things, sheet], holed, eye), context, 4096, method=method, seed=3,
+                      bounces=3)  # fmt: skip
+    assert shaded.radiance.mean() / lit.radiance.mean() == pytest.approx(0.4, rel=0.03)
+
+
 def test_a_scene_asks_for_glass_where_some_is_glass() -> None:
     needs = needs_of(ball(transmission=0.5, roughness=0.3), Settings())
     assert needs.has_transmission
     assert needs.has_rough_glass
     assert "dielectric" in needs.materials
     assert not needs_of(ball(), Settings()).has_transmission
+    assert needs_of(ball(alpha=0.5), Settings()).has_pane
     assert "glass is black" in omissions(ball(transmission=0.5), Settings(method="phong"))
 
 
@@ -262,6 +285,7 @@ def test_a_scene_asks_for_glass_where_some_is_glass() -> None:
         ({"transmission": 0.5, "thin": True}, "a thin pane has no roughness"),
         ({"transmission": 1.0, "attenuation_distance": 1.0}, "go together"),
         ({"transmission": 2.0}, "transmission"),
+        ({"alpha": 0.5, "emission": [1.0, 1.0, 1.0]}, "a lamp has no alpha"),
     ],
 )
 def test_glass_that_cannot_be_is_refused(keys: dict[str, Any], said: str) -> None:

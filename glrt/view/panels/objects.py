@@ -7,6 +7,7 @@ from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 
+from glrt.scene.conductors import PRESETS
 from glrt.scene.cone import Cone
 from glrt.scene.materials import Light, Material, Metal, Opaque
 from glrt.scene.scene import Scene
@@ -23,6 +24,24 @@ _MATERIAL = "of this object; compiles where the kernel lacks it, and else restar
 _WAYS = ("color", "preset", "ior", "k")  # in which metal may say what it reflects
 _DOWN = (0.0, -1.0, 0.0)
 CONE = switch("cone", "light a cone of directions alone: a spot", Cost.RECOMPILE)
+_REFLECTS = "how it is said what the metal reflects: by a colour, a measured metal, or its index"
+REFLECTS = Control(
+    "reflects",
+    "choice",
+    _REFLECTS,
+    Cost.RECOMPILE,
+    "",
+    None,
+    None,
+    None,
+    ("color", "preset", "ior"),
+)
+TINTED = switch("tinted", "let the inside of the glass absorb light", Cost.RECOMPILE)
+NESTS = switch("nests", "give the glass a priority over other glass", Cost.RECOMPILE)
+_OPTIONS: dict[Control, dict[str, Any]] = {  # what begins where a switch is turned on
+    TINTED: {"attenuation_color": (0.6, 0.9, 0.7), "attenuation_distance": 1.0},
+    NESTS: {"priority": 0},
+}
 MATERIAL = Control("material", "choice", _MATERIAL, Cost.RECOMPILE, "", None, None, None)
 
 
@@ -102,11 +121,31 @@ def _material(app: App, index: int, shape: Shape) -> None:
     light = f", light group {group}" if group else ""
     imgui.text_disabled(f"{scene.materials[name].type}, of {sharing} object(s){light}")
     material = scene.materials[name]
+    if wanted := _another_way(material, name):
+        app.edit_scene("", partial(with_material, name=name, **wanted))
+        return
     changes = edited_fields(_controls(material), dict(material), f"material {name}")
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
     elif isinstance(material, Opaque) and material.emits:
         _cone(app, name, material.cone)
+
+
+def _another_way(material: Material, name: str) -> dict[str, Any]:
+    """Fields to set, or to leave open, as the user has just chosen."""
+    label = f"material {name}"
+    if isinstance(material, Metal):
+        way = next(way for way in REFLECTS.choices if getattr(material, way) is not None)
+        other = edited(REFLECTS, way, label)
+        return {} if other is None else _reflecting(material, other)
+    changes: dict[str, Any] = {}
+    for control, start in _OPTIONS.items():
+        if all(hasattr(material, field) for field in start):
+            is_on = all(getattr(material, field) is not None for field in start)
+            wanted = edited(control, is_on, label)
+            if wanted is not None:
+                changes |= start if wanted else dict.fromkeys(start)
+    return changes
 
 
 def _cone(app: App, name: str, cone: Cone | None) -> None:
@@ -127,11 +166,21 @@ def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
 
 
 def _controls(material: Material) -> tuple[Control, ...]:
-    """The emission of lamps stands with the light groups; metal has a colour or an index."""
-    leave_out: tuple[str, ...] = ("emission",) if isinstance(material, Light) else ()
-    if isinstance(material, Metal):
-        leave_out += tuple(name for name in _WAYS if getattr(material, name) is None)
-    return controls_of(type(material), leave_out)
+    """Of what is given; the emission of lamps stands with the light groups."""
+    is_lamp = isinstance(material, Light)
+    open_ = (name for name, value in material if value is None or (is_lamp and name == "emission"))
+    return controls_of(type(material), tuple(open_))
+
+
+def _reflecting(metal: Metal, way: str) -> dict[str, Any]:
+    """What says in another way what a metal reflects, as near to before as can be."""
+    index = metal.conductor or PRESETS["gold"]
+    ways: dict[str, dict[str, Any]] = {
+        "color": {"color": metal.head_on},
+        "preset": {"preset": metal.preset or "gold"},
+        "ior": {"ior": index.ior, "k": index.k},
+    }
+    return {**dict.fromkeys(_WAYS), **ways[way]}
 
 
 def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
