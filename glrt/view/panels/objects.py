@@ -9,7 +9,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from glrt.scene.conductors import PRESETS
 from glrt.scene.cone import Cone
-from glrt.scene.materials import Light, Material, Metal, Opaque
+from glrt.scene.materials import Light, Material, Metal, Opaque, Principled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
@@ -166,10 +166,16 @@ def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
 
 
 def _controls(material: Material) -> tuple[Control, ...]:
-    """Of what is given; the emission of lamps stands with the light groups."""
+    """Of what is given; the emission of lamps stands with the light groups.
+
+    Glass that becomes rough is another kernel.
+    """
     is_lamp = isinstance(material, Light)
     open_ = (name for name, value in material if value is None or (is_lamp and name == "emission"))
-    return controls_of(type(material), tuple(open_))
+    controls = controls_of(type(material), tuple(open_))
+    if not isinstance(material, Principled) or not material.transmission:
+        return controls
+    return tuple(c.costing(Cost.RECOMPILE) if c.name == "roughness" else c for c in controls)
 
 
 def _reflecting(metal: Metal, way: str) -> dict[str, Any]:
