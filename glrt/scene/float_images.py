@@ -24,6 +24,7 @@ _MOST_CHANNELS = 16  # of an OpenEXR file with so many pixels: all of them are r
 # x and y of red, green, blue and white: Rec. 709 and D65, of linear sRGB.
 _REC_709 = (0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)
 _SAME = 0.005  # between roundings of these and other primaries
+_FAINT = 1e-3  # share of all light that negative colours may have
 
 
 class RefusedImageError(Exception):
@@ -58,8 +59,15 @@ def reading() -> Iterator[None]:
 
 
 def _checked(pixels: Pixels, channels: str, color: bool) -> Pixels:
-    """The pixels; raises for what no light can be: NaN, infinite, and negative colours."""
+    """The pixels; raises for what no light can be: NaN, infinite, and negative colours.
+
+    Colours that are negative by next to nothing, as filters leave them, become 0.
+    """
     wrong = ~np.isfinite(pixels)
+    if color and not wrong.any():
+        negative = np.minimum(pixels, 0)
+        if -negative.sum(dtype=np.float64) <= _FAINT * pixels.sum(dtype=np.float64):
+            return pixels - negative if negative.any() else pixels
     if color:
         wrong |= pixels < 0
     if not wrong.any():

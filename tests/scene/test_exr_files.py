@@ -60,6 +60,17 @@ def test_light_that_is_none_is_refused_with_its_number_and_place() -> None:
     assert decode_image(exr(planes), WHERE, color=False)[2, 3, 1] == -0.5
 
 
+def test_what_filters_leave_below_0_is_black() -> None:
+    """Up to a thousandth of the light: maps that come with Blender have such pixels."""
+    planes = {name: np.ones((20, 30), np.float32) for name in "RGB"}
+    planes["G"][2, 3] = -0.5
+    read = decode_image(exr(planes), WHERE)
+    assert read[2, 3, 1] == 0
+    assert (np.delete(read.reshape(-1), (2 * 30 + 3) * 3 + 1) == 1).all()
+    planes["G"][2, 3:7] = -0.5
+    assert refusal(exr(planes)).startswith("has values that are negative or not finite, 4 of them")
+
+
 def test_exr_files_that_are_no_flat_image_are_refused() -> None:
     plane = np.ones((2, 3), np.float32)
     deep = np.empty((2, 3), object)
