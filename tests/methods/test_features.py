@@ -60,7 +60,11 @@ PROBES = {
     "HAS_ROUGH_GLASS": ("bsdfs/rough_dielectric.glsl", "vertex.eta * cos_o +", "{} * cos_o +"),
     "HAS_PRINCIPLED": ("bsdfs/principled.glsl", "chances.z * even", "{} * chances.z * even"),
     "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
-    "HAS_TRANSMISSION": ("bsdfs/principled.glsl", "u >= gloss.", "u >= {} * gloss."),
+    "HAS_TRANSMISSION": (
+        "bsdfs/principled.glsl",
+        "u >= gloss.coverage",
+        "u >= {} * gloss.coverage",
+    ),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
     "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
     "HAS_NESTED": (

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from glrt.settings import Cost
-from glrt.view.panels import background, lights, panel, widgets
+from glrt.view.panels import background, lights, panel, sun, widgets
 from glrt.view.state.controls import Control
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import move
@@ -31,6 +31,8 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "look at/$$0": (panel.CAMERA["look_at"], 0.3),
     "color##background/##color/$$2": (background.BACKGROUND["color"], 0.5),
     "gradient": (background.GRADIENT, None),
+    "clear sky": (background.CLEAR, None),
+    "sun": (sun.SHINES, None),
     "width": (panel.SETTINGS["width"], 30),
     "height": (panel.SETTINGS["height"], 30),
 }
@@ -54,7 +56,7 @@ SECTIONS = (
 def every_control_costs_what_it_says(hand: Hand) -> None:
     order = list(Cost)
     hand.ctx.set_ref("Controls")
-    for header in ("Background", "Frame"):
+    for header in ("Background", "Sun", "Frame"):
         hand.ctx.item_open(header)
     for reference, (control, value) in MOVES.items():
         hand.begin()
@@ -74,7 +76,7 @@ def every_control_costs_what_it_says(hand: Hand) -> None:
         if reference not in UNSEEN:
             changed = after.shape != before.shape or (after != before).mean() > 0.05
             assert changed, reference
-    for header in ("Background", "Frame"):
+    for header in ("Background", "Sun", "Frame"):
         hand.ctx.item_close(header)
 
 
@@ -89,11 +91,14 @@ def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
         return inner(control, value, name)
 
     hand.ctx.set_ref("Controls")
-    widgets.edited = panel.edited = lights.edited = seen  # type: ignore[attr-defined]
+    drawing: list[Any] = [widgets, panel, lights, background, sun]
+    for module in drawing:
+        module.edited = seen
     for section in SECTIONS:
         hand.ctx.item_open(section)
     hand.ctx.yield_(2)
-    widgets.edited = panel.edited = lights.edited = inner  # type: ignore[attr-defined]
+    for module in drawing:
+        module.edited = inner
     for section in SECTIONS:
         hand.ctx.item_close(section)
     moved = {reference.partition("/")[0] for reference in MOVES}
