@@ -26,6 +26,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - changes_found: whether it finds changes of the size that it says it would have found
 - window_tour: frame times of the window, driven by a script
 - drags: whether the picture in the window follows a drag
+- studio: principled balls under a studio map of a package
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml
 
