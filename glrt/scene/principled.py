@@ -91,7 +91,7 @@ class Principled(Opaque):
             raise ValueError("a coat over transmission is not known; leave one of the two out")
         if self.alpha < 1 and self.emits:
             raise ValueError("a lamp has no alpha; leave alpha or emission out")
-        self.glass  # noqa: B018 - raises what does not fit
+        _ = self.glass  # raises what does not fit
         return self
 
     @property

@@ -9,10 +9,9 @@ from numpy.testing import assert_allclose
 from glrt.scene.gloss import facet_shares
 from tests.conftest import CallGlsl
 from tests.shaders.test_material import ggx_d64, ggx_lambda
-from tests.shaders.test_sampling import DRAWS, RNG, cells_of
-from tests.support.alarms import assert_fits
 from tests.support.builders import scene_of, sphere
-from tests.support.numerics import Array, float32, wo_at
+from tests.support.chi_square import assert_density
+from tests.support.numerics import Array, float32, lattice, wo_at
 
 SETUP = """
     mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
@@ -133,13 +132,6 @@ def test_light_goes_both_ways(call_glsl: CallGlsl, look: Look) -> None:
     assert_allclose(ways[0], ways[1], rtol=2e-3, atol=1e-7)
 
 
-def lattice(count: int = 128) -> Array:
-    """Three numbers of a sample: of count^2 points (Korobov), (n, 3)."""
-    steps = np.arange(count * count)[:, None] * np.array([1, 1487, 1487**2 % count**2])
-    points: Array = ((steps % count**2) + 0.5) / count**2
-    return points
-
-
 @pytest.mark.parametrize("look", WHITE.values(), ids=WHITE)
 def test_white_surfaces_lose_little_and_gain_nothing(call_glsl: CallGlsl, look: Look) -> None:
     """The furnace: the mean weight of samples. A coat costs up to 8 %: its form is symmetric."""
@@ -197,28 +189,7 @@ def test_the_weight_of_a_sample_is_its_value_over_its_density(
 @pytest.mark.parametrize("cosine", [0.95, 0.6, 0.15])
 def test_samples_follow_their_density(call_glsl: CallGlsl, look: Look, cosine: float) -> None:
     """Chi-square over the hemisphere, and how many samples are absorbed."""
-    rows, columns, fine = 8, 16, 96
-    cell = np.arange(rows * columns)
-    sums = f"""
-        float sum = 0.0;
-        for (int k = 0; k < {fine * fine}; ++k) {{
-            vec2 middle = vec2(float(k % {fine}) + 0.5, float(k / {fine}) + 0.5) / {fine}.0;
-            float z = (float(row) + middle.x) / {rows}.0;
-            float phi = 2.0 * PI * (float(column) + middle.y) / {columns}.0;
-            vec3 wi = vec3(sqrt(1.0 - z * z) * vec2(cos(phi), sin(phi)), z);
-            sum += pdf_material(vertex, wi);
-        }}"""
-    wo = np.repeat(wo_at(cosine), len(cell), axis=0)
-    row, column = np.divmod(cell, columns)
-    share = call_glsl("sum", setup=SETUP + sums, wo=wo, row=row, column=column, **look.given)
-    share = share.astype(np.float64) * 2 * np.pi / (rows * columns * fine * fine)
-    assert share.sum() < 1 + 2e-3
-    setup = RNG + SETUP + "Scattering next = sample_material(vertex, rng);"
-    wo = np.repeat(wo_at(cosine), DRAWS, axis=0)
-    drawn = call_glsl("vec4(next.direction, next.pdf)", "vec4", setup=setup, wo=wo, **look.given)
-    kept = drawn[:, 3] > 0
-    counts = np.append(cells_of(drawn[kept, :3], rows, columns, 0.0), np.count_nonzero(~kept))
-    assert_fits(counts, DRAWS * np.append(share, max(1 - share.sum(), 0)))
+    assert_density(call_glsl, SETUP, look.given, cosine, (8, 16), 96, 0.0)
 
 
 @pytest.mark.parametrize("alpha", [0.1, 0.25, 1.0])

@@ -9,10 +9,10 @@ from numpy.testing import assert_allclose
 from tests.conftest import CallGlsl
 from tests.shaders.test_dielectric import fresnel64
 from tests.shaders.test_material import ggx_d64, ggx_lambda
-from tests.shaders.test_sampling import DRAWS, GRIDS, RNG, cells_of
-from tests.support.alarms import assert_fits
+from tests.shaders.test_sampling import GRIDS
 from tests.support.builders import glass, scene_of, sphere
-from tests.support.numerics import Array, float32, wo_at
+from tests.support.chi_square import assert_density
+from tests.support.numerics import Array, float32, lattice, wo_at
 
 GLASSES = [(0.3, 1.5), (0.5, 1.33), (0.8, 1.5), (1.0, 2.4), (0.6, 0.7)]  # roughness, ior
 COSINES = (0.95, 0.6, 0.15)
@@ -89,21 +89,13 @@ def test_light_goes_both_ways_but_for_eta_squared(
     assert_allclose(a / n2[0], b / n2[1], rtol=2e-3, atol=1e-7)
 
 
-def grid_of(count: int = 128) -> Array:
-    """Three numbers of a sample: a lattice of count^2 points (Korobov), (n, 3)."""
-    k = np.arange(count * count)
-    steps = k[:, None] * np.array([1, 1487, 1487**2 % count**2])
-    points: Array = ((steps % count**2) + 0.5) / count**2
-    return points
-
-
 @pytest.mark.parametrize(("roughness", "ior"), GLASSES)
 @pytest.mark.parametrize("outside", [1, 0])
 def test_no_light_is_lost_or_gained(
     call_glsl: CallGlsl, roughness: float, ior: float, outside: int
 ) -> None:
     """The furnace: the mean weight of samples is 1 to a percent, at every angle."""
-    u = grid_of()
+    u = lattice()
     setup = SETUP + "Scattering next = sample_rough_dielectric(vertex, u.x, u.yz);"
     given = {"setup": setup, "outside": np.array([outside]), **rough(roughness, ior)}
     for cosine in (1.0, 0.8, 0.5, 0.3, 0.1, 0.02):
@@ -150,26 +142,5 @@ def test_samples_follow_their_density(
 ) -> None:
     """Chi-square over the whole sphere, and how many samples are absorbed."""
     given = {"outside": np.array([outside]), **rough(roughness, ior)}
-    rows, columns = grid
-    fine = 128 if columns > 1 else 256
-    cell = np.arange(rows * columns)
-    sums = f"""
-        float sum = 0.0;
-        for (int k = 0; k < {fine * fine}; ++k) {{
-            vec2 middle = vec2(float(k % {fine}) + 0.5, float(k / {fine}) + 0.5) / {fine}.0;
-            float z = -1.0 + 2.0 * (float(row) + middle.x) / {rows}.0;
-            float phi = 2.0 * PI * (float(column) + middle.y) / {columns}.0;
-            vec3 wi = vec3(sqrt(1.0 - z * z) * vec2(cos(phi), sin(phi)), z);
-            sum += pdf_material(vertex, wi);
-        }}"""
-    wo = np.repeat(wo_at(cosine), len(cell), axis=0)
-    row, column = np.divmod(cell, columns)
-    share = call_glsl("sum", setup=SETUP + sums, wo=wo, row=row, column=column, **given)
-    share = share.astype(np.float64) * 4 * np.pi / (rows * columns * fine * fine)
-    assert share.sum() < 1 + 2e-3
-    setup = RNG + SETUP + "Scattering next = sample_material(vertex, rng);"
-    wo = np.repeat(wo_at(cosine), DRAWS, axis=0)
-    drawn = call_glsl("vec4(next.direction, next.pdf)", "vec4", setup=setup, wo=wo, **given)
-    kept = drawn[:, 3] > 0
-    counts = np.append(cells_of(drawn[kept, :3], rows, columns, -1.0), np.count_nonzero(~kept))
-    assert_fits(counts, DRAWS * np.append(share, max(1 - share.sum(), 0)))
+    fine = 128 if grid[1] > 1 else 256
+    assert_density(call_glsl, SETUP, given, cosine, grid, fine, -1.0)

@@ -68,3 +68,10 @@ def roots64(center: Array, radius: Array, origin: Array, direction: Array) -> tu
     with np.errstate(invalid="ignore"):
         half = np.sqrt((radius - beside) * (radius + beside))
     return np.stack([along - half, along + half]) / norm, beside
+
+
+def lattice(count: int = 128) -> Array:
+    """Three numbers of a sample: a lattice of count^2 points (Korobov), (n, 3)."""
+    steps = np.arange(count * count)[:, None] * np.array([1, 1487, 1487**2 % count**2])
+    points: Array = ((steps % count**2) + 0.5) / count**2
+    return points
