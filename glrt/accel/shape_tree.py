@@ -12,7 +12,8 @@ import numpy as np
 
 from glrt.accel import binary_tree
 from glrt.accel.binned_splits import Floats, Ints
-from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid, WideTree, Words, collapse, grid_of
+from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid, WideTree, Words, collapse
+from glrt.errors import SceneError
 
 Array = np.ndarray[Any, Any]
 
@@ -45,22 +46,30 @@ class ShapeTree(NamedTuple):
     boxes: tuple[Boxes, ...]  # of those
     place: Ints  # (n,): their slots, box after box
 
-    @property
-    def stack(self) -> int:
-        """Entries that the kernel needs room for."""
-        return -(-self.wide.height // STACK_STEP) * STACK_STEP
+    def stack_with(self, height: int) -> int:
+        """Entries that the kernel needs room for, with trees of such a height below leaves."""
+        return -(-(self.wide.height + height) // STACK_STEP) * STACK_STEP
 
 
-def build(boxes: tuple[Boxes, ...], grid: Grid | None = None, least: int = 0) -> ShapeTree:
-    """The tree over one or more shapes, of `least` slots or more; `grid` holds them all."""
+def build(
+    boxes: tuple[Boxes, ...], grid: Grid, least: int = 0, most_height: int = MOST_HEIGHT
+) -> ShapeTree:
+    """The tree over one or more shapes, of `least` slots or more; `grid` holds them all.
+
+    Raises SceneError where they lie so that no tree of `most_height` levels is found.
+    """
     lower = np.concatenate([some.lower for some in boxes])
     upper = np.concatenate([some.upper for some in boxes])
-    grid = grid or grid_of(lower.min(axis=0), upper.max(axis=0))
     tree = binary_tree.build(lower, upper)
     wide, leaves = collapse(tree, grid, least)
-    if wide.height > MOST_HEIGHT:
+    if wide.height > most_height:
         tree = binary_tree.build(lower, upper, halves=True)
         wide, leaves = collapse(tree, grid, least)
+    if wide.height > most_height:
+        raise SceneError(
+            f"the tree over the shapes of this scene has {wide.height} levels, and the kernel has "
+            f"room for {most_height}: sizes or distances differ too much. Leave out the smallest."
+        )
     place = np.empty(len(lower), int)
     place[tree.item[leaves.node]] = leaves.place
     ends = np.cumsum([len(some.lower) for some in boxes])

@@ -22,6 +22,7 @@ from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
 from glrt.scene.loading import with_files_of
+from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import MAX_SAMPLES, Cost, Settings, settings_for
 
@@ -131,6 +132,7 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
             *(order.scene, order.settings, route, tier, pipeline),
             part=order.part,
             decisions=order.decisions,
+            apart=recipe.apart,
         )
         return renderer.resume(order.begun)
 
@@ -151,11 +153,17 @@ def open_renderer(
     that the same bits come out, unless light or bounces have been changed since.
     """
     light = recipe.traced if recipe else None
+    apart: Apart = recipe.apart if recipe else "repeated"
     if not (recipe and light and _is_shown(recipe, scene, settings)):
-        return Renderer(scene, settings, context, tier, pipeline, part=part, decisions=decisions)
+        return Renderer(
+            *(scene, settings, context, tier, pipeline),
+            part=part,
+            decisions=decisions,
+            apart=apart,
+        )
     before = settings_for(settings, bounces=light.bounces)
     traced = with_files_of(light.scene, scene)
-    renderer = Renderer(traced, before, context, tier, pipeline, light.layering)
+    renderer = Renderer(traced, before, context, tier, pipeline, light.layering, apart=apart)
     cost = renderer.update(scene, **dict(settings))
     if cost in (None, Cost.FREE, Cost.RELIGHT):
         renderer.plan = replace(renderer.plan, weights=light.weights)

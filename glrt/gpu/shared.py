@@ -11,6 +11,7 @@ class Shared:
     def __init__(self, resource: moderngl.Buffer | moderngl.Texture) -> None:
         """For one user."""
         self.resource, self._users = resource, 1
+        self.content: object = None  # what it holds, where users write it in turn
 
     def shared(self) -> Self:
         """This, for one more user."""

@@ -62,7 +62,7 @@ def scene_arrays(
 
 # In no block: OpenGL 4.1 grants a kernel 12 of them, and the other structs take those.
 TEXTURED = (
-    *("Mesh", "Corner", "Triangle", "Tint"),
+    *("Mesh", "Corner", "Triangle", "Instance", "Tint"),
     *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim"),
 )
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered
@@ -102,6 +102,14 @@ def texture_of(gl: moderngl.Context, rows: Array) -> moderngl.Texture:
     texture = gl.texture(size, 4, content, dtype="u4")
     texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated
     return texture
+
+
+def write_rows(texture: moderngl.Texture, rows: Array, count: int) -> None:
+    """Write the first `count` of the rows, or some more, into the texture of as many rows."""
+    height = min(-(-count // ROWS), -(-len(rows) // ROWS))
+    size, content = texels(rows[: height * ROWS].tobytes(), rows.itemsize)
+    length = size[0] * height * _TEXEL
+    texture.write(content[:length], viewport=(0, 0, size[0], height))
 
 
 def texels(data: bytes, itemsize: int) -> tuple[tuple[int, int], bytes]:

@@ -3,7 +3,7 @@
 import json
 import re
 from collections.abc import Mapping
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
@@ -74,6 +74,11 @@ class Recipe(Frozen):
     )
     decisions: dict[str, str] = Field(
         {}, description="by what the program chose a setting in the user's place, by its name"
+    )
+    apart: Literal["repeated", "large"] = Field(
+        "repeated",
+        description="which meshes had trees of their own: large ones too, once one was moved in "
+        "the window",
     )
 
     @model_validator(mode="after")

@@ -16,7 +16,7 @@ from glrt.image.recipe import Recipe
 from glrt.settings import Cost, Settings, cost_of
 
 # Else no recipe would give the same bits again.
-SAME = ("version", "renderer", "tier", "pipeline", "partition")
+SAME = ("version", "renderer", "tier", "pipeline", "partition", "apart")
 
 
 def recipe_to_resume(image: Image) -> Recipe:

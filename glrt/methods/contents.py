@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from glrt.scene.materials import Dielectric, Material, Metal, Principled, glass_of
 from glrt.scene.meshes import Mesh
+from glrt.scene.own_trees import Apart, tree_sizes, with_own_tree
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import KINDS
 
@@ -26,8 +27,10 @@ class Contents:
     materials: dict[str, Material]  # those that are used, in the order of the scene file
     finishes: tuple[Finish, ...]  # of what surfaces are, in the order of their materials
     lamps: dict[str, int]  # how many of each kind of shape emit
-    triangles: int  # of all meshes
+    triangles: int  # that are kept: once of meshes with a tree of their own
     bright_triangles: int  # of those that emit
+    instances: tuple[int, ...]  # the meshes with a tree of their own, by number
+    largest_tree: int  # triangles in one tree, at most
     is_smooth: bool  # whether some mesh interpolates normals
     is_colored: bool  # whether some mesh multiplies colours of its vertices with its material's
 
@@ -51,6 +54,12 @@ class Contents:
     @property
     def _lamps_but_triangles(self) -> int:
         return sum(self.lamps[kind] for kind in SAMPLED if kind != MESH)
+
+    @property
+    def instance_bits(self) -> int:
+        """Bits of the number of a triangle within its tree; even, so that kernels do for others."""
+        bits = max(self.largest_tree - 1, 1).bit_length()
+        return bits + bits % 2 if self.instances else 0
 
     @property
     def has_sphere_tree(self) -> bool:
@@ -155,23 +164,30 @@ class Contents:
         return min(self.sampled_lamps, MOST_NEAR)
 
 
-def contents_of(scene: Scene) -> Contents:
-    """Count what is in a scene."""
+def contents_of(scene: Scene, apart: Apart = "repeated") -> Contents:
+    """Count what is in a scene; `apart` are the meshes with trees of their own."""
     shapes = dict.fromkeys(KINDS, 0)
     lamps = dict.fromkeys(KINDS, 0)
     emits = {name: material.emits for name, material in scene.materials.items()}
     for shape in scene.visible:
         shapes[shape.shape] += 1
         lamps[shape.shape] += emits[shape.material]
-    meshes = [shape for shape in scene.visible if isinstance(shape, Mesh)]
-    triangles = [len(mesh.triangles.faces) for mesh in meshes]
-    bright = [count for mesh, count in zip(meshes, triangles, strict=True) if emits[mesh.material]]
-    is_smooth = any(mesh.smooth for mesh in meshes)
-    is_colored = any(has_vertex_colors(scene, mesh) for mesh in meshes)
+    meshes = scene.meshes
+    instances = with_own_tree(meshes, scene.materials, apart)
+    shared, own = tree_sizes(meshes, instances)
     finishes = tuple(scene.finishes)
-    used = {finish.material: scene.materials[finish.material] for finish in finishes}
-    counts = shapes, used, finishes, lamps, sum(triangles), sum(bright)
-    return Contents(*counts, is_smooth, is_colored)
+    return Contents(
+        shapes,
+        {finish.material: scene.materials[finish.material] for finish in finishes},
+        finishes,
+        lamps,
+        triangles=shared + sum(own),
+        bright_triangles=sum(len(mesh.triangles.faces) for mesh in meshes if emits[mesh.material]),
+        instances=instances,
+        largest_tree=max([shared, *own]),
+        is_smooth=any(mesh.smooth for mesh in meshes),
+        is_colored=any(has_vertex_colors(scene, mesh) for mesh in meshes),
+    )
 
 
 def has_vertex_colors(scene: Scene, mesh: Mesh) -> bool:

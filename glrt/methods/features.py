@@ -38,6 +38,8 @@ class Needs:
     lamps: frozenset[str]  # kinds that are sampled, or lit by in the classic models
     has_sphere_tree: bool
     has_tree: bool  # over other shapes
+    has_instance: bool  # meshes with trees of their own
+    instance_bits: int
     has_smooth: bool  # meshes whose normals are interpolated
     has_vertex_color: bool  # meshes whose vertices have colours
     has_mirror: bool
@@ -87,7 +89,7 @@ def everything() -> dict[str, bool | int]:
     """
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
-    numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0}
+    numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0}
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
@@ -112,6 +114,8 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         lamps=frozenset(found.sampled if is_lit else ()),
         has_sphere_tree=found.has_sphere_tree,
         has_tree=bool(found.tree_kinds),
+        has_instance=bool(found.instances),
+        instance_bits=found.instance_bits,
         has_smooth=found.is_smooth,
         has_vertex_color=found.is_colored,
         has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),

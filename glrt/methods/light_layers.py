@@ -10,8 +10,10 @@ from typing import Literal
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
+from glrt.methods.contents import Contents, contents_of
 from glrt.methods.features import needs_of
 from glrt.scene.materials import Opaque
+from glrt.scene.own_trees import Apart, after_moves
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings, cost_of_change
@@ -34,6 +36,12 @@ class Plan:
     layering: Layering
     weights: Weights = (ONE,)
     first_sample: int = 0  # above 0 for a part of a render
+    apart: Apart = "repeated"  # which meshes have trees of their own
+
+    @property
+    def contents(self) -> Contents:
+        """What is in its scene."""
+        return contents_of(self.scene, self.apart)
 
     @property
     def layers(self) -> int:
@@ -63,10 +71,17 @@ class Plan:
         """What it costs to trace or show that instead."""
         if relit := self.relit(scene, settings, layering):
             return Cost.FREE if relit == self else Cost.RELIGHT
-        after = plan_for(scene, settings, layering)
-        needs = (needs_of(plan.scene, plan.settings) for plan in (self, after))
+        after = self.followed_by(scene, settings, layering, self.first_sample)
+        needs = (needs_of(plan.scene, plan.settings, plan.contents) for plan in (self, after))
         is_same = len(set(needs)) == 1 and self.constants() == after.constants()
         return Cost.RESTART if is_same else Cost.RECOMPILE
+
+    def followed_by(
+        self, scene: Scene, settings: Settings, layering: Layering, first_sample: int
+    ) -> "Plan":
+        """What to trace after an edit."""
+        apart = after_moves(self.apart, self.scene.meshes, scene.meshes)
+        return plan_for(scene, settings, layering, first_sample, apart)
 
     def alone(self, length: int) -> Weights:
         """The light of the paths of one length; the last layer holds all that are longer."""
@@ -74,14 +89,20 @@ class Plan:
         return tuple(ONE if layer == shown else NONE for layer in range(self.layers))
 
 
-def plan_for(scene: Scene, settings: Settings, layering: Layering, first_sample: int = 0) -> Plan:
+def plan_for(
+    scene: Scene,
+    settings: Settings,
+    layering: Layering,
+    first_sample: int = 0,
+    apart: Apart = "repeated",
+) -> Plan:
     """What to trace: with light groups apart, lamps that are off are traced at 1.
 
     So one that is turned on is there at once.
     """
     intensities = scene.light_groups
     dark = [group for group in emitters(scene) if intensities[group] == 0]
-    plan = Plan(scene, settings, layering, first_sample=first_sample)
+    plan = Plan(scene, settings, layering, first_sample=first_sample, apart=apart)
     if layering != "groups" or not dark:
         return plan
     lights = {**scene.lights, **dict.fromkeys(dark, 1.0)}

@@ -10,6 +10,7 @@ Modules, each importing only what stands above it:
 - pack_materials: materials as rows, a packer for each type
 - pack_mesh: triangles of meshes, in the frame of the tree
 - tree_cache: trees over many triangles, kept on the disk
+- pack_instances: meshes with a tree of their own, and where they stand
 - pack_tree: the tree over shapes, a packer of leaves for each kind
 - pack_lights: lamps as rows of the kernel's blocks
 - pack: a scene as arrays for the kernel

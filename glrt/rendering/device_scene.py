@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, Protocol
 
+import moderngl
 import numpy as np
 
 from glrt.errors import RenderError, SceneError
@@ -10,8 +11,8 @@ from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Images, Kernel, Resource
 from glrt.gpu.shared import Shared
-from glrt.gpu.struct_arrays import FILE, Arrays, block_of
-from glrt.methods.contents import Contents, contents_of
+from glrt.gpu.struct_arrays import FILE, Arrays, block_of, write_rows
+from glrt.methods.contents import Contents
 from glrt.methods.features import needs_of
 from glrt.methods.light_layers import Plan
 from glrt.rendering.image_texture import ImageTexture
@@ -36,6 +37,7 @@ from glrt.scene.glasses import around_camera
 from glrt.scene.loading import check_loaded
 from glrt.scene.scene import Scene
 
+SLOTS = block_of("Slot")
 STILL = ("Slot", "Corner", "Triangle")  # arrays that may be large, and that a camera leaves alone
 
 
@@ -67,7 +69,7 @@ class DeviceScene:
         The same scene as `before` is not packed again. RenderError if the driver has no room.
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
-        contents = contents_of(plan.scene)
+        contents = plan.contents
         self._arrays, self._tree = _packed(plan.scene, contents, before)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._glass = around_camera(plan.scene, contents.finishes)
@@ -132,6 +134,7 @@ class DeviceScene:
         density = self._sky_table.density if self._sky_table else 0.0
         around = self._tree, self._glass, density
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, *around))
+        self._write_tree()
         resources = self._resources
         if self._sky:
             resources = {**resources, ENVIRONMENT: self._sky.resource}
@@ -159,17 +162,47 @@ class DeviceScene:
             reserve=STRUCTS["Frame"].itemsize
         )
         self._lost = self._resources["Lost"] = self._gl.buffer(bytes(4))
-        known = before._kept_for(self._arrays) if before else {}
+        known = before._kept_for(self._arrays, self._tree) if before else {}
         rest = {name: rows for name, rows in self._arrays.items() if block_of(name) not in known}
         self._resources |= upload(self._gl, rest, self.tier)
         fresh = {block_of(name) for name in STILL} & self._resources.keys()
         self._kept = known | {name: Shared(self._resources[name]) for name in fresh}
         self._resources |= {name: some.resource for name, some in self._kept.items()}
+        if SLOTS in fresh:
+            self._kept[SLOTS].content = self._arrays["Slot"]
 
-    def _kept_for(self, arrays: Arrays) -> dict[str, Shared]:
-        """What holds the same arrays already."""
-        same = (block_of(name) for name in STILL if _equal(arrays[name], self._arrays[name]))
-        return {name: self._kept[name].shared() for name in same if name in self._kept}
+    def _kept_for(self, arrays: Arrays, tree: SceneTree | None) -> dict[str, Shared]:
+        """What holds the same arrays already, or slots that differ in the tree of the scene."""
+        same = {
+            name for name in STILL if name != "Slot" and _equal(arrays[name], self._arrays[name])
+        }
+        if self._has_own_trees_of(tree, len(arrays["Slot"])):
+            same.add("Slot")
+        elif _equal(arrays["Slot"], self._arrays["Slot"]):
+            same.add("Slot")
+            if SLOTS in self._kept:
+                self._kept[SLOTS].content = arrays["Slot"]
+        kept = {block_of(name) for name in same} & self._kept.keys()
+        return {name: self._kept[name].shared() for name in kept}
+
+    def _has_own_trees_of(self, tree: SceneTree | None, slots: int) -> bool:
+        """Whether slots of another scene differ from these in the tree of the scene alone."""
+        return (
+            tree is not None
+            and self._tree is not None
+            and tree.own is self._tree.own
+            and len(tree.own.slots) > 0
+            and slots == self._counts["Slot"]
+            and isinstance(self._resources.get(SLOTS), moderngl.Texture)
+        )
+
+    def _write_tree(self) -> None:
+        """Let shared slots hold the tree of this scene, in front of trees of meshes."""
+        slots, kept = self._arrays["Slot"], self._kept.get(SLOTS)
+        if kept and self._tree and kept.content is not slots:
+            assert isinstance(kept.resource, moderngl.Texture)
+            write_rows(kept.resource, slots, self._tree.own.bases.slots)
+            kept.content = slots
 
     def _texts_of(self, tier: Tier) -> dict[str, str]:
         """What the kernel depends on, beside constants and files."""
@@ -204,7 +237,7 @@ def _packed(
     if before and before._scene.objects == scene.objects:
         nodes, tree = before._arrays["Node"], before._tree
         return pack_scene(scene, contents, nodes, tree), tree
-    tree = tree_of(scene, contents)
+    tree = tree_of(scene, contents, before._tree if before else None)
     return pack_scene(scene, contents, tree=tree), tree
 
 

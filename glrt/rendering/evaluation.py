@@ -82,6 +82,8 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
         "CLUSTERS": found.clusters,
         "MANY_LIGHTS": found.has_many_lights,
         **aimed,
+        "HAS_INSTANCE": bool(found.instances),
+        "INSTANCE_BITS": found.instance_bits,
         "HAS_TRANSMISSION": bool(found.transmitting),
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
@@ -94,7 +96,7 @@ def _choice(scene: Scene) -> dict[str, bool | int]:
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
     trees, lamps = (
-        ("Node", "Slot", "Corner", "Triangle", "Tint"),
+        ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint"),
         ("Emitter", "Light", "Cluster", "Aim"),
     )
     others = (*trees, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)

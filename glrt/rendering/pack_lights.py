@@ -88,7 +88,7 @@ def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) ->
     """The numbers of the triangles that emit."""
     meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
     is_bright = np.array([bool(scene.finish(mesh).group) for mesh in meshes])
-    numbers: Array = np.flatnonzero(is_bright[tree.triangles["owner"]])
+    numbers: Array = np.flatnonzero(is_bright[tree.triangles["owner"][: tree.shared]])
     return numbers
 
 

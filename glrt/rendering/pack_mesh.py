@@ -4,6 +4,7 @@ So they stay as they are when the camera moves: the kernel takes the origins of 
 docs/explanation/meshes.md tells why.
 """
 
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid
 from glrt.methods.contents import Contents
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
 from glrt.scene.meshes import Mesh
+from glrt.scene.own_trees import distinct
 from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]
@@ -31,10 +33,12 @@ class Triangles(NamedTuple):
     mesh: Array  # (n,): numbers of meshes, in the order of the scene
 
 
-def triangles_of(scene: Scene) -> Triangles:
-    """The triangles of a scene, mesh after mesh."""
+def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Triangles:
+    """The triangles of meshes, one after the other, `without` those of these numbers."""
     position, normal, face, mesh, first = [], [], [], [], 0
-    for number, shape in enumerate(s for s in scene.visible if isinstance(s, Mesh)):
+    for number, shape in enumerate(meshes):
+        if number in without:
+            continue
         points, faces = shape.world_vertices, shape.triangles.faces
         position.append(points)
         normal.append(_unit(shape.world_normals))
@@ -56,9 +60,9 @@ class PackedTriangles(NamedTuple):
     triangles: Array  # rows of the struct Triangle
 
 
-def pack_triangles(found: Triangles, grid: Grid) -> PackedTriangles:
-    """One or more triangles in the frame of a grid."""
-    local = (found.position - grid.center).astype(np.float32)
+def pack_triangles(found: Triangles, grid: Grid, unit: float = 1.0) -> PackedTriangles:
+    """One or more triangles in the frame of a grid, in a unit that is a power of two."""
+    local = ((found.position - grid.center) / unit).astype(np.float32)
     exact = local.astype(np.float64)
     pairs = paired(exact, found.face)
     around = boxes_of(exact[pairs.corner])
@@ -66,7 +70,7 @@ def pack_triangles(found: Triangles, grid: Grid) -> PackedTriangles:
     words[:, :12] = local[pairs.corner[around.pair]].reshape(-1, 12).view(np.uint32)
     words[:, 12:14] = pairs.triangle[around.pair]
     words[:, 15] = LEAF | CONSTANTS["TRIANGLES"] << LINK_BITS
-    corners = around.lower + grid.center, around.upper + grid.center
+    corners = around.lower * unit + grid.center, around.upper * unit + grid.center
     boxes = Boxes("Triangle", 0, *corners, words)
     return PackedTriangles(boxes, _corners(local, found.normal), _triangles(exact, found))
 
@@ -75,7 +79,10 @@ def pack_tints(scene: Scene, contents: Contents) -> Array:
     """Rows of the struct Tint, one for each corner: white where a mesh has no colours."""
     if not contents.is_colored:
         return np.zeros(0, STRUCTS["Tint"])
-    meshes = [shape.triangles for shape in scene.visible if isinstance(shape, Mesh)]
+    placed = scene.meshes
+    own = distinct([placed[number] for number in contents.instances])[0]
+    shared = [mesh for number, mesh in enumerate(placed) if number not in contents.instances]
+    meshes = [mesh.triangles for mesh in (*shared, *own)]
     rows = np.zeros(sum(len(mesh.vertices) for mesh in meshes), STRUCTS["Tint"])
     first = 0
     for mesh in meshes:

@@ -4,17 +4,26 @@ docs/extending.md says how a kind is added.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.accel.shape_tree import Boxes, Family, ShapeTree, build, slots_of
+from glrt.accel.shape_tree import MOST_HEIGHT, Boxes, Family, ShapeTree, build, slots_of
 from glrt.accel.wide_tree import Grid, WideTree, grid_of
 from glrt.methods.contents import ENDLESS, MESH, Contents
 from glrt.rendering import tree_cache
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
-from glrt.rendering.pack_mesh import pack_triangles, triangles_of
+from glrt.rendering.pack_instances import (
+    Bases,
+    OwnTrees,
+    after,
+    check_numbers,
+    instances_of,
+    own_trees,
+    place,
+)
+from glrt.rendering.pack_mesh import Triangles, pack_triangles, triangles_of
 from glrt.rendering.pack_shapes import in_order
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -47,12 +56,15 @@ class SceneTree(NamedTuple):
 
     shapes: ShapeTree
     corners: Array  # rows of the struct Corner
-    triangles: Array  # rows of the struct Triangle
+    triangles: Array  # rows of the struct Triangle: those of the tree first
+    shared: int  # how many those are; the others are of own trees
+    own: OwnTrees
+    instances: Array  # rows of the struct Instance
 
     @property
     def stack(self) -> int:
         """Entries that the kernel needs room for."""
-        return self.shapes.stack
+        return self.shapes.stack_with(self.own.height)
 
     @property
     def grid(self) -> Grid:
@@ -76,39 +88,69 @@ class SceneTree(NamedTuple):
         return rows
 
 
-def tree_of(scene: Scene, contents: Contents) -> SceneTree | None:
-    """The tree that rays find shapes by; None where they are compared one by one."""
+def tree_of(scene: Scene, contents: Contents, before: SceneTree | None = None) -> SceneTree | None:
+    """The tree that rays find shapes by; None where they are compared one by one.
+
+    Own trees that stand in the tree from `before` are not built again.
+    """
     boxes = list(_boxes(scene, contents))
-    corners, triangles = np.zeros(0, STRUCTS["Corner"]), np.zeros(0, STRUCTS["Triangle"])
-    others = sum(len(some.lower) for some in boxes)
-    if not contents.shapes[MESH]:
-        if not boxes:
-            return None
-        return SceneTree(build(tuple(boxes), None, _room_for(others, 0)), corners, triangles)
-    found = triangles_of(scene)
-    lows = [some.lower.min(axis=0) for some in boxes] + [found.position.min(axis=0)]
-    highs = [some.upper.max(axis=0) for some in boxes] + [found.position.max(axis=0)]
+    if not boxes and not contents.shapes[MESH]:
+        return None
+    meshes = scene.meshes
+    found = triangles_of(meshes, contents.instances)
+    placed = [meshes[number] for number in contents.instances]
+    own = own_trees(placed, before.own if before else None)
+    check_numbers(len(placed), contents.instance_bits, len(scene.objects))
+    instances = instances_of(meshes, contents.instances, own)
+    fixed = [instances.boxes] if placed else []
+    lows = [some.lower.min(axis=0) for some in (*boxes, *fixed)]
+    highs = [some.upper.max(axis=0) for some in (*boxes, *fixed)]
+    if len(found.face):
+        lows.append(found.position.min(axis=0))
+        highs.append(found.position.max(axis=0))
     grid = grid_of(np.min(lows, axis=0), np.max(highs, axis=0))
+    parts = _built(boxes, fixed, found, grid, MOST_HEIGHT - own.height)
+    slots = parts["slots"]
+    bases = Bases(len(slots), len(parts["corners"]), len(parts["triangles"]))
+    own = after(own, bases)
+    rows = place(slots, instances, own, grid.center)
+    wide = WideTree(slots, int(parts["height"]))
+    shapes = ShapeTree(wide, grid, tuple(boxes), parts["place"])
+    corners = _joined(parts["corners"], own.corners)
+    triangles = _joined(parts["triangles"], own.triangles)
+    return SceneTree(shapes, corners, triangles, len(found.face), own, rows)
+
+
+def _joined(first: Array, rest: Array) -> Array:
+    """One after the other; of one alone the same array again, which is known by its place."""
+    if not len(first) or not len(rest):
+        return rest if len(rest) else first
+    return np.concatenate([first, rest])
+
+
+def _built(
+    boxes: Sequence[Boxes], fixed: Sequence[Boxes], found: Triangles, grid: Grid, most_height: int
+) -> Mapping[str, Array]:
+    """The tree over all, corners and triangles; of many triangles from the cache."""
+    others = sum(len(some.lower) for some in (*boxes, *fixed))
 
     def built() -> dict[str, Array]:
-        packed = pack_triangles(found, grid)
-        tree = build((*boxes, packed.boxes), grid, _room_for(others, len(found.face)))
+        packed = pack_triangles(found, grid) if len(found.face) else None
+        leaves = (*boxes, *fixed, *([packed.boxes] if packed else []))
+        tree = build(leaves, grid, _room_for(others, len(found.face)), most_height)
         return {
             "slots": tree.wide.slots,
             "place": tree.place,
             "height": np.array(tree.wide.height),
-            "corners": packed.corners,
-            "triangles": packed.triangles,
+            "corners": packed.corners if packed else np.zeros(0, STRUCTS["Corner"]),
+            "triangles": packed.triangles if packed else np.zeros(0, STRUCTS["Triangle"]),
         }
 
-    if contents.triangles < tree_cache.LEAST:
-        parts: Mapping[str, Array] = built()
-    else:
-        edges = [edge for some in boxes for edge in (some.lower, some.upper)]
-        parts = tree_cache.kept([*found, *edges], built)
-    wide = WideTree(parts["slots"], int(parts["height"]))
-    shapes = ShapeTree(wide, grid, tuple(boxes), parts["place"])
-    return SceneTree(shapes, parts["corners"], parts["triangles"])
+    if len(found.face) < tree_cache.LEAST:
+        return built()
+    edges = [edge for some in (*boxes, *fixed) for edge in (some.lower, some.upper)]
+    words = [some.words for some in fixed if some.words is not None]
+    return tree_cache.kept([*found, *edges, *words], built)
 
 
 def _room_for(shapes: int, triangles: int) -> int:
@@ -132,11 +174,17 @@ def _boxes(scene: Scene, contents: Contents) -> Iterator[Boxes]:
 
 
 def pack_tree(tree: SceneTree | None, arrays: Mapping[str, Array]) -> dict[str, Array]:
-    """Rows of the structs Slot, Corner and Triangle, over shapes that are packed."""
+    """Rows of the structs Slot, Corner, Triangle and Instance, over shapes that are packed."""
     if tree is None:
-        return {name: np.zeros(0, STRUCTS[name]) for name in ("Slot", "Corner", "Triangle")}
-    slots = slots_of(tree.shapes, arrays, FAMILIES).view(STRUCTS["Slot"])[:, 0]
-    return {"Slot": slots, "Corner": tree.corners, "Triangle": tree.triangles}
+        names = ("Slot", "Corner", "Triangle", "Instance")
+        return {name: np.zeros(0, STRUCTS[name]) for name in names}
+    slots = _joined(slots_of(tree.shapes, arrays, FAMILIES), tree.own.slots)
+    return {
+        "Slot": slots.view(STRUCTS["Slot"])[:, 0],
+        "Corner": tree.corners,
+        "Triangle": tree.triangles,
+        "Instance": tree.instances,
+    }
 
 
 def frame_fields(tree: SceneTree | None, eye: Array) -> dict[str, Any]:

@@ -25,6 +25,7 @@ from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolv
 from glrt.rendering.schedule import HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
 from glrt.rendering.weighting import Mixer, mixed
+from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost, SettingOptions, Settings, settings_for
 from glrt.version import VERSION
@@ -33,10 +34,7 @@ ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
 
 
 class Renderer:
-    """Renders a scene a few samples at a time.
-
-    A different scene or setting given to `update` restarts, or does not, by its cost class.
-    """
+    """Renders a scene a few samples at a time; what `update` costs is its class of cost."""
 
     def __init__(
         self,
@@ -49,16 +47,18 @@ class Renderer:
         variant: Variant = PLAIN,
         part: tuple[int, int] | None = None,
         decisions: Mapping[str, str] = {},
+        apart: Apart = "repeated",
         **overrides: Unpack[SettingOptions],
     ) -> None:
         """Open OpenGL, compile the kernel, allocate the film.
 
         `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
         "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
-        The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1).
-        A `variant` of the kernel serves experiments.
+        The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1);
+        a `variant` of the kernel serves experiments.
         `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
         A `part` (k, n) renders the k-th of n parts of the settings' samples, k from 1.
+        `apart` are meshes with trees of their own: moved without building one, slower to trace.
         `decisions` tell recipes by what some of the settings were chosen in the user's place.
         Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
@@ -77,7 +77,7 @@ class Renderer:
                 refused.callback(self.context.gl.release)
             self.pipeline = resolve(pipeline, self.context)
             check(ways | ({Way.FRAGMENT} if self.pipeline == "fragment" else set()))
-            self.plan = plan_for(scene, self.settings, layering, self._samples.start)
+            self.plan = plan_for(scene, self.settings, layering, self._samples.start, apart)
             with self.context.gl:
                 options = KernelOptions(self.pipeline, tier, variant)
                 self._tracer = Tracer(self.context, self.plan, options)
@@ -125,7 +125,7 @@ class Renderer:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of the picture in pixels: of the crop, if there is one."""
+        """Width and height of the picture or of the crop, in pixels."""
         return self.settings.size
 
     @property
@@ -188,7 +188,7 @@ class Renderer:
                 self._tracer.use_aovs(after[1])
             (self.scene, self.settings), self.plan = after, relit
             return cost
-        plan = plan_for(*after, layering, wanted.start)
+        plan = self.plan.followed_by(*after, layering, wanted.start)
         with self.context.gl:
             self._tracer, cost = self._tracer.replaced_for(plan)
         (self.scene, self.settings), self.plan = after, plan
@@ -293,6 +293,7 @@ class Renderer:
             traced=traced(self.plan, weights),
             partition=self._part,
             decisions=lasting(*self._decisions, self.settings),
+            apart="large" if self.plan.apart == "large" else "repeated",
         )
 
     def _work(self, remaining: int, policy: DispatchPolicy, seconds: float = math.inf) -> None:

@@ -96,7 +96,7 @@ def rounds_of_search(
     found = contents or contents_of(scene)
     in_trees = [*found.tree_kinds, *(["sphere"] if found.has_sphere_tree else [])]
     counts = [
-        found.count_of(found.tree_kinds) + found.triangles,
+        found.count_of(found.tree_kinds) + len(found.instances) + found.triangles,
         found.has_sphere_tree * found.shapes["sphere"],
     ]
     by_tree = sum(round(tree_rounds * math.log2(count)) for count in counts if count)

@@ -32,6 +32,7 @@ Modules, each importing only what stands above it:
 - contents: the fields of a scene
 - validation: what is wrong with a scene, in words
 - mtl_files: materials of OBJ files
+- own_trees: which meshes have a tree of their own
 - own_materials: meshes divided by the materials of their files
 - loading: the files that a scene names, read into it
 - tables: the parts of a scene as plain tables, and tables as TOML

@@ -18,6 +18,7 @@ from glrt.scene.meshes import Mesh
 from glrt.scene.named_images import ImageFile, Pixels
 from glrt.scene.named_meshes import MeshFile
 from glrt.scene.own_materials import lacks_material, part_problem, with_own_materials
+from glrt.scene.own_trees import tree_sizes, with_own_tree
 from glrt.scene.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.values import LARGEST
 from glrt.text import quoted
@@ -148,7 +149,6 @@ def check_loaded(scene: Contents) -> None:
 
 def mesh_problems(scene: Contents) -> Iterator[str]:
     """What does not fit of meshes that were read, as `key: ...`."""
-    count = 0
     for index, shape in _meshes(scene):
         key = f"objects[{index}].file: {shape.file.file}"
         if problem := part_problem(shape):
@@ -158,18 +158,26 @@ def mesh_problems(scene: Contents) -> Iterator[str]:
         if lacks_material(shape):
             yield f"objects[{index}].material is missing: load the scene by glrt.load"
         mesh = shape.triangles
-        count += len(mesh.faces)
-        if count > MOST_TRIANGLES:
-            yield (
-                f"{key}: with it the scene has {count:,} triangles, and it may have "
-                f"{MOST_TRIANGLES:,}. Use meshes of fewer."
-            )
         glass = glass_of(scene.materials.get(shape.material))
         if glass and mesh.opening and not glass.thin:
             yield (
                 f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot be dielectric. "
                 "Close it in the program that it comes from, or use another material."
             )
+    yield from _too_many(scene)
+
+
+def _too_many(scene: Contents) -> Iterator[str]:
+    meshes = [shape for _, shape in _meshes(scene)]
+    if any(part_problem(mesh) or mesh.material not in scene.materials for mesh in meshes):
+        return
+    shared, own = tree_sizes(meshes, with_own_tree(meshes, scene.materials))
+    if (count := shared + sum(own)) > MOST_TRIANGLES:
+        yield (
+            f"objects: the meshes of this scene have {count:,} triangles, those of a file that is "
+            f"used more than once counted once, lamps apart, and it may have {MOST_TRIANGLES:,}. "
+            "Use meshes of fewer."
+        )
 
 
 def _with(scene: SceneType, known: Mapping[NamedFile, NamedFile]) -> SceneType:

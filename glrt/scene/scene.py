@@ -18,6 +18,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.contents import Contents
 from glrt.scene.loading import copy_files, with_files
 from glrt.scene.materials import Material, Opaque, glass_of
+from glrt.scene.meshes import Mesh
 from glrt.scene.nesting import nesting_problems
 from glrt.scene.objects import Object
 from glrt.scene.own_materials import lacks_material
@@ -96,6 +97,11 @@ class Scene(Contents):
     def visible(self) -> tuple[Shape, ...]:
         """The objects that are not hidden."""
         return tuple(thing for thing in self.objects if not thing.hidden)
+
+    @property
+    def meshes(self) -> tuple[Mesh, ...]:
+        """Those of them that are meshes."""
+        return tuple(thing for thing in self.visible if isinstance(thing, Mesh))
 
     def finish(self, thing: Object) -> Finish:
         """What the surface of an object is like."""

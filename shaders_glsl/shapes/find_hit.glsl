@@ -90,8 +90,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     }
     if ((HAS_DISK || HAS_BOX || HAS_CYLINDER) && !HAS_TREE) hit = find_among_others(ray, hit, ignored, any);
     if (!HAS_TREE && !HAS_MESH) return hit;  // the nearest
-    if (any) return find_any_by_tree(ray, hit, ignored);
-    return find_nearest_by_tree(ray, hit, ignored);
+    return find_by_tree(ray, hit, ignored, any);
 }
 
 float rays_so_far = 0.0;  // of this sample, where COUNT_RAYS

@@ -5,17 +5,16 @@
 // rounding of a float, as the distance of a point from the plane of a triangle takes about half as many.
 const float CLEARANCE = 9.5367431640625e-7;
 
-int first_triangle() { return first_mesh() + mesh_count(); }
-
-bool is_triangle(int shape) { return HAS_MESH && shape >= first_triangle(); }
-
-Triangle triangle_of(int shape) { return triangle_at(shape - first_triangle()); }
-
 int mesh_of(Triangle triangle) { return int(triangle.owner & 0xFFFFu); }
+
+int owner_of(Triangle triangle, int instance) {
+    return instance > 0 ? instance_at(instance - 1).mesh : mesh_of(triangle);
+}
 
 // The number of what is an object of the scene: for a triangle, that of its mesh.
 int object_number(int shape) {
-    return is_triangle(shape) ? first_mesh() + mesh_of(triangle_of(shape)) : shape;
+    if (!is_triangle(shape)) return shape;
+    return first_mesh() + owner_of(triangle_of(shape), instance_of(shape));
 }
 
 // A ray turned into the z axis by a shear: two triangles see a corner or an edge that they share at the
@@ -31,7 +30,7 @@ struct ShearedRay {
 // A triangle knows its neighbours by no number: a ray leaves on its own side of its plane, clear of it.
 vec3 start_among_triangles(Ray ray) {
     precise vec3 place = ray.origin - frame.tree_center;
-    if (!is_triangle(ray.origin_shape)) return place;
+    if (!is_triangle(ray.origin_shape) || instance_of(ray.origin_shape) > 0) return place;
     precise Triangle left = triangle_of(ray.origin_shape);
     precise vec3 away = abs(frame.tree_center);
     precise float largest = larger(larger(away.x, away.y), larger(away.z, left.reach));
@@ -40,18 +39,52 @@ vec3 start_among_triangles(Ray ray) {
     return place;
 }
 
-ShearedRay sheared(Ray ray) {
-    if (!HAS_MESH) return ShearedRay(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    precise vec3 size = abs(ray.direction);
+ShearedRay sheared_along(vec3 origin, vec3 direction) {
+    precise vec3 size = abs(direction);
     bool along_x = size.x >= size.y && size.x >= size.z;
     bool along_y = !along_x && size.y >= size.z;
     precise vec3 z = along_x ? vec3(1.0, 0.0, 0.0) : along_y ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
     precise vec3 x = z.zxy;
     precise vec3 y = z.yzx;
-    precise float scale = 1.0 / dot(z, ray.direction);
-    precise vec3 shear_x = x - dot(x, ray.direction) * scale * z;
-    precise vec3 shear_y = y - dot(y, ray.direction) * scale * z;
-    return ShearedRay(start_among_triangles(ray), shear_x, shear_y, scale * z);
+    precise float scale = 1.0 / dot(z, direction);
+    precise vec3 shear_x = x - dot(x, direction) * scale * z;
+    precise vec3 shear_y = y - dot(y, direction) * scale * z;
+    return ShearedRay(origin, shear_x, shear_y, scale * z);
+}
+
+ShearedRay sheared(Ray ray) {
+    if (!HAS_MESH) return ShearedRay(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    return sheared_along(start_among_triangles(ray), ray.direction);
+}
+
+// How a ray leaves the triangle of an instance.
+struct Left {
+    vec3 shift;  // clear of it, in the frame of its mesh
+    int instance;
+};
+
+// An axis of that frame may be rounded more than others: the shift is the sum of what each of them adds along the
+// normal ("Physically Based Rendering", Pharr, Jakob, Humphreys, 4th edition, section 6.8.6).
+Left left_by(Ray ray) {
+    if (!HAS_INSTANCE || !is_triangle(ray.origin_shape)) return Left(vec3(0.0), 0);
+    int instance = instance_of(ray.origin_shape);
+    if (instance == 0) return Left(vec3(0.0), 0);
+    precise Inward inward = inward_of(instance_at(instance - 1));
+    precise vec3 size = abs(ray.origin) + abs(frame.tree_center) + inward.reach;
+    precise vec3 rounded = vec3(
+        dot(abs(inward.to_x), size), dot(abs(inward.to_y), size), dot(abs(inward.to_z), size));
+    precise vec3 normal = triangle_of(ray.origin_shape).normal;
+    precise float shift = CLEARANCE * dot(abs(normal), rounded);
+    if (dot(normal, turned_in(inward, ray.direction)) < 0.0) shift = -shift;
+    return Left(shift * normal, instance);
+}
+
+ShearedRay sheared_in(Ray ray, int instance) {
+    precise Inward inward = inward_of(instance_at(instance - 1));
+    precise vec3 start = turned_in(inward, ray.origin - frame.tree_center - inward.origin);
+    precise Left left = left_by(ray);
+    if (left.instance == instance) start += left.shift;
+    return sheared_along(start, turned_in(inward, ray.direction));
 }
 
 vec3 sheared_point(ShearedRay ray, vec3 corner) {
@@ -88,19 +121,33 @@ vec3 unpacked_normal(uint bits) {
     return normal;
 }
 
+// The normal of a corner, relative to the axes of the scene.
+vec3 corner_normal(Corner corner, int instance) {
+    precise vec3 normal = unpacked_normal(corner.normal);
+    if (instance > 0) normal = facing_of(instance_at(instance - 1), normal);
+    return normalized(normal);
+}
+
+// The normal of the surface as it is, which tells its sides.
+vec3 triangle_normal(Triangle triangle, int instance) {
+    if (instance == 0) return triangle.normal;
+    return normalized(facing_of(instance_at(instance - 1), triangle.normal));
+}
+
 // The normal between those of the corners, on the side of the triangle's own.
-vec3 smooth_normal(Triangle triangle, vec3 shares, Corner a, Corner b, Corner c) {
-    precise vec3 mean = shares.x * normalized(unpacked_normal(a.normal))
-                      + shares.y * normalized(unpacked_normal(b.normal))
-                      + shares.z * normalized(unpacked_normal(c.normal));
-    if (dot(mean, mean) < 1.0e-6) return triangle.normal;  // opposite ones, about to vanish
+vec3 smooth_normal(vec3 own, int instance, vec3 shares, Corner a, Corner b, Corner c) {
+    precise vec3 mean = shares.x * corner_normal(a, instance)
+                      + shares.y * corner_normal(b, instance)
+                      + shares.z * corner_normal(c, instance);
+    if (dot(mean, mean) < 1.0e-6) return own;  // opposite ones, about to vanish
     precise vec3 normal = normalized(mean);
-    return dot(normal, triangle.normal) < 0.0 ? -normal : normal;
+    return dot(normal, own) < 0.0 ? -normal : normal;
 }
 
 // The shares of the corners in the point that the ray met, 1 in sum.
-vec3 met_shares(Ray ray, Corner a, Corner b, Corner c) {
+vec3 met_shares(Ray ray, int instance, Corner a, Corner b, Corner c) {
     precise ShearedRay turned = sheared(ray);
+    if (instance > 0) turned = sheared_in(ray, instance);
     precise vec3 shares = corner_shares(
         sheared_point(turned, a.position), sheared_point(turned, b.position), sheared_point(turned, c.position));
     precise float sum = shares.x + shares.y + shares.z;
@@ -114,26 +161,29 @@ Surface mesh_surface(Ray ray, int shape) {
     precise Corner a = corner_at(triangle.corners.x);
     precise Corner b = corner_at(triangle.corners.y);
     precise Corner c = corner_at(triangle.corners.z);
-    precise vec3 shares = met_shares(ray, a, b, c);
+    int instance = instance_of(shape);
+    precise vec3 shares = met_shares(ray, instance, a, b, c);
     precise vec3 place = shares.x * a.position + shares.y * b.position + shares.z * c.position;
-    precise Mesh mesh = mesh_at(mesh_of(triangle));
-    precise vec3 normal = triangle.normal;
-    if (HAS_SMOOTH && mesh.is_smooth != 0) normal = smooth_normal(triangle, shares, a, b, c);
-    int light = HAS_MESH_LIGHT ? int(triangle.owner >> 16u) - 1 : NO_LIGHT;
+    if (instance > 0) place = place_of(instance_at(instance - 1), place);
+    precise Mesh mesh = mesh_at(owner_of(triangle, instance));
+    precise vec3 normal = triangle_normal(triangle, instance);
+    if (HAS_SMOOTH && mesh.is_smooth != 0) normal = smooth_normal(normal, instance, shares, a, b, c);
+    int light = HAS_MESH_LIGHT && instance == 0 ? int(triangle.owner >> 16u) - 1 : NO_LIGHT;
     return Surface(place + frame.tree_center, normal, shape, mesh.material, light);
 }
 
 // The normal of the surface as it is, which tells its sides; that of a mesh may be another, for shading.
 vec3 true_normal(Surface surface) {
-    if (HAS_SMOOTH && is_triangle(surface.shape)) return triangle_of(surface.shape).normal;
-    return surface.normal;
+    if (!HAS_SMOOTH || !is_triangle(surface.shape)) return surface.normal;
+    return triangle_normal(triangle_of(surface.shape), instance_of(surface.shape));
 }
 
 // The colour between those of the corners, in the point of a triangle that the ray met: the same to the bit
 // where theirs are.
 vec3 vertex_color(Ray ray, int shape) {
     ivec3 corners = triangle_of(shape).corners;
-    precise vec3 shares = met_shares(ray, corner_at(corners.x), corner_at(corners.y), corner_at(corners.z));
+    precise Corner a = corner_at(corners.x);
+    precise vec3 shares = met_shares(ray, instance_of(shape), a, corner_at(corners.y), corner_at(corners.z));
     precise vec3 first = tint_at(corners.x).color;
     precise vec3 color = first + shares.y * (tint_at(corners.y).color - first)
                        + shares.z * (tint_at(corners.z).color - first);

@@ -11,9 +11,11 @@ Hit nearer(Hit hit, float t, int shape, int ignored) {
     return hit;
 }
 
+int kind_of(Slot leaf) { return int(leaf.d.w >> 28u & 7u); }
+
 // The shape of a leaf; its packer: glrt/rendering/pack_tree.py.
-Hit meet_leaf(Ray ray, ShearedRay turned, Slot slot, Hit hit, int ignored) {
-    int kind = int(slot.d.w >> 28u & 7u);
+Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int ignored) {
+    int kind = kind_of(slot);
     precise vec4 a = uintBitsToFloat(slot.a);
     precise vec4 b = uintBitsToFloat(slot.b);
     precise vec4 c = uintBitsToFloat(slot.c);
@@ -24,6 +26,7 @@ Hit meet_leaf(Ray ray, ShearedRay turned, Slot slot, Hit hit, int ignored) {
         precise vec3 r = sheared_point(turned, vec3(b.zw, c.x));
         precise vec3 s = sheared_point(turned, c.yzw);
         ivec2 triangles = first_triangle() + ivec2(slot.d.xy);
+        if (HAS_INSTANCE) triangles += instance << INSTANCE_BITS;
         precise float first = triangle_distance(p, q, r);
         if (triangles.x != ray.origin_shape) hit = nearer(hit, first, triangles.x, ignored);
         precise float second = triangle_distance(p, r, s);
@@ -66,99 +69,171 @@ void sort_pair(inout uint a, inout uint b) {
     a = less;
 }
 
-// The nearest shape nearer than hit.distance, or as near and of a lower number. Children are visited
-// in the order in which the ray enters them. A stack entry, and `group`, list what is left of a node:
-// how many children from bit 24 on, and their numbers, 3 bits each, the nearest first; beside it the
-// slot of its first child.
-Hit find_nearest_by_tree(Ray ray, Hit hit, int ignored) {
-    precise TreeRay among = tree_ray(ray);
-    precise ShearedRay turned = sheared(ray);
-    precise TreeStack stack = empty_stack();
-    int depth = 0;
-    int place = 0;
-    uvec2 group = uvec2(0u);
-    bool going = slot_count() > 0;
-    while (going) {
-        precise Slot slot = slot_at(place);
-        bool is_leaf = (slot.d.w & LEAF) != 0u;
-        if (is_leaf) hit = meet_leaf(ray, turned, slot, hit, ignored);
-        precise Children children = children_of(slot, among);
-        precise float limit = hit.distance;
-        uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
-        uint k1 = meets_child(children, 1u, children.near_low, children.far_low, limit);
-        uint k2 = meets_child(children, 2u, children.near_low, children.far_low, limit);
-        uint k3 = meets_child(children, 3u, children.near_low, children.far_low, limit);
-        uint k4 = meets_child(children, 4u, children.near_high, children.far_high, limit);
-        uint k5 = meets_child(children, 5u, children.near_high, children.far_high, limit);
-        uint k6 = meets_child(children, 6u, children.near_high, children.far_high, limit);
-        uint k7 = meets_child(children, 7u, children.near_high, children.far_high, limit);
-        sort_pair(k0, k2); sort_pair(k1, k3); sort_pair(k4, k6); sort_pair(k5, k7);
-        sort_pair(k0, k4); sort_pair(k1, k5); sort_pair(k2, k6); sort_pair(k3, k7);
-        sort_pair(k0, k1); sort_pair(k2, k3); sort_pair(k4, k5); sort_pair(k6, k7);
-        sort_pair(k2, k4); sort_pair(k3, k5); sort_pair(k1, k4); sort_pair(k3, k6);
-        sort_pair(k1, k2); sort_pair(k3, k4); sort_pair(k5, k6);
-        uint others = uint(k1 != NO_CHILD) + uint(k2 != NO_CHILD) + uint(k3 != NO_CHILD) + uint(k4 != NO_CHILD)
-                    + uint(k5 != NO_CHILD) + uint(k6 != NO_CHILD) + uint(k7 != NO_CHILD);
-        uint numbers = k1 & 7u | (k2 & 7u) << 3u | (k3 & 7u) << 6u | (k4 & 7u) << 9u | (k5 & 7u) << 12u
-                     | (k6 & 7u) << 15u | (k7 & 7u) << 18u;
-        bool enters = !is_leaf && k0 != NO_CHILD;
-        bool keeps = enters && others > 0u;
-        bool pushes = keeps && group.y != 0u;
-        push_if(pushes, group, stack);
-        depth += pushes ? 1 : 0;
-        uint first = slot.d.w & LINK;
-        group = keeps ? uvec2(first, others << 24u | numbers) : group;
-        bool pops = !enters && group.y == 0u;
-        going = !pops || depth > 0;
-        depth -= pops ? 1 : 0;
-        group = pops ? stack.e0 : group;
-        pop_if(pops, stack);
-        uint many = group.y >> 24u;
-        place = int(enters ? first + (k0 & 7u) : group.x + (group.y & 7u));
-        uint rest = many > 1u ? (many - 1u) << 24u | (group.y & 0xFFFFFFu) >> 3u : 0u;
-        group.y = enters ? group.y : rest;
-    }
-    if (going) loop_was_cut = true;
-    return hit;
+// What is left of a tree to visit. A stack entry, and `group`, list what is left of a node; beside it
+// the slot of its first child.
+struct Walk {
+    TreeStack stack;
+    int depth;
+    int place;  // the slot that comes next
+    uvec2 group;
+    bool goes_on;
+    bool goes_in;   // to an instance
+    bool gets_out;  // of it
+    int depth_there;  // of the stack when it went in
+};
+
+Walk walk_from_root() {
+    return Walk(empty_stack(), 0, 0, uvec2(0u), slot_count() > 0, false, false, 0);
 }
 
-// Any shape nearer than hit.distance, in no order: a stack entry, and `group`, list what is left of a
-// node by bits.
-Hit find_any_by_tree(Ray ray, Hit hit, int ignored) {
-    precise TreeRay among = tree_ray(ray);
-    precise ShearedRay turned = sheared(ray);
-    precise TreeStack stack = empty_stack();
-    int depth = 0;
-    int place = 0;
-    uvec2 group = uvec2(0u);
-    bool going = slot_count() > 0;
-    while (going) {
-        precise Slot slot = slot_at(place);
-        bool is_leaf = (slot.d.w & LEAF) != 0u;
-        if (is_leaf) hit = meet_leaf(ray, turned, slot, hit, ignored);
-        precise Children children = children_of(slot, among);
-        precise float limit = hit.distance;
-        uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
-                 | uint(meets_child(children, 1u, children.near_low, children.far_low, limit) != NO_CHILD) << 1u
-                 | uint(meets_child(children, 2u, children.near_low, children.far_low, limit) != NO_CHILD) << 2u
-                 | uint(meets_child(children, 3u, children.near_low, children.far_low, limit) != NO_CHILD) << 3u
-                 | uint(meets_child(children, 4u, children.near_high, children.far_high, limit) != NO_CHILD) << 4u
-                 | uint(meets_child(children, 5u, children.near_high, children.far_high, limit) != NO_CHILD) << 5u
-                 | uint(meets_child(children, 6u, children.near_high, children.far_high, limit) != NO_CHILD) << 6u
-                 | uint(meets_child(children, 7u, children.near_high, children.far_high, limit) != NO_CHILD) << 7u;
-        bool enters = !is_leaf && met != 0u;
-        bool pushes = enters && group.y != 0u;
-        push_if(pushes, group, stack);
-        depth += pushes ? 1 : 0;
-        group = enters ? uvec2(slot.d.w & LINK, met) : group;
-        bool pops = group.y == 0u;
-        going = hit.shape == NO_SHAPE && (!pops || depth > 0);
-        depth -= pops ? 1 : 0;
-        group = pops ? stack.e0 : group;
-        pop_if(pops, stack);
-        place = int(group.x) + findLSB(group.y);
-        group.y &= group.y - 1u;
+// A ray among the slots of a tree.
+struct Course {
+    TreeRay grid;
+    ShearedRay turned;
+    int instance;  // whose tree it is; 0: that of the scene
+};
+
+// Visits a slot on the way to the nearest shape nearer than hit.distance, or as near and of a lower
+// number. Children are visited in the order in which the ray enters them: `group` is how many are left,
+// from bit 24 on, and their numbers, 3 bits each, the nearest first. Tells whether the slot is a leaf.
+void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
+    bool is_leaf = (slot.d.w & LEAF) != 0u;
+    if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+    precise Children children = children_of(slot, course.grid);
+    precise float limit = hit.distance;
+    uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
+    uint k1 = meets_child(children, 1u, children.near_low, children.far_low, limit);
+    uint k2 = meets_child(children, 2u, children.near_low, children.far_low, limit);
+    uint k3 = meets_child(children, 3u, children.near_low, children.far_low, limit);
+    uint k4 = meets_child(children, 4u, children.near_high, children.far_high, limit);
+    uint k5 = meets_child(children, 5u, children.near_high, children.far_high, limit);
+    uint k6 = meets_child(children, 6u, children.near_high, children.far_high, limit);
+    uint k7 = meets_child(children, 7u, children.near_high, children.far_high, limit);
+    sort_pair(k0, k2); sort_pair(k1, k3); sort_pair(k4, k6); sort_pair(k5, k7);
+    sort_pair(k0, k4); sort_pair(k1, k5); sort_pair(k2, k6); sort_pair(k3, k7);
+    sort_pair(k0, k1); sort_pair(k2, k3); sort_pair(k4, k5); sort_pair(k6, k7);
+    sort_pair(k2, k4); sort_pair(k3, k5); sort_pair(k1, k4); sort_pair(k3, k6);
+    sort_pair(k1, k2); sort_pair(k3, k4); sort_pair(k5, k6);
+    uint others = uint(k1 != NO_CHILD) + uint(k2 != NO_CHILD) + uint(k3 != NO_CHILD) + uint(k4 != NO_CHILD)
+                + uint(k5 != NO_CHILD) + uint(k6 != NO_CHILD) + uint(k7 != NO_CHILD);
+    uint numbers = k1 & 7u | (k2 & 7u) << 3u | (k3 & 7u) << 6u | (k4 & 7u) << 9u | (k5 & 7u) << 12u
+                 | (k6 & 7u) << 15u | (k7 & 7u) << 18u;
+    bool enters = !is_leaf && k0 != NO_CHILD;
+    bool keeps = enters && others > 0u;
+    walk.goes_in = HAS_INSTANCE && is_leaf && kind_of(slot) == INSTANCE;
+    bool pushes = (keeps || walk.goes_in) && walk.group.y != 0u;
+    push_if(pushes, walk.group, walk.stack);
+    walk.depth += pushes ? 1 : 0;
+    uint first = slot.d.w & LINK;
+    walk.group = keeps ? uvec2(first, others << 24u | numbers) : walk.group;
+    if (HAS_INSTANCE) {
+        walk.group = walk.goes_in ? uvec2(slot.d.x, 1u << 24u) : walk.group;
+        walk.depth_there = walk.goes_in ? walk.depth : walk.depth_there;
     }
-    if (going) loop_was_cut = true;
+    bool pops = !enters && walk.group.y == 0u;
+    walk.gets_out = HAS_INSTANCE && pops && walk.depth == walk.depth_there;
+    walk.goes_on = !pops || walk.depth > 0;
+    walk.depth -= pops ? 1 : 0;
+    walk.group = pops ? walk.stack.e0 : walk.group;
+    pop_if(pops, walk.stack);
+    uint many = walk.group.y >> 24u;
+    walk.place = int(enters ? first + (k0 & 7u) : walk.group.x + (walk.group.y & 7u));
+    uint rest = many > 1u ? (many - 1u) << 24u | (walk.group.y & 0xFFFFFFu) >> 3u : 0u;
+    walk.group.y = enters ? walk.group.y : rest;
+}
+
+// The same on the way to any shape nearer than hit.distance, in no order: `group` lists children by bits.
+void visit_any(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
+    bool is_leaf = (slot.d.w & LEAF) != 0u;
+    if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+    precise Children children = children_of(slot, course.grid);
+    precise float limit = hit.distance;
+    uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
+             | uint(meets_child(children, 1u, children.near_low, children.far_low, limit) != NO_CHILD) << 1u
+             | uint(meets_child(children, 2u, children.near_low, children.far_low, limit) != NO_CHILD) << 2u
+             | uint(meets_child(children, 3u, children.near_low, children.far_low, limit) != NO_CHILD) << 3u
+             | uint(meets_child(children, 4u, children.near_high, children.far_high, limit) != NO_CHILD) << 4u
+             | uint(meets_child(children, 5u, children.near_high, children.far_high, limit) != NO_CHILD) << 5u
+             | uint(meets_child(children, 6u, children.near_high, children.far_high, limit) != NO_CHILD) << 6u
+             | uint(meets_child(children, 7u, children.near_high, children.far_high, limit) != NO_CHILD) << 7u;
+    bool enters = !is_leaf && met != 0u;
+    walk.goes_in = HAS_INSTANCE && is_leaf && kind_of(slot) == INSTANCE;
+    bool pushes = (enters || walk.goes_in) && walk.group.y != 0u;
+    push_if(pushes, walk.group, walk.stack);
+    walk.depth += pushes ? 1 : 0;
+    walk.group = enters ? uvec2(slot.d.w & LINK, met) : walk.group;
+    if (HAS_INSTANCE) {
+        walk.group = walk.goes_in ? uvec2(slot.d.x, 1u) : walk.group;
+        walk.depth_there = walk.goes_in ? walk.depth : walk.depth_there;
+    }
+    bool pops = walk.group.y == 0u;
+    walk.gets_out = HAS_INSTANCE && pops && walk.depth == walk.depth_there;
+    walk.goes_on = hit.shape == NO_SHAPE && (!pops || walk.depth > 0);
+    walk.depth -= pops ? 1 : 0;
+    walk.group = pops ? walk.stack.e0 : walk.group;
+    pop_if(pops, walk.stack);
+    walk.place = int(walk.group.x) + findLSB(walk.group.y);
+    walk.group.y &= walk.group.y - 1u;
+}
+
+// What a course follows from.
+struct Among {
+    vec3 start;  // relative to the middle of the grid
+    vec3 clear;  // the same, off the triangle that the ray leaves
+    vec3 direction;
+    float largest;  // what coordinates are rounded relative to
+    float cell;
+    int instance;
+};
+
+Among outside_instances(Ray ray) {
+    precise vec3 size = max(abs(ray.origin), abs(frame.tree_center));
+    precise float largest = larger(larger(size.x, size.y), size.z);
+    precise vec3 start = ray.origin - frame.tree_center;
+    return Among(start, start_among_triangles(ray), ray.direction, largest, frame.tree_cell, 0);
+}
+
+// Where it goes in, where it goes on, or where it gets out. Both are computed: chosen are the few values
+// that all else follows from.
+Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
+    precise Inward inward = inward_at(slot);
+    precise vec3 start = turned_in(inward, outside.start - inward.origin);
+    precise vec3 direction = turned_in(inward, outside.direction);
+    precise float largest = uintBitsToFloat(slot.d.y) * (outside.largest + inward.reach);
+    int instance = int(slot.d.w & LINK);
+    precise vec3 clear = instance == left.instance ? start + left.shift : start;
+    bool goes_in = walk.goes_in;
+    bool gets_out = walk.gets_out && now.instance > 0;
+    return Among(
+        goes_in ? start : gets_out ? outside.start : now.start,
+        goes_in ? clear : gets_out ? outside.clear : now.clear,
+        goes_in ? direction : gets_out ? outside.direction : now.direction,
+        goes_in ? largest : gets_out ? outside.largest : now.largest,
+        goes_in ? 1.0 : gets_out ? outside.cell : now.cell,
+        goes_in ? instance : gets_out ? 0 : now.instance);
+}
+
+Course course_of(Among among) {
+    precise float cells = 1.0 / among.cell;
+    precise TreeRay grid = ray_on_grid(among.start * cells, among.largest * cells, among.direction, among.cell);
+    return Course(grid, sheared_along(among.clear, among.direction), among.instance);
+}
+
+Hit find_by_tree(Ray ray, Hit hit, int ignored, bool any) {
+    precise Course course = Course(tree_ray(ray), sheared(ray), 0);
+    precise Among outside = outside_instances(ray);
+    precise Among among = outside;
+    precise Left left = left_by(ray);
+    precise Walk walk = walk_from_root();
+    while (walk.goes_on) {
+        precise Slot slot = slot_at(walk.place);
+        if (any) visit_any(ray, course, slot, ignored, walk, hit);
+        else visit_nearest(ray, course, slot, ignored, walk, hit);
+        if (HAS_INSTANCE) {
+            among = next_among(among, outside, walk, slot, left);
+            course = course_of(among);
+        }
+    }
+    if (walk.goes_on) loop_was_cut = true;
     return hit;
 }

@@ -17,17 +17,22 @@ struct TreeRay {
     bvec3 is_down;
 };
 
+// `start` is relative to the middle of the grid, in cells; the rounding of its coordinates is relative to `largest`.
+TreeRay ray_on_grid(vec3 start, float largest, vec3 direction, float cell) {
+    precise vec3 place = start + HALF_GRID;
+    precise float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
+    precise vec3 inverse = clamp(cell / direction, vec3(-STEEPEST), vec3(STEEPEST));
+    bvec3 is_down = lessThan(inverse, vec3(0.0));  // of zeros of both signs, too
+    precise vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
+    return TreeRay(place + shift, place - shift, inverse, is_down);
+}
+
 TreeRay tree_ray(Ray ray) {
     precise vec3 center = frame.tree_center;
     precise vec3 size = max(abs(ray.origin), abs(center));
     precise float cells = 1.0 / frame.tree_cell;
-    precise vec3 place = (ray.origin - center) * cells + HALF_GRID;
     precise float largest = larger(larger(size.x, size.y), size.z) * cells;
-    precise float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
-    precise vec3 inverse = clamp(frame.tree_cell / ray.direction, vec3(-STEEPEST), vec3(STEEPEST));
-    bvec3 is_down = lessThan(inverse, vec3(0.0));  // of zeros of both signs, too
-    precise vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
-    return TreeRay(place + shift, place - shift, inverse, is_down);
+    return ray_on_grid((ray.origin - center) * cells, largest, ray.direction, frame.tree_cell);
 }
 
 // The children of a node as a ray meets them: of all 8, a byte each along each axis.

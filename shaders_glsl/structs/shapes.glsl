@@ -84,6 +84,25 @@ struct Triangle {
     float reach;  // the largest coordinate of its corners, without its sign
 };
 
+// A place of a mesh that has a tree of its own: from the scene to its frame, and back. The unit of the frame is a
+// cell of the grid of that tree.
+struct Instance {
+    vec3 to_x;  // what to multiply a vector by for its coordinates
+    int mesh;
+    vec3 to_y;
+    int triangles;  // row of the first of those of the mesh
+    vec3 to_z;
+    float reach;  // from the middle of the tree over shapes to the farthest corner, at most
+    vec3 origin;  // of the frame, relative to the middle of the tree over shapes
+    int spare_a;  // fill rows
+    vec3 from_x;  // where the unit vectors of the frame lead to
+    int spare_b;
+    vec3 from_y;
+    int spare_c;
+    vec3 from_z;
+    int spare_d;
+};
+
 // Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
 // node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
 struct Node {
@@ -106,4 +125,5 @@ const int QUAD = 2;
 const int DISK = 3;
 const int BOX = 4;
 const int CYLINDER = 5;
+const int INSTANCE = 6;   // see glrt/rendering/pack_instances.py
 const int TRIANGLES = 7;  // two of a mesh: see glrt/rendering/pack_mesh.py

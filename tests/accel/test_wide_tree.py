@@ -44,7 +44,8 @@ def tree_over(lower: Array, upper: Array) -> ShapeTree:
     half = len(lower) // 2  # two kinds, of which the first may have no member
     quads = Boxes("Quad", 5, lower[:half], upper[:half])
     disks = Boxes("Disk", 9, lower[half:], upper[half:])
-    return shape_tree.build((quads, disks) if half else (disks,))
+    grid = grid_of(lower.min(axis=0), upper.max(axis=0))
+    return shape_tree.build((quads, disks) if half else (disks,), grid)
 
 
 def children(slot: Array) -> Iterator[tuple[int, Array, Array]]:

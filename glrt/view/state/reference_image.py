@@ -97,7 +97,9 @@ class ReferenceImage:
         self._announced += 1
         if self._announced <= ANNOUNCED:
             return None
-        settings, context, pipeline = self._settings(other), self._context, other.pipeline
-        self._renderer = Renderer(self.state.scene, settings, context, pipeline=pipeline)
+        settings, context = self._settings(other), self._context
+        self._renderer = Renderer(
+            self.state.scene, settings, context, pipeline=other.pipeline, apart=other.plan.apart
+        )
         self.busy = ""
         return self._renderer

@@ -191,7 +191,7 @@ class Session:
 
     def _open(self, state: State) -> Renderer:
         ways: dict[str, Any] = {"pipeline": self.pipeline, "layering": self.layering}
-        return Renderer(state.scene, state.settings, self._context, **ways)
+        return Renderer(state.scene, state.settings, self._context, apart="moved", **ways)
 
     def image(self) -> Image:
         """The picture, error and recipe, without AOVs of the view; UsageError for a preview."""

@@ -1,0 +1,59 @@
+// Meshes in trees of their own: their triangles are kept once, wherever they stand and however often. An instance is
+// one place of such a mesh. A triangle there is numbered by its instance, from 1 on, from bit INSTANCE_BITS on, and
+// below by its place in the mesh; 0 stands for the triangles in the tree of the scene.
+
+int first_triangle() { return first_mesh() + mesh_count(); }
+
+bool is_triangle(int shape) { return HAS_MESH && shape >= first_triangle(); }
+
+int instance_of(int shape) { return HAS_INSTANCE ? (shape - first_triangle()) >> INSTANCE_BITS : 0; }
+
+Triangle triangle_of(int shape) {
+    int number = shape - first_triangle();
+    if (HAS_INSTANCE) {
+        int instance = number >> INSTANCE_BITS;
+        number &= (1 << INSTANCE_BITS) - 1;
+        if (instance > 0) number += instance_at(instance - 1).triangles;
+    }
+    return triangle_at(number);
+}
+
+// From the scene to the frame of a mesh, whose unit is a cell of its tree's grid.
+struct Inward {
+    vec3 to_x;  // what to multiply a vector by for its coordinates
+    vec3 to_y;
+    vec3 to_z;
+    vec3 origin;  // of the frame, relative to the middle of the tree
+    float reach;  // from the middle of the tree to the farthest corner, at most
+};
+
+Inward inward_of(Instance instance) {
+    return Inward(instance.to_x, instance.to_y, instance.to_z, instance.origin, instance.reach);
+}
+
+// As the packer writes it into a leaf: glrt/rendering/pack_instances.py.
+Inward inward_at(Slot slot) {
+    precise vec4 a = uintBitsToFloat(slot.a);
+    precise vec4 b = uintBitsToFloat(slot.b);
+    precise vec4 c = uintBitsToFloat(slot.c);
+    return Inward(a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw, uintBitsToFloat(slot.d.z));
+}
+
+// A vector of the scene in the frame of a mesh: distances along a ray stay those of the scene.
+vec3 turned_in(Inward inward, vec3 v) {
+    precise vec3 turned = vec3(dot(inward.to_x, v), dot(inward.to_y, v), dot(inward.to_z, v));
+    return turned;
+}
+
+// A vector that is perpendicular to a surface, taken from the frame of a mesh to the scene.
+vec3 facing_of(Instance instance, vec3 normal) {
+    precise vec3 facing = normal.x * instance.to_x + normal.y * instance.to_y + normal.z * instance.to_z;
+    return facing;
+}
+
+// A point of the frame of a mesh, relative to the middle of the tree.
+vec3 place_of(Instance instance, vec3 point) {
+    precise vec3 place = instance.origin + point.x * instance.from_x + point.y * instance.from_y
+                       + point.z * instance.from_z;
+    return place;
+}
