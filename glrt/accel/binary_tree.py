@@ -1,10 +1,13 @@
 """A binary tree over axis-aligned boxes, one in each leaf, built level by level in numpy."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from glrt.accel.binned_splits import Floats, Ints, are_right, halved
+
+PORTION = 1 << 16  # boxes that are divided at once: so many stay in a cache, and memory is bounded
 
 
 class BinaryTree(NamedTuple):
@@ -60,15 +63,28 @@ def _children(level: _Level, left: Ints, lower: Floats, upper: Floats, halves: b
     if not len(level.node):
         return level
     node = np.repeat(np.arange(len(level.size)), level.size)
-    boxes = lower[level.items], upper[level.items]
-    divided = halved if halves else are_right
-    is_right = divided(level.start, level.size, node, *boxes)
+    is_right = np.empty(len(node), bool)
+    for nodes, of in _portions(level):
+        boxes = level.items[of]
+        divided = halved if halves else are_right
+        given = level.start[nodes] - of.start, level.size[nodes], node[of] - nodes.start
+        is_right[of] = divided(*given, lower[boxes], upper[boxes])
     right = np.bincount(node, is_right).astype(int)
     return _Level(
         np.column_stack([left, left + 1]).ravel(),
         np.column_stack([level.size - right, right]).ravel(),
         level.items[np.argsort(2 * node + is_right, kind="stable")],
     )
+
+
+def _portions(level: _Level) -> Iterator[tuple[slice, slice]]:
+    """The nodes of a level, some at a time, and their boxes: PORTION, or those of one node."""
+    start, first = level.start, 0
+    end = start + level.size
+    while first < len(start):
+        last = max(first + 1, int(np.searchsorted(end, start[first] + PORTION, "right")))
+        yield slice(first, last), slice(int(start[first]), int(end[last - 1]))
+        first = last
 
 
 def _boxes(

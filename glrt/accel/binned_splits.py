@@ -23,11 +23,18 @@ def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats)
     that of each box. Both children of a node with two or more boxes get at least one. A node whose
     centres coincide is divided into halves.
     """
+    is_right: Bools = np.arange(len(node)) > start[node]
+    large = size > 2  # of two boxes each is a child
+    if not large.any():
+        return is_right
+    kept = np.repeat(large, size)
+    size, node = size[large], np.repeat(np.arange(int(large.sum())), size[large])
+    lower, upper, start = lower[kept], upper[kept], np.cumsum(size) - size
     centre = lower + upper
     low = np.minimum.reduceat(centre, start)
     extent = np.maximum.reduceat(centre, start) - low
     scale = np.divide(BINS, extent, out=np.zeros_like(extent), where=extent > 0)
-    bins = np.minimum(((centre - low[node]) * scale[node]).astype(int), BINS - 1)
+    bins = np.minimum((centre - low[node]) * scale[node], BINS - 1).astype(np.int8)
     costs = np.stack(
         [_split_costs(len(size), node, bins[:, axis], lower, upper) for axis in range(3)], 1
     ).reshape(len(size), -1)
@@ -37,7 +44,7 @@ def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats)
     in_half = 2 * rank >= size[node]
     has_split = np.isfinite(costs.min(axis=1))
     chosen = np.take_along_axis(bins, axis[node][:, None], 1)[:, 0] > place[node]
-    is_right: Bools = np.where(has_split[node], chosen, in_half)
+    is_right[kept] = np.where(has_split[node], chosen, in_half)
     return is_right
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from glrt.accel.binned_splits import Floats, Ints, surface
 
+PORTION = 1 << 16  # pairs that are looked at together, so that memory is bounded
 MOST_MORE = 0.2  # of the boxes
 _ROUNDS = 12
 _LEAST_WASTE = 8.0  # of a box that is cut, in surfaces of the median box
@@ -25,9 +26,8 @@ class Boxes(NamedTuple):
 
 def boxes_of(corners: Floats) -> Boxes:
     """Boxes around pairs with the corners a b c d, (m, 4, 3): triangles a b c and a c d."""
-    triangles = np.stack([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]], axis=1)
-    edges = triangles[:, :, 1:] - triangles[:, :, :1]
-    flat = np.abs(np.cross(edges[:, :, 0], edges[:, :, 1])).sum(axis=(1, 2)) / 2
+    portions = np.array_split(corners, -(-len(corners) // PORTION))
+    flat = np.concatenate([_shadows(some) for some in portions])
     low, high = corners.min(axis=1), corners.max(axis=1)
     boxes = Boxes(low, high, np.arange(len(corners)))
     least = _LEAST_WASTE * float(np.median(surface((high - low).T)))
@@ -40,20 +40,34 @@ def boxes_of(corners: Floats) -> Boxes:
         pick = np.argpartition(-waste, many)[:many]
         pick = np.sort(pick[waste[pick] > least])
         before = len(boxes.pair)
-        boxes, cut = _cut(boxes, pick, triangles)
+        boxes, cut = _cut(boxes, pick, corners)
         flat[cut] /= 2
         flat = np.concatenate([flat, flat[cut]])
         room -= len(boxes.pair) - before
     return boxes
 
 
-def _cut(boxes: Boxes, pick: Ints, triangles: Floats) -> tuple[Boxes, Ints]:
+def _triangles(corners: Floats) -> Floats:
+    """(m, 2, 3, 3) of pairs."""
+    both: Floats = corners[:, [[0, 1, 2], [0, 2, 3]]]
+    return both
+
+
+def _shadows(corners: Floats) -> Floats:
+    """Half of the surface that a flat box would have: of the shadows of both triangles, (m,)."""
+    triangles = _triangles(corners)
+    edges = triangles[:, :, 1:] - triangles[:, :, :1]
+    flat: Floats = np.abs(np.cross(edges[:, :, 0], edges[:, :, 1])).sum(axis=(1, 2)) / 2
+    return flat
+
+
+def _cut(boxes: Boxes, pick: Ints, corners: Floats) -> tuple[Boxes, Ints]:
     """The boxes, those of `pick` cut in the middle of their longest edge; which were cut."""
     low, high = boxes.lower[pick], boxes.upper[pick]
     axis, row = (high - low).argmax(axis=1), np.arange(len(pick))
     start, end = low[row, axis], high[row, axis]
     middle = start + (end - start) / 2
-    parts = triangles[boxes.pair[pick]]
+    parts = _triangles(corners[boxes.pair[pick]])
     halves = [_clipped(parts, axis, *ends) for ends in ((start, middle), (middle, end))]
     halves = [(np.maximum(a, low), np.minimum(b, high)) for a, b in halves]
     is_cut = np.all([(a <= b).all(axis=1) for a, b in halves], axis=0)

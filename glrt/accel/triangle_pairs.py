@@ -7,9 +7,11 @@ that share long edges have small boxes.
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.accel.binned_splits import Floats, Ints
 
+_Words = NDArray[np.int32]  # half the memory of Ints
 _ROUNDS = 12  # of matching, after which few triangles that could be matched are left
 
 
@@ -23,12 +25,12 @@ class Pairs(NamedTuple):
 class _Shared(NamedTuple):
     """Edges that two triangles share."""
 
-    first: Ints  # (e,): the triangles
-    second: Ints
-    start: Ints  # vertices, in the order of the first
-    end: Ints
-    apex: Ints  # the third vertex of the first
-    other: Ints  # and of the second
+    first: _Words  # (e,): the triangles
+    second: _Words
+    start: _Words  # vertices, in the order of the first
+    end: _Words
+    apex: _Words  # the third vertex of the first
+    other: _Words  # and of the second
 
 
 def paired(vertices: Floats, faces: Ints) -> Pairs:
@@ -47,28 +49,32 @@ def paired(vertices: Floats, faces: Ints) -> Pairs:
 
 
 def _shared_edges(faces: Ints, vertices: int) -> _Shared:
-    start = faces.T.ravel()
-    end, apex = np.roll(faces, -1, axis=1).T.ravel(), np.roll(faces, -2, axis=1).T.ravel()
-    triangle = np.tile(np.arange(len(faces)), 3)
-    key = np.minimum(start, end) * vertices + np.maximum(start, end)
-    order = np.argsort(key, kind="stable")
-    same = np.flatnonzero(key[order][1:] == key[order][:-1])
+    corners = faces.astype(np.int32)
+    start = corners.T.ravel()
+    end = np.roll(corners, -1, axis=1).T.ravel()
+    key = np.minimum(start, end) * np.int64(vertices) + np.maximum(start, end)
+    order = np.argsort(key, kind="stable").astype(np.int32)
+    key = key[order]
+    same = np.flatnonzero(key[1:] == key[:-1])
+    del key
     p, q = order[same], order[same + 1]
-    return _Shared(triangle[p], triangle[q], start[p], end[p], apex[p], apex[q])
+    apex = np.roll(corners, -2, axis=1).T.ravel()
+    count = np.int32(len(faces))
+    return _Shared(p % count, q % count, start[p], end[p], apex[p], apex[q])
 
 
 def _matched(shared: _Shared, vertices: Floats, triangles: int) -> Ints:
     """The edges across which triangles are matched."""
     length = np.linalg.norm(vertices[shared.start] - vertices[shared.end], axis=1)
-    rank = np.empty(len(length), int)  # no two alike, so that both can agree
-    rank[np.argsort(length, kind="stable")] = np.arange(1, len(length) + 1)
+    rank = np.empty(len(length), np.int32)  # no two alike, so that both can agree
+    rank[np.argsort(length, kind="stable")] = np.arange(1, len(length) + 1, dtype=np.int32)
     is_free = np.ones(triangles, bool)
-    live, chosen = np.arange(len(length)), [np.zeros(0, int)]
+    live, chosen = np.arange(len(length), dtype=np.int32), [np.zeros(0, np.int32)]
     for _ in range(_ROUNDS):
         live = live[is_free[shared.first[live]] & is_free[shared.second[live]]]
         if not len(live):
             break
-        best = np.zeros(triangles, int)
+        best = np.zeros(triangles, np.int32)
         np.maximum.at(best, shared.first[live], rank[live])
         np.maximum.at(best, shared.second[live], rank[live])
         agree = rank[live] >= best[shared.first[live]]

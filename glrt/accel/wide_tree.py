@@ -31,6 +31,7 @@ HALF_GRID = 2 ** (GRID_BITS - 1)
 MARGIN = 4  # cells of the grid that nothing reaches into, at its edges
 LINK_BITS = 28  # of slots and of numbers of shapes
 LEAF = 1 << 31
+PORTION = 1 << 14  # nodes that are written at once, so that memory is bounded
 _BIAS = 127  # of exponents of float32
 
 
@@ -83,9 +84,11 @@ def collapse(tree: BinaryTree, grid: Grid, least: int = 0) -> tuple[WideTree, Le
     slots = np.zeros((max(1 + below, least), SLOT), np.uint32)
     leaf, place_of_leaf = [], []
     place, base = np.zeros(1, int), np.ones(1, int)
-    low, high = grid.cells(tree.lower), grid.cells(tree.upper)
     for level, of in zip(levels, of_child, strict=True):
-        _write_nodes(slots, place, base, level, low, high)
+        for first in range(0, len(place), PORTION):
+            some = slice(first, first + PORTION)
+            part = _Level(level.node[some], level.child[some], level.inner[some])
+            slots[place[some]] = _nodes(base[some], part, tree, grid)
         child = base[:, None] + np.arange(WIDTH)
         is_leaf = (level.child >= 0) & ~level.inner
         leaf.append(level.child[is_leaf])
@@ -131,24 +134,23 @@ def _sizes(levels: list[_Level]) -> tuple[int, list[Ints]]:
     return int(sizes[0]), of_child
 
 
-def _write_nodes(
-    slots: Words, place: Ints, base: Ints, level: _Level, low: Floats, high: Floats
-) -> None:
-    """Fill the slots of nodes; `low` and `high` are corners on the grid, of all binary nodes."""
-    corner = np.floor(low[level.node])
-    extent = high[level.node] - corner
+def _nodes(base: Ints, level: _Level, tree: BinaryTree, grid: Grid) -> Words:
+    """The slots of nodes, whose children begin at `base`."""
+    corner = np.floor(grid.cells(tree.lower[level.node]))
+    extent = grid.cells(tree.upper[level.node]) - corner
     exponent = np.ceil(np.log2(np.maximum(extent, 2.0**-100) / 255)).astype(int)
     exponent += np.exp2(exponent) * 255 < extent
     cell = np.exp2(exponent)
-    start = np.floor((low[level.child] - corner[:, None]) / cell[:, None])
-    end = np.ceil((high[level.child] - corner[:, None]) / cell[:, None])
+    low, high = grid.cells(tree.lower[level.child]), grid.cells(tree.upper[level.child])
+    start = np.floor((low - corner[:, None]) / cell[:, None])
+    end = np.ceil((high - corner[:, None]) / cell[:, None])
     none = (level.child < 0)[..., None]
     start, end = np.where(none, 0, start), np.where(none, 0, end)
-    rows = np.zeros((len(place), SLOT), np.uint32)
+    rows = np.zeros((len(base), SLOT), np.uint32)
     rows[:, :3] = corner.astype(np.uint32) | (exponent + _BIAS).astype(np.uint32) << GRID_BITS
     bounds = np.stack([start, end], axis=1).astype(np.uint8)  # (w, 2, WIDTH, 3)
-    along = np.ascontiguousarray(bounds.transpose(0, 3, 1, 2)).reshape(len(place), -1)
+    along = np.ascontiguousarray(bounds.transpose(0, 3, 1, 2)).reshape(len(base), -1)
     rows[:, 3:15] = along.view(np.uint32)
     last = (level.child >= 0).sum(axis=1) - 1
     rows[:, 15] = base | last << LINK_BITS
-    slots[place] = rows
+    return rows

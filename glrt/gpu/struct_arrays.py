@@ -98,24 +98,26 @@ def uniform_content(rows: Array) -> bytes:
 
 def texture_of(gl: moderngl.Context, rows: Array) -> moderngl.Texture:
     """The texture of an array."""
-    size, content = texels(rows.tobytes(), rows.itemsize)
-    texture = gl.texture(size, 4, content, dtype="u4")
+    size = ROWS * rows.itemsize // _TEXEL, _height(len(rows))
+    texture = gl.texture(size, 4, dtype="u4")
     texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated
+    write_rows(texture, rows, len(rows))
     return texture
 
 
 def write_rows(texture: moderngl.Texture, rows: Array, count: int) -> None:
-    """Write the first `count` of the rows, or some more, into the texture of as many rows."""
-    height = min(-(-count // ROWS), -(-len(rows) // ROWS))
-    size, content = texels(rows[: height * ROWS].tobytes(), rows.itemsize)
-    length = size[0] * height * _TEXEL
-    texture.write(content[:length], viewport=(0, 0, size[0], height))
+    """Write the first `count` rows of an array, or some more, into its texture.
 
-
-def texels(data: bytes, itemsize: int) -> tuple[tuple[int, int], bytes]:
-    """Width and height of the texture for an array of structs, and its content."""
-    width, height = ROWS * itemsize // _TEXEL, _height(len(data) // itemsize)
-    return (width, height), data.ljust(width * height * _TEXEL, b"\0")
+    Without a copy of them, but for the last line: there may be a hundred million bytes.
+    """
+    whole, rest = divmod(count, ROWS)
+    width = ROWS * rows.itemsize // _TEXEL
+    lines = np.ascontiguousarray(rows[: whole * ROWS])
+    if whole:
+        texture.write(lines.view(np.uint8).data, viewport=(0, 0, width, whole))
+    if rest:
+        last = rows[whole * ROWS : (whole + 1) * ROWS].tobytes().ljust(ROWS * rows.itemsize, b"\0")
+        texture.write(last, viewport=(0, whole, width, 1))
 
 
 def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:

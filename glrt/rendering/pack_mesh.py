@@ -21,6 +21,7 @@ from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]
 
+PORTION = 1 << 16  # triangles that are packed at once, so that memory is bounded
 _OCTANT = 32767  # of a coordinate of a normal: 16 bits, with 0 and 1 exact
 
 
@@ -100,10 +101,13 @@ def _corners(local: Array, normal: Array) -> Array:
 
 def _triangles(exact: Array, found: Triangles) -> Array:
     rows = np.zeros(len(found.face), STRUCTS["Triangle"])
-    corner = exact[found.face]
-    across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     rows["corners"], rows["owner"] = found.face, found.mesh
-    rows["normal"], rows["reach"] = _unit(across), np.abs(corner).max(axis=(1, 2))
+    for first in range(0, len(rows), PORTION):
+        some = slice(first, first + PORTION)
+        corner = exact[found.face[some]]
+        across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        rows["normal"][some] = _unit(across)
+        rows["reach"][some] = np.abs(corner).max(axis=(1, 2))
     return rows
 
 

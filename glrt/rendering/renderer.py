@@ -210,10 +210,8 @@ class Renderer:
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
-        if not 1 <= samples <= self.most_samples:
-            raise UsageError(
-                f"a dispatch of this scene takes 1 to {self.most_samples} samples, not {samples}"
-            )
+        if not 1 <= samples <= (most := self.most_samples):
+            raise UsageError(f"a dispatch of this scene takes 1 to {most} samples, not {samples}")
         self._check_part(self.samples + samples)
         with self.context.gl:
             self._tracer.step(samples)

@@ -71,7 +71,7 @@ def _key(parts: Sequence[Array]) -> str:
     digest = hashlib.blake2b(_code(), digest_size=16)
     for part in parts:
         digest.update(f"{part.dtype.str} {part.shape}\n".encode())
-        digest.update(np.ascontiguousarray(part).tobytes())
+        digest.update(np.ascontiguousarray(part).view(np.uint8).data)
     return digest.hexdigest()
 
 

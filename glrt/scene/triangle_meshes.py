@@ -14,6 +14,7 @@ from glrt.text import counted, number
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+PORTION = 1 << 18  # triangles whose normals are found at once, so that memory is bounded
 MOST_TRIANGLES = 4_000_000  # of a scene
 
 
@@ -31,8 +32,9 @@ class TriangleMesh:
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
         """Its lowest and highest coordinates, (3,) each."""
-        used = self.vertices[self.faces.ravel()]
-        return used.min(axis=0), used.max(axis=0)
+        used = np.zeros(len(self.vertices), bool)
+        used[self.faces] = True
+        return self.vertices[used].min(axis=0), self.vertices[used].max(axis=0)
 
     @cached_property
     def shading_normals(self) -> Floats:
@@ -93,7 +95,14 @@ class TriangleMesh:
 
     def _mean_normals(self) -> Floats:
         place = places(self.vertices)
-        corners = self.vertices[self.faces]
+        mean = np.zeros((len(place), 3))
+        for first in range(0, len(self.faces), PORTION):
+            mean += self._sums(place, self.faces[first : first + PORTION])
+        return mean[place]
+
+    def _sums(self, place: Ints, faces: Ints) -> Floats:
+        """What some of the triangles add to the normals in each place."""
+        corners = self.vertices[faces]
         edges = np.roll(corners, -1, axis=1) - corners
         length = np.linalg.norm(edges, axis=2, keepdims=True)
         along = np.divide(edges, length, out=np.zeros_like(edges), where=length > 0)
@@ -102,11 +111,11 @@ class TriangleMesh:
         across = np.cross(along[:, 0], along[:, 1])
         length = np.linalg.norm(across, axis=1, keepdims=True)
         facing = np.divide(across, length, out=np.zeros_like(across), where=length > 0)
-        at = place[self.faces].ravel()
+        at = place[faces].ravel()
         weighted = (angle[:, :, None] * facing[:, None]).reshape(-1, 3)
         sums = [np.bincount(at, weighted[:, axis], len(place)) for axis in range(3)]
-        mean: Floats = np.stack(sums, axis=1).astype(np.float64)[place]
-        return mean
+        added: Floats = np.stack(sums, axis=1)
+        return added
 
 
 def checked(

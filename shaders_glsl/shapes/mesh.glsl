@@ -125,13 +125,15 @@ vec3 unpacked_normal(uint bits) {
 vec3 corner_normal(Corner corner, int instance) {
     precise vec3 normal = unpacked_normal(corner.normal);
     if (instance > 0) normal = facing_of(instance_at(instance - 1), normal);
-    return normalized(normal);
+    precise vec3 unit = normalized(normal);
+    return unit;
 }
 
 // The normal of the surface as it is, which tells its sides.
 vec3 triangle_normal(Triangle triangle, int instance) {
     if (instance == 0) return triangle.normal;
-    return normalized(facing_of(instance_at(instance - 1), triangle.normal));
+    precise vec3 normal = normalized(facing_of(instance_at(instance - 1), triangle.normal));
+    return normal;
 }
 
 // The normal between those of the corners, on the side of the triangle's own.

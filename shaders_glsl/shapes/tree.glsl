@@ -13,6 +13,8 @@ Hit nearer(Hit hit, float t, int shape, int ignored) {
 
 int kind_of(Slot leaf) { return int(leaf.d.w >> 28u & 7u); }
 
+int number_in(Slot leaf) { return int(leaf.d.w & LINK); }
+
 // The shape of a leaf; its packer: glrt/rendering/pack_tree.py.
 Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int ignored) {
     int kind = kind_of(slot);
@@ -33,7 +35,7 @@ Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int 
         if (triangles.y != ray.origin_shape) hit = nearer(hit, second, triangles.y, ignored);
     }
     if (!HAS_TREE) return hit;
-    int shape = int(slot.d.w & LINK);
+    int shape = number_in(slot);
     if (HAS_SPHERE && !HAS_SPHERE_TREE && kind == SPHERE) {
         precise float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
         hit = nearer(hit, t, shape, ignored);
@@ -200,7 +202,7 @@ Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
     precise vec3 start = turned_in(inward, outside.start - inward.origin);
     precise vec3 direction = turned_in(inward, outside.direction);
     precise float largest = uintBitsToFloat(slot.d.y) * (outside.largest + inward.reach);
-    int instance = int(slot.d.w & LINK);
+    int instance = number_in(slot);
     precise vec3 clear = instance == left.instance ? start + left.shift : start;
     bool goes_in = walk.goes_in;
     bool gets_out = walk.gets_out && now.instance > 0;

@@ -120,10 +120,10 @@ struct Slot {
 };
 
 // Kinds of leaves.
+const int INSTANCE = 0;   // a mesh with a tree of its own: see glrt/rendering/pack_instances.py
 const int SPHERE = 1;
 const int QUAD = 2;
 const int DISK = 3;
 const int BOX = 4;
 const int CYLINDER = 5;
-const int INSTANCE = 6;   // see glrt/rendering/pack_instances.py
 const int TRIANGLES = 7;  // two of a mesh: see glrt/rendering/pack_mesh.py

@@ -122,7 +122,7 @@ def test_a_wrong_stride_is_caught_though_every_offset_is_right(ctx: moderngl.Con
 
 
 def test_all_structs_of_the_shader_file_are_read() -> None:
-    shapes = "Sphere Plane Quad Disk Box Cylinder Mesh Corner Tint Triangle Node Slot"
+    shapes = "Sphere Plane Quad Disk Box Cylinder Mesh Corner Tint Triangle Instance Node Slot"
     assert (
         " ".join(STRUCTS)
         == f"{shapes} Material Emitter Conductor Glass Gloss Albedo Light Cluster Aim Camera Frame"

@@ -18,6 +18,7 @@ from glrt.gpu.program import Kernel
 from glrt.methods.contents import MOST_NEAR, SPHERES_FROM, TREE_FROM
 from glrt.methods.features import Needs, needs_of
 from glrt.resources import folder
+from glrt.scene import own_trees
 from glrt.settings import settings_for
 from tests.support.builders import (
     EVERYTHING,
@@ -32,116 +33,17 @@ from tests.support.builders import (
     scene_of,
     sphere,
 )
+from tests.support.feature_probes import ALWAYS, GONE_TOO, NEEDED_TOO, PROBES
 from tests.support.kernel_text import written_for_everything
 from tests.support.meshes import mesh
 
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
-# Of each feature: its file, an expression that it computes, and that expression with the probe.
-PROBES = {
-    "HAS_SPHERE": ("shapes/sphere.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
-    "HAS_PLANE": ("shapes/plane.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),
-    "HAS_QUAD": ("shapes/quad.glsl", "dot(quad.dual_u, p)", "dot({} * quad.dual_u, p)"),
-    "HAS_DISK": ("shapes/disk.glsl", "dot(p, p)", "dot({} * p, p)"),
-    "HAS_BOX": ("shapes/box.glsl", "- face.w)", "- {} * face.w)"),
-    "HAS_CYLINDER": ("shapes/cylinder.glsl", "height * cylinder.axis", "{} * cylinder.axis"),
-    "HAS_SPHERE_TREE": (
-        "shapes/sphere_tree.glsl",
-        "lesser(last.z, limit)",
-        "lesser(last.z, {} * limit)",
-    ),
-    "HAS_TREE": ("shapes/tree.glsl", "int(slot.d.w & LINK)", "int({} * float(slot.d.w & LINK))"),
-    "HAS_MESH": ("shapes/mesh.glsl", "shares.y * b.z", "{} * shares.y * b.z"),
-    "HAS_SMOOTH": ("shapes/mesh.glsl", "shares.y * normalized(", "{} * shares.y * normalized("),
-    "HAS_VERTEX_COLOR": ("shapes/mesh.glsl", "first + shares.y", "first + {} * shares.y"),
-    "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
-    "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "_normal(alpha, vertex.wo", "_normal({}, vertex.wo"),
-    "HAS_CONDUCTOR": ("bsdfs/conductor.glsl", "= cosine * cosine;", "= {} * cosine * cosine;"),
-    "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
-    "HAS_ROUGH_GLASS": ("bsdfs/rough_dielectric.glsl", "vertex.eta * cos_o +", "{} * cos_o +"),
-    "HAS_PRINCIPLED": ("bsdfs/principled.glsl", "chances.z * even", "{} * chances.z * even"),
-    "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
-    "HAS_TRANSMISSION": (
-        "bsdfs/principled.glsl",
-        "u >= gloss.coverage",
-        "u >= {} * gloss.coverage",
-    ),
-    "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
-    "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
-    "HAS_NESTED": (
-        "integrators/media.glsl",
-        "return glass_at(medium).ior",
-        "return {} * glass_at(medium).ior",
-    ),
-    "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
-    "HAS_BACKGROUND": (
-        "integrators/path.glsl",
-        "path.throughput * background(",
-        "{} * path.throughput * background(",
-    ),
-    "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
-    "HAS_SUN": ("lights/sun.glsl", "direction - frame.sun", "direction - {} * frame.sun"),
-    "SAMPLE_SUN": ("lights/sun.glsl", "sample_cone(frame.sun_versine", "sample_cone({}"),
-    "HAS_CONE": ("lights/emission.glsl", "0.5 * dot(aside, aside)", "{} * dot(aside, aside)"),
-    "HAS_ONE_SIDED": (
-        "lights/emission.glsl",
-        "emitter.is_one_sided != 0",
-        "{} * float(emitter.is_one_sided) != 0.0",
-    ),
-    "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
-    "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "share.x * quad.edge_u", "{} * quad.edge_u"),
-    "HAS_DISK_LIGHT": ("lights/sampling.glsl", "vec3(place, 0.0)", "vec3({} * place, 0.0)"),
-    "HAS_MESH_LIGHT": ("lights/sampling.glsl", "share_b * triangle.edge_b", "{} * triangle.edge_b"),
-    "SAMPLE_LIGHTS": (
-        "lights/sampling.glsl",
-        "ray.direction = point.direction",
-        "ray.direction = {} * point.direction",
-    ),
-    "WEIGHT_BOTH": ("integrators/path.glsl", "p_b / p_a", "{} * p_b / p_a"),
-    "QUADS_BY_AREA": ("lights/sampling.glsl", "quad.width * quad.height", "{} * quad.width"),
-    "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
-    "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
-}
-ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
-NEEDED_TOO = {
-    "HAS_SPHERE_TREE": {"HAS_SPHERE"},
-    "HAS_TREE": {"HAS_DISK"},
-    "HAS_CONDUCTOR": {"HAS_MIRROR"},
-    "HAS_COAT": {"HAS_PRINCIPLED"},
-    "HAS_TRANSMISSION": {"HAS_PRINCIPLED", "HAS_DIELECTRIC"},
-    "SAMPLE_SUN": {"HAS_SUN"},
-    "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
-    "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
-    "HAS_NESTED": {"HAS_DIELECTRIC"},
-    "HAS_SMOOTH": {"HAS_MESH"},
-    "HAS_VERTEX_COLOR": {"HAS_MESH"},
-    "HAS_ONE_SIDED": {"HAS_DISK"},
-    "HAS_MESH_LIGHT": {"HAS_MESH", "SAMPLE_LIGHTS"},
-    "HAS_HORIZON": {"HAS_BACKGROUND"},
-    "HAS_SPHERE_LIGHT": {"HAS_SPHERE", "SAMPLE_LIGHTS"},
-    "HAS_QUAD_LIGHT": {"HAS_QUAD", "SAMPLE_LIGHTS"},
-    "HAS_DISK_LIGHT": {"HAS_DISK", "SAMPLE_LIGHTS"},
-    "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
-    "QUADS_BY_AREA": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
-    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
-    "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD", "HAS_TREE"},
-}
 
-GONE_TOO = {
-    "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
-    "HAS_BACKGROUND": {"HAS_HORIZON"},
-    "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION"},
-    "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED", "HAS_TRANSMISSION"},
-    "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
-    "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
-    "HAS_DISK": {"HAS_DISK_LIGHT"},
-    "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH", "HAS_VERTEX_COLOR"},
-    "WEIGHT_BOTH": {"QUADS_BY_AREA"},
-    "QUADS_BY_AREA": {"WEIGHT_BOTH"},
-    "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
-    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT", "SAMPLE_SUN"},
-    "HAS_SUN": {"SAMPLE_SUN"},
-}
-GONE_TOO["SAMPLE_SUN"] = GONE_TOO["SAMPLE_LIGHTS"] - {"SAMPLE_SUN"} | {"SAMPLE_LIGHTS"}
+
+@pytest.fixture(autouse=True)
+def _instances(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A triangle that is used twice has a tree of its own."""
+    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1)
 
 
 def smallest_with(flag: str) -> set[str]:
@@ -236,7 +138,8 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [box([0, 0, 0], [1, 1, 1], "matte")] if "HAS_BOX" in flags else []
     tube = cylinder([0, 0, 0], [1, 1, 1], 1, "matte")
     objects += [tube] if "HAS_CYLINDER" in flags else []
-    objects += [_triangle("matte", flags)] if "HAS_MESH" in flags else []
+    triangles = 2 if "HAS_INSTANCE" in flags else 1
+    objects += [_triangle("matte", flags)] * triangles if "HAS_MESH" in flags else []
     lamps = [sphere([0, 2, 0], 0.5, "lamp")] if "HAS_SPHERE_LIGHT" in flags else []
     lamps += [_triangle("lamp", flags)] if "HAS_MESH_LIGHT" in flags else []
     lit = "HAS_QUAD_LIGHT" in flags

@@ -94,8 +94,8 @@ MESHES = [
         (
             Edit(
                 "glrt/rendering/pack_mesh.py",
-                "for shape in scene.visible if isinstance(shape, Mesh)]",
-                "for shape in scene.objects if isinstance(shape, Mesh)]",
+                "placed = scene.meshes",
+                "placed = [it for it in scene.objects if isinstance(it, Mesh)]",
             ),
         ),
         f"{_COLORS}::test_each_mesh_has_its_own_colours",

@@ -8,6 +8,7 @@ from tests.mutation.aovs import AOVS
 from tests.mutation.comparing import COMPARING
 from tests.mutation.film import FILM
 from tests.mutation.glass import GLASS
+from tests.mutation.instances import INSTANCES
 from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
@@ -23,6 +24,7 @@ MUTANTS = [
     *PRINCIPLED,
     *SHAPES,
     *MESHES,
+    *INSTANCES,
     *METALS,
     *GLASS,
     *LIGHTS,

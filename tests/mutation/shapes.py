@@ -112,15 +112,15 @@ SHAPES = [
         (
             Edit(
                 "glrt/accel/wide_tree.py",
-                "end = np.ceil((high[level.child]",
-                "end = np.floor((high[level.child]",
+                "end = np.ceil((high - corner",
+                "end = np.floor((high - corner",
             ),
         ),
         "accel/test_wide_tree.py::test_the_box_of_a_child_holds_all_below_it_and_little_more",
     ),
     Mutant(
         "shadow rays leave out what is left of a node when they go below",
-        edit("shapes/tree.glsl", "bool pushes = enters && group.y != 0u;", "bool pushes = false;"),
+        edit("shapes/tree.glsl", "bool pushes = (enters || walk.goes_in)", "bool pushes = false"),
         "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
 ]

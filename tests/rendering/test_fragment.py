@@ -11,7 +11,7 @@ import pytest
 from glrt.doctor.report import examine
 from glrt.gpu.context import Context
 from glrt.gpu.evaluate import Probe
-from glrt.gpu.struct_arrays import ROWS, scene_arrays, texels, texture_of
+from glrt.gpu.struct_arrays import ROWS, scene_arrays, texture_of, write_rows
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.rendering.kernel_structs import STRUCTS
@@ -86,16 +86,30 @@ def test_what_a_window_has_turned_on_does_not_touch_the_picture(context: Context
     assert disturbed == plain
 
 
-def test_structs_survive_the_way_through_a_texture() -> None:
+def test_structs_survive_the_way_through_a_texture(ctx: moderngl.Context) -> None:
     for dtype in STRUCTS.values():
         if dtype.itemsize > 7 * 16:
             continue  # a frame is no array
-        rows = np.random.default_rng(1).integers(0, 256, (ROWS + 3) * dtype.itemsize, np.uint8)
-        (width, height), content = texels(rows.tobytes(), dtype.itemsize)
-        assert width <= 16_384
-        assert height == 2
-        assert content.startswith(rows.tobytes())
-        assert len(content) == 16 * width * height
+        drawn = np.random.default_rng(1).integers(0, 256, (ROWS + 3) * dtype.itemsize, np.uint8)
+        texture = texture_of(ctx, drawn.view(dtype))
+        assert texture.width <= 16_384
+        assert texture.height == 2
+        assert texture.read().startswith(drawn.tobytes())
+        texture.release()
+
+
+def test_the_first_rows_of_a_texture_are_written_anew(ctx: moderngl.Context) -> None:
+    """Others stay, but for those of the last line that is touched."""
+    dtype = STRUCTS["Slot"]
+    old, new = (np.full(5 * ROWS * dtype.itemsize, k, np.uint8).view(dtype) for k in (1, 2))
+    for count in (1, ROWS, ROWS + 1, 5 * ROWS):
+        texture = texture_of(ctx, old)
+        write_rows(texture, new, count)
+        found = np.frombuffer(texture.read(), np.uint8).reshape(texture.height, -1)
+        lines = -(-count // ROWS)
+        assert (found[:lines] == 2).all()
+        assert (found[lines:5] == 1).all()
+        texture.release()
 
 
 def accessor(struct: str, rows: Any) -> str:
