@@ -25,8 +25,10 @@ class Side:
         settings = {"width": settings["size"], "height": settings["size"], **settings}
         del settings["size"]
         self._renderer = glrt.Renderer(glrt.load(scene), tier="baked", **settings)
+        seconds: Any = getattr(self._renderer, "seconds", None)  # older ones have no table of them
+        compiled = seconds["compile"] if seconds else getattr(self._renderer, "compile_seconds", 0)
         return {
-            "compile_seconds": self._renderer.compile_seconds,
+            "compile_seconds": compiled,
             "renderer": str(self._renderer.context.renderer),
         }
 

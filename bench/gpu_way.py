@@ -59,7 +59,7 @@ def measure(work: Work, pictures: Path) -> dict[str, Any]:
     return {
         **_opened(context),
         "tier": renderer.tier,  # scenes of many shapes are never baked
-        "compile_seconds": renderer.compile_seconds,
+        "compile_seconds": renderer.seconds["compile"],
         "longest_dispatch": dispatch,
         "samples_per_second": work.samples * work.size**2 / statistics.median(taken),
         "peak_bytes": peak_bytes(),

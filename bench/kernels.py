@@ -107,7 +107,7 @@ def _row(
         scene=name,
         method=method,
         variant=variant.name,
-        compile_seconds=renderer.compile_seconds,
+        compile_seconds=renderer.seconds["compile"],
         samples_per_second=rate,
         ratio=middle,
         ratio_low=low,

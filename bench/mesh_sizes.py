@@ -104,7 +104,7 @@ def measure(context: Context, steps: Sequence[int], size: int, rounds: int) -> l
             triangles,
             read,
             built,
-            renderer.compile_seconds,
+            renderer.seconds["compile"],
             each,
             size**2 / statistics.median(times) / 1e6,
             ratio_of(times, runs[0]),

@@ -5,7 +5,7 @@ camera, as the shapes themselves are. So a camera that moves writes leaves anew,
 Leaves of triangles are relative to the middle of the grid: those stay.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,7 +35,7 @@ class Boxes(NamedTuple):
     first: int  # the kernel's number of the first shape
     lower: Floats  # (n, 3)
     upper: Floats
-    words: Words | None = None  # (n, SLOT): leaves that no camera changes; None: of `slots_of`
+    words: Callable[[], Words] | None = None  # leaves that no camera changes, (n, SLOT)
 
 
 class ShapeTree(NamedTuple):
@@ -72,11 +72,12 @@ def build(
         )
     place = np.empty(len(lower), int)
     place[tree.item[leaves.node]] = leaves.place
+    del tree, leaves  # what follows needs as much memory
     ends = np.cumsum([len(some.lower) for some in boxes])
     places = np.split(place, ends[:-1])
     for some, where in zip(boxes, places, strict=True):
         if some.words is not None:
-            wide.slots[where] = some.words
+            wide.slots[where] = some.words()
     moved = [k for k, some in enumerate(boxes) if some.words is None]
     of_moved = [np.zeros(0, int), *(places[k] for k in moved)]
     return ShapeTree(wide, grid, tuple(boxes[k] for k in moved), np.concatenate(of_moved))

@@ -104,7 +104,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    start = time.perf_counter()
     wanted = order(arguments)
+    load = time.perf_counter() - start
     for output in arguments.outputs:
         check_writable(output)
         if arguments.scene is not None:
@@ -120,7 +122,7 @@ def _run(arguments: argparse.Namespace) -> int:
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
     with Interruption().watched() as interruption:
-        return _render(arguments, wanted, interruption)
+        return _render(arguments, wanted, interruption, load)
 
 
 def _warn(wanted: Order) -> None:
@@ -130,11 +132,13 @@ def _warn(wanted: Order) -> None:
         print(f"glrt: slow: {text}", file=sys.stderr)
 
 
-def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interruption) -> int:
+def _render(
+    arguments: argparse.Namespace, wanted: Order, interruption: Interruption, load: float
+) -> int:
     limits = wanted.limits
     renderer, autosave = opened(wanted, arguments), Autosave(arguments.outputs)
     begun = renderer.samples
-    setup = since_start() - renderer.compile_seconds
+    setup = since_start() - renderer.seconds["compile"]
     start = time.perf_counter()
     with _watch(arguments, limits, autosave, begun) as watch:
         try:
@@ -143,7 +147,8 @@ def _render(arguments: argparse.Namespace, wanted: Order, interruption: Interrup
             raise RenderError(f"{error} {autosave.advice}".strip()) from error
     seconds = {
         "setup": setup,
-        "compile": renderer.compile_seconds,
+        "load": load,
+        **renderer.seconds,
         "render": time.perf_counter() - start,
     }
     if image is None:

@@ -1,5 +1,6 @@
 """A scene in the driver's memory: its arrays, and the source of the kernels that read them."""
 
+import time
 from collections.abc import Mapping
 from typing import Any, Protocol
 
@@ -70,7 +71,10 @@ class DeviceScene:
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
         contents = plan.contents
-        self._arrays, self._tree = _packed(plan.scene, contents, before)
+        start = time.perf_counter()
+        self._tree = _tree(plan.scene, contents, before)
+        built = time.perf_counter()
+        self._arrays = _packed(plan.scene, contents, self._tree, before)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._glass = around_camera(plan.scene, contents.finishes)
         needs = needs_of(plan.scene, plan.settings, contents)
@@ -95,6 +99,7 @@ class DeviceScene:
         except (RenderError, SceneError):
             self.release()
             raise
+        self.seconds = {"build": built - start, "pack": time.perf_counter() - built}
 
     @property
     def shaders(self) -> list[Source]:
@@ -228,17 +233,21 @@ def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTab
     return known.shared() if known and known.samples(picture) else SkyTable(context.gl, picture)
 
 
-def _packed(
-    scene: Scene, contents: Contents, before: DeviceScene | None
-) -> tuple[Arrays, SceneTree | None]:
-    """The arrays and the tree of a scene; what those from before hold of it is not built again."""
-    if before and before._scene == scene:
-        return before._arrays, before._tree
+def _tree(scene: Scene, contents: Contents, before: DeviceScene | None) -> SceneTree | None:
+    """The tree of a scene; the one from before if nothing has moved since."""
     if before and before._scene.objects == scene.objects:
-        nodes, tree = before._arrays["Node"], before._tree
-        return pack_scene(scene, contents, nodes, tree), tree
-    tree = tree_of(scene, contents, before._tree if before else None)
-    return pack_scene(scene, contents, tree=tree), tree
+        return before._tree
+    return tree_of(scene, contents, before._tree if before else None)
+
+
+def _packed(
+    scene: Scene, contents: Contents, tree: SceneTree | None, before: DeviceScene | None
+) -> Arrays:
+    """The arrays of a scene; nodes of spheres from before are not built again."""
+    if before and before._scene == scene:
+        return before._arrays
+    nodes = before._arrays["Node"] if before and before._scene.objects == scene.objects else None
+    return pack_scene(scene, contents, nodes, tree)
 
 
 def _equal(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:

@@ -87,7 +87,7 @@ def own_trees(meshes: Sequence[Mesh], known: OwnTrees | None) -> OwnTrees:
 def _own_tree(mesh: Mesh) -> dict[str, Array]:
     """Slots, corners and triangles of a mesh in its frame, from the cache where they are many."""
     given, grid = mesh.triangles, _grid(mesh)
-    owner = np.zeros(len(given.faces), int)
+    owner = np.zeros(len(given.faces), np.uint32)
     found = Triangles(given.vertices, given.shading_normals, given.faces, owner)
 
     def built() -> dict[str, Array]:
@@ -140,7 +140,7 @@ def instances_of(meshes: Sequence[Mesh], numbers: Sequence[int], trees: OwnTrees
     rows["mesh"] = numbers
     words[:, 15] = LEAF | INSTANCE << LINK_BITS | np.arange(1, len(placed) + 1)
     return Instances(
-        Boxes("Instance", 0, origin - half, origin + half, words), rows, origin, half, kind
+        Boxes("Instance", 0, origin - half, origin + half, lambda: words), rows, origin, half, kind
     )
 
 

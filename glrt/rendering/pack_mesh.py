@@ -5,13 +5,14 @@ docs/explanation/meshes.md tells why.
 """
 
 from collections.abc import Collection, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from glrt.accel.shape_tree import Boxes
 from glrt.accel.split_boxes import boxes_of
-from glrt.accel.triangle_pairs import paired
+from glrt.accel.triangle_pairs import Pairs, paired
 from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid
 from glrt.methods.contents import Contents
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
@@ -31,7 +32,7 @@ class Triangles(NamedTuple):
     position: Array  # (v, 3), float64
     normal: Array  # (v, 3), unit
     face: Array  # (n, 3): numbers of corners
-    mesh: Array  # (n,): numbers of meshes, in the order of the scene
+    mesh: Array  # (n,), uint32: numbers of meshes, in the order of the scene
 
 
 def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Triangles:
@@ -44,11 +45,11 @@ def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Trian
         position.append(points)
         normal.append(_unit(shape.world_normals))
         face.append((faces if shape.is_upright else faces[:, ::-1]) + first)
-        mesh.append(np.full(len(faces), number))
+        mesh.append(np.full(len(faces), number, np.uint32))
         first += len(points)
     if not face:
         return Triangles(
-            np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, int)
+            np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, np.uint32)
         )
     return Triangles(*map(np.concatenate, (position, normal, face, mesh)))
 
@@ -67,13 +68,18 @@ def pack_triangles(found: Triangles, grid: Grid, unit: float = 1.0) -> PackedTri
     exact = local.astype(np.float64)
     pairs = paired(exact, found.face)
     around = boxes_of(exact[pairs.corner])
-    words = np.zeros((len(around.pair), SLOT), np.uint32)
-    words[:, :12] = local[pairs.corner[around.pair]].reshape(-1, 12).view(np.uint32)
-    words[:, 12:14] = pairs.triangle[around.pair]
-    words[:, 15] = LEAF | CONSTANTS["TRIANGLES"] << LINK_BITS
     corners = around.lower * unit + grid.center, around.upper * unit + grid.center
-    boxes = Boxes("Triangle", 0, *corners, words)
+    boxes = Boxes("Triangle", 0, *corners, partial(_leaves, local, pairs, around.pair))
     return PackedTriangles(boxes, _corners(local, found.normal), _triangles(exact, found))
+
+
+def _leaves(local: Array, pairs: Pairs, of: Array) -> Array:
+    """(k, SLOT): leaves of pairs by number, (k,)."""
+    rows = np.zeros((len(of), SLOT), np.uint32)
+    rows[:, :12] = local[pairs.corner[of]].reshape(-1, 12).view(np.uint32)
+    rows[:, 12:14] = pairs.triangle[of]
+    rows[:, 15] = LEAF | CONSTANTS["TRIANGLES"] << LINK_BITS
+    return rows
 
 
 def pack_tints(scene: Scene, contents: Contents) -> Array:

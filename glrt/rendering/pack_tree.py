@@ -149,7 +149,7 @@ def _built(
     if len(found.face) < tree_cache.LEAST:
         return built()
     edges = [edge for some in (*boxes, *fixed) for edge in (some.lower, some.upper)]
-    words = [some.words for some in fixed if some.words is not None]
+    words = [some.words() for some in fixed if some.words is not None]
     return tree_cache.kept([*found, *edges, *words], built)
 
 

@@ -149,9 +149,10 @@ class Renderer:
         return self._tracer.most_samples
 
     @property
-    def compile_seconds(self) -> float:
-        """What that kernel, and those of the AOVs, took to compile."""
-        return self._tracer.switch.compile_seconds + self._tracer.aovs.compile_seconds
+    def seconds(self) -> dict[str, float]:
+        """What it took to `build` trees, to `pack` the scene, and to `compile` kernels."""
+        compiled = self._tracer.switch.compile_seconds + self._tracer.aovs.compile_seconds
+        return {**self._tracer.device_scene.seconds, "compile": compiled}
 
     def aov_mean(self, aov: Aov) -> moderngl.Texture | None:
         """An AOV so far, for the window; None if it is not gathered or empty."""

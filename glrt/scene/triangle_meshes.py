@@ -37,6 +37,10 @@ class TriangleMesh:
         return self.vertices[used].min(axis=0), self.vertices[used].max(axis=0)
 
     @cached_property
+    def _place(self) -> Ints:
+        return places(self.vertices)
+
+    @cached_property
     def shading_normals(self) -> Floats:
         """(v, 3), unit: those that were given, else means of the triangles around each vertex.
 
@@ -51,7 +55,7 @@ class TriangleMesh:
     @cached_property
     def opening(self) -> str:
         """Why this encloses no volume, in words; empty if it encloses one."""
-        place = places(self.vertices)
+        place = self._place
         face: Ints = place[self.faces]
         face = face[(face != np.roll(face, 1, axis=1)).all(axis=1)]
         start, end = face.ravel(), np.roll(face, -1, axis=1).ravel()
@@ -94,7 +98,7 @@ class TriangleMesh:
         return float((a * np.cross(b, c)).sum() / 6)
 
     def _mean_normals(self) -> Floats:
-        place = places(self.vertices)
+        place = self._place
         mean = np.zeros((len(place), 3))
         for first in range(0, len(self.faces), PORTION):
             mean += self._sums(place, self.faces[first : first + PORTION])
