@@ -11,6 +11,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - many_lamps: variance and time with lamps chosen by distance, for many lamps
 - shape_counts: the speed-up by a tree over shapes, by their number
 - mesh_sizes: speed and memory by the number of triangles
+- repeated_meshes: speed and memory of meshes that are used many times, kept once or as often
 - node_visits: the number of nodes of the tree that a ray visits
 - roofline: the speed of the kernel relative to the peak of the machine
 - dispatches: the longest dispatch of a render

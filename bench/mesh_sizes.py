@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
+from unittest.mock import patch
 
 import numpy as np
 
@@ -66,6 +67,14 @@ def of_steps(steps: int) -> Scene:
     return scene_of(Mesh(*displaced(steps), material="clay"))
 
 
+def packed(scene: Scene) -> tuple[dict[str, Array], float]:
+    """The arrays of a scene, and the seconds to build and pack them, without the cache of trees."""
+    with patch("glrt.rendering.tree_cache.kept", lambda key, build: build()):
+        start = time.perf_counter()
+        arrays = pack_scene(scene, tree=tree_of(scene, contents_of(scene)))
+        return arrays, time.perf_counter() - start
+
+
 class Row(NamedTuple):
     """The figures for one mesh."""
 
@@ -87,9 +96,7 @@ def measure(context: Context, steps: Sequence[int], size: int, rounds: int) -> l
         assert mesh.triangles.shading_normals.any()
         read = time.perf_counter() - start
         scene = scene_of(mesh)
-        start = time.perf_counter()
-        arrays = pack_scene(scene, tree=tree_of(scene, contents_of(scene)))
-        built = time.perf_counter() - start
+        arrays, built = packed(scene)
         bytes_all = sum(arrays[name].nbytes for name in STILL)
         del arrays
         renderers.append(Renderer(scene, context=context, width=size, height=size))

@@ -88,7 +88,7 @@ def _own_tree(mesh: Mesh) -> dict[str, Array]:
     """Slots, corners and triangles of a mesh in its frame, from the cache where they are many."""
     given, grid = mesh.triangles, _grid(mesh)
     owner = np.zeros(len(given.faces), np.uint32)
-    found = Triangles(given.vertices, given.shading_normals, given.faces, owner)
+    found = Triangles(given.vertices, given.shading_normals, given.faces.astype(np.int32), owner)
 
     def built() -> dict[str, Array]:
         packed = pack_triangles(found, grid, grid.cell)
@@ -98,7 +98,7 @@ def _own_tree(mesh: Mesh) -> dict[str, Array]:
 
     if len(given.faces) < tree_cache.LEAST:
         return built()
-    return dict(tree_cache.kept([*found], built))
+    return dict(tree_cache.kept(tree_cache.key([*found]), built))
 
 
 def _shift(slots: Array, triangles: Array, by: Bases) -> None:

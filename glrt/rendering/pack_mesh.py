@@ -31,7 +31,7 @@ class Triangles(NamedTuple):
 
     position: Array  # (v, 3), float64
     normal: Array  # (v, 3), unit
-    face: Array  # (n, 3): numbers of corners
+    face: Array  # (n, 3), int32: numbers of corners
     mesh: Array  # (n,), uint32: numbers of meshes, in the order of the scene
 
 
@@ -44,12 +44,12 @@ def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Trian
         points, faces = shape.world_vertices, shape.triangles.faces
         position.append(points)
         normal.append(_unit(shape.world_normals))
-        face.append((faces if shape.is_upright else faces[:, ::-1]) + first)
+        face.append((faces if shape.is_upright else faces[:, ::-1]).astype(np.int32) + first)
         mesh.append(np.full(len(faces), number, np.uint32))
         first += len(points)
     if not face:
         return Triangles(
-            np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, np.uint32)
+            np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0, np.uint32)
         )
     return Triangles(*map(np.concatenate, (position, normal, face, mesh)))
 

@@ -4,7 +4,8 @@ docs/extending.md says how a kind is added.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -97,28 +98,30 @@ def tree_of(scene: Scene, contents: Contents, before: SceneTree | None = None) -
     if not boxes and not contents.shapes[MESH]:
         return None
     meshes = scene.meshes
-    found = triangles_of(meshes, contents.instances)
+    joined = [mesh for number, mesh in enumerate(meshes) if number not in contents.instances]
     placed = [meshes[number] for number in contents.instances]
     own = own_trees(placed, before.own if before else None)
     check_numbers(len(placed), contents.instance_bits, len(scene.objects))
     instances = instances_of(meshes, contents.instances, own)
     fixed = [instances.boxes] if placed else []
-    lows = [some.lower.min(axis=0) for some in (*boxes, *fixed)]
-    highs = [some.upper.max(axis=0) for some in (*boxes, *fixed)]
-    if len(found.face):
-        lows.append(found.position.min(axis=0))
-        highs.append(found.position.max(axis=0))
-    grid = grid_of(np.min(lows, axis=0), np.max(highs, axis=0))
-    parts = _built(boxes, fixed, found, grid, MOST_HEIGHT - own.height)
+    corners = [(some.lower, some.upper) for some in (*boxes, *fixed)]
+    corners += [(points, points) for points in (mesh.world_vertices for mesh in joined)]
+    grid = grid_of(
+        np.min([low.min(axis=0) for low, _ in corners], axis=0),
+        np.max([high.max(axis=0) for _, high in corners], axis=0),
+    )
+    del corners
+    count = sum(len(mesh.triangles.faces) for mesh in joined)
+    found = partial(triangles_of, meshes, contents.instances)
+    parts = _built((*boxes, *fixed), found, count, grid, MOST_HEIGHT - own.height)
     slots = parts["slots"]
     bases = Bases(len(slots), len(parts["corners"]), len(parts["triangles"]))
     own = after(own, bases)
     rows = place(slots, instances, own, grid.center)
     wide = WideTree(slots, int(parts["height"]))
     shapes = ShapeTree(wide, grid, tuple(boxes), parts["place"])
-    corners = _joined(parts["corners"], own.corners)
-    triangles = _joined(parts["triangles"], own.triangles)
-    return SceneTree(shapes, corners, triangles, len(found.face), own, rows)
+    joint = _joined(parts["corners"], own.corners), _joined(parts["triangles"], own.triangles)
+    return SceneTree(shapes, *joint, len(parts["triangles"]), own, rows)
 
 
 def _joined(first: Array, rest: Array) -> Array:
@@ -129,15 +132,23 @@ def _joined(first: Array, rest: Array) -> Array:
 
 
 def _built(
-    boxes: Sequence[Boxes], fixed: Sequence[Boxes], found: Triangles, grid: Grid, most_height: int
+    boxes: Sequence[Boxes],
+    found: Callable[[], Triangles],
+    count: int,
+    grid: Grid,
+    most_height: int,
 ) -> Mapping[str, Array]:
-    """The tree over all, corners and triangles; of many triangles from the cache."""
-    others = sum(len(some.lower) for some in (*boxes, *fixed))
+    """The tree over boxes and triangles, with the latter; of many of them from the cache.
+
+    `found` makes those `count` triangles anew when it is asked: they are not held while the tree is
+    built.
+    """
+    others = sum(len(some.lower) for some in boxes)
 
     def built() -> dict[str, Array]:
-        packed = pack_triangles(found, grid) if len(found.face) else None
-        leaves = (*boxes, *fixed, *([packed.boxes] if packed else []))
-        tree = build(leaves, grid, _room_for(others, len(found.face)), most_height)
+        packed = pack_triangles(found(), grid) if count else None
+        leaves = (*boxes, *([packed.boxes] if packed else []))
+        tree = build(leaves, grid, _room_for(others, count), most_height)
         return {
             "slots": tree.wide.slots,
             "place": tree.place,
@@ -146,11 +157,11 @@ def _built(
             "triangles": packed.triangles if packed else np.zeros(0, STRUCTS["Triangle"]),
         }
 
-    if len(found.face) < tree_cache.LEAST:
+    if count < tree_cache.LEAST:
         return built()
-    edges = [edge for some in (*boxes, *fixed) for edge in (some.lower, some.upper)]
-    words = [some.words() for some in fixed if some.words is not None]
-    return tree_cache.kept([*found, *edges, *words], built)
+    edges = [edge for some in boxes for edge in (some.lower, some.upper)]
+    words = [some.words() for some in boxes if some.words is not None]
+    return tree_cache.kept(tree_cache.key([*found(), *edges, *words]), built)
 
 
 def _room_for(shapes: int, triangles: int) -> int:

@@ -25,12 +25,13 @@ LEAST = 20_000  # triangles whose tree is kept: smaller ones are built as fast
 MOST_BYTES = 1 << 30  # of all files together; the ones used longest ago go
 
 
-def kept(parts: Sequence[Array], build: Callable[[], Arrays]) -> Arrays:
-    """What `build` makes of `parts`, from the cache if it is there; failures to write are ignored.
+def kept(known_as: str, build: Callable[[], Arrays]) -> Arrays:
+    """What `build` makes, from the cache if it is there under its `key`; else it is kept there.
 
-    `build` must give the same arrays for the same parts, without Python objects in them.
+    `build` must give the same arrays for the same key, without Python objects in them. Failures to
+    write are ignored.
     """
-    path = cache_folder("trees") / f"{_key(parts)}.npz"
+    path = cache_folder("trees") / f"{known_as}.npz"
     found = _read(path)
     if found is not None:
         with suppress(OSError):
@@ -67,7 +68,8 @@ def _drop_oldest(newest: Path) -> None:
         total -= status.st_size
 
 
-def _key(parts: Sequence[Array]) -> str:
+def key(parts: Sequence[Array]) -> str:
+    """The hash of what a tree is built from, and of the code that builds it."""
     digest = hashlib.blake2b(_code(), digest_size=16)
     for part in parts:
         digest.update(f"{part.dtype.str} {part.shape}\n".encode())
