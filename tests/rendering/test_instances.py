@@ -139,7 +139,7 @@ def test_of_ten_million_rays_none_gets_out_of_an_instance(call_glsl: CallGlsl) -
 
 
 @pytest.mark.parametrize("offset", [0.0, 300.0])
-@pytest.mark.parametrize("number", [0, 1, 3])
+@pytest.mark.parametrize("number", range(len(PLACES)))
 def test_a_ray_leaves_the_triangle_of_an_instance(
     call_glsl: CallGlsl, number: int, offset: float
 ) -> None:
@@ -161,6 +161,8 @@ def test_a_ray_leaves_the_triangle_of_an_instance(
     leaves = picked + len(scene.objects) + (1 << bits)
     out = found(call_glsl, scene, origin, direction, leaves=leaves)
     assert not (objects_met(scene, out) == 0).any()
+    if min(map(abs, stood.scale)) < 0.01:
+        return  # its rim is thinner than the roundings of a point
     back = found(call_glsl, scene, origin, -direction, leaves=leaves)
     assert (back[:, 1] >= 0).all()
     steep = (direction * normal).sum(axis=1) > 0.3
