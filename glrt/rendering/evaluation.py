@@ -9,7 +9,7 @@ import numpy as np
 from glrt.gpu.evaluate import Probe, path_files
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
-from glrt.methods.contents import contents_of
+from glrt.methods.contents import Contents, contents_of
 from glrt.methods.features import everything
 from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
@@ -19,6 +19,7 @@ from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, scene_text, upload
 from glrt.rendering.sky_table import sky_sampling, tree_texture
 from glrt.scene.glasses import around_camera
+from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 
@@ -34,16 +35,23 @@ def evaluate(
     functions: str = "",
     scene: Scene | None = None,
     constants: Mapping[str, bool | int] | None = None,
+    apart: Apart = "repeated",
 ) -> Array:
     """An expression of the functions that trace paths (`Probe` says more), of a scene or of none.
 
     Every feature is compiled in, and lamps are chosen as in the scene, unless `constants` say
-    otherwise. The context must be current.
+    otherwise; `apart` are meshes with trees of their own. The context must be current.
     """
-    tree = tree_of(scene, contents_of(scene)) if scene else None
+    contents = contents_of(scene, apart) if scene else None
+    tree = tree_of(scene, contents) if scene and contents else None
     stack = {"TREE_STACK": tree.stack if tree else 0}
-    prelude = {**everything(), **(_choice(scene) if scene else {}), **stack, **(constants or {})}
-    arrays = pack_scene(scene, tree=tree) if scene else no_rows()
+    prelude = {
+        **everything(),
+        **(_choice(contents) if contents else {}),
+        **stack,
+        **(constants or {}),
+    }
+    arrays = pack_scene(scene, contents, tree=tree) if scene else no_rows()
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
     resources = resources_of(gl, scene, arrays, tree)
@@ -74,8 +82,7 @@ def resources_of(
     return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 
 
-def _choice(scene: Scene) -> dict[str, bool | int]:
-    found = contents_of(scene)
+def _choice(found: Contents) -> dict[str, bool | int]:
     aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
     aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.conductors)}
     return {

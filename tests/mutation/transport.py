@@ -73,6 +73,8 @@ TRANSPORT = [
                 "    vec3 arrived = path.throughput;\n"
                 "    if (ROULETTE && path.depth > 0 && roulette_ends(path.throughput, rng)) {\n"
                 "        return false;\n    }\n"
+                "    vec3 raised = path.throughput;\n"
+                "    path.throughput = arrived;\n"
                 "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
             ),
             Edit(
@@ -82,8 +84,8 @@ TRANSPORT = [
             ),
             Edit(
                 "shaders_glsl/integrators/path.glsl",
-                "path.throughput * direct_light(",
-                "arrived * direct_light(",
+                "    precise Scattering next = sample_material(",
+                "    path.throughput = raised;\n    precise Scattering next = sample_material(",
             ),
         ),
         "truths/test_roulette.py::test_roulette_keeps_the_light_of_dim_paths",

@@ -21,6 +21,7 @@ _ALL = (
     Case("grazing", "A floor at grazing angles", rays.grazing),
     Case("edges", "Rays at the edge that two triangles share", triangles.edges),
     Case("leave", "Rays that leave a triangle", triangles.leave),
+    Case("stretch", "Rays that leave a flattened mesh with a tree of its own", triangles.stretch),
     Case("fov", "Narrow and wide fields of view", views.fov),
     Case("ior", "Glass with an index near 1", glass.ior),
     Case("lamp", "A small lamp", lamps.lamp),

@@ -13,6 +13,7 @@ from glrt.image.image import Image
 from glrt.rendering.evaluation import evaluate
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
+from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]
@@ -78,6 +79,7 @@ class Lab:
         scene: Scene | None = None,
         setup: str = "",
         functions: str = "",
+        apart: Apart = "repeated",
     ) -> Array:
         """Evaluate a GLSL expression of the path tracing functions over arrays (see `evaluate`).
 
@@ -85,7 +87,8 @@ class Lab:
         as in a render of the scene.
         """
         with self.context.gl as gl:
-            return evaluate(gl, expression, inputs, returns, setup, functions, scene)
+            ways = returns, setup, functions, scene, None, apart
+            return evaluate(gl, expression, inputs, *ways)
 
     def render(
         self, scene: Scene, samples: int, variant: Variant = PLAIN, **settings: Any

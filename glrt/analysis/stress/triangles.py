@@ -4,7 +4,7 @@ import numpy as np
 
 from glrt.analysis.stress.scenes import Table, matte, scene_of
 from glrt.analysis.stress.sweep import Array, Lab, Sweep
-from glrt.scene.named_meshes import mesh_of_arrays
+from glrt.scene.named_meshes import MeshFile, mesh_of_arrays
 from glrt.scene.scene import Scene
 
 # Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle Intersection" (1997).
@@ -114,6 +114,57 @@ def leave(lab: Lab) -> Sweep:
         promise=f"none of {rows} rays at any scale",
         bound=[0.5 / rows] * len(x),
     )
+
+
+STRETCHED = """
+    Ray ray = Ray(origin, direction, first_triangle() + (1 << INSTANCE_BITS) + triangle, false);
+    Hit hit = find_hit(ray, FAR, NO_SHAPE, false);
+    Hit other = find_hit(Ray(origin, direction, NO_SHAPE, false), FAR, NO_SHAPE, false);"""
+
+
+def stretch(lab: Lab) -> Sweep:
+    """Share of rays that leave a flattened ball with a tree of its own, outwards, and meet it."""
+    x = np.logspace(0, 4, 5)
+    rows = lab.count(1 << 14)
+    ball = mesh_of_arrays(*_ball(72))  # of 20,448 triangles: a large mesh
+    wrong = []
+    for factor in x:
+        scene, rays = _on_a_flat_ball(ball, float(factor), rows)
+        expression = "vec2(hit.shape != NO_SHAPE, other.shape != NO_SHAPE)"
+        found = lab.path(expression, rays, "vec2", scene, STRETCHED, apart="large")
+        wrong.append(found.mean(axis=0))
+    ours, naive = np.array(wrong).T.tolist()
+    return Sweep(
+        parameter="width of the ball over its thickness",
+        measure="share of rays that meet\nwhat they leave",
+        x=x.tolist(),
+        chosen=("glrt: starts clear of all roundings along the normal", ours),
+        others={"starts where it was hit": naive},
+        promise=f"none of {rows} rays, however flat the ball",
+        bound=[0.5 / rows] * len(x),
+    )
+
+
+def _on_a_flat_ball(file: MeshFile, factor: float, rows: int) -> tuple[Scene, dict[str, Array]]:
+    """A ball that is thin along an axis, turned, and rays that leave it outwards."""
+    random = np.random.default_rng(13)
+    thing: Table = {"shape": "mesh", "material": "white", "smooth": False, "file": file}
+    where: Table = {"translate": [3.0, -2.0, 4.0], "rotate": [20.0, 30.0, 40.0]}
+    mesh = {**thing, **where, "scale": [1.0, 1 / factor, 1.0]}
+    eye = {"position": [0.0, 0.0, 0.0], "look_at": [3.0, -2.0, 4.0]}
+    scene = scene_of([mesh], {"white": matte(0.5)}, eye)
+    placed = scene.meshes[0]
+    triangle = random.integers(0, len(placed.triangles.faces), rows)
+    corner = placed.world_vertices[placed.triangles.faces[triangle]]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    direction = random.normal(size=(rows, 3))
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    direction *= np.sign((direction * normal).sum(axis=1))[:, None]
+    share = random.dirichlet([0.3] * 3, rows)
+    origin = (share[:, :, None] * corner).sum(axis=1)
+    rays = {"origin": origin.astype(np.float32), "direction": direction.astype(np.float32)}
+    return scene, {**rays, "triangle": triangle.astype(np.int32)}
 
 
 def _on_a_ball(radius: float, rows: int) -> tuple[Scene, dict[str, Array]]:
