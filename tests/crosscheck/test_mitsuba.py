@@ -32,6 +32,7 @@ from tests.mitsuba.scenes import (
     measured,
     meshes,
     pictured,
+    polished,
     solids,
     solids_but,
     sunlit,
@@ -115,6 +116,15 @@ def test_a_planted_difference_of_solids_is_found(
 ) -> None:
     found = judged(ours(context, scene), their_solids)
     assert not found, str(found)
+
+
+def test_principled_metals_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
+    """Where both models agree: Schlick's reflectance over GGX, facets that lose little."""
+    found = judged(ours(context, polished()), theirs(mitsuba, polished()))
+    assert found, str(found)
+    assert found.sensitivity.light < 0.03
+    rougher = judged(ours(context, polished(0.6)), theirs(mitsuba, polished()))
+    assert not rougher, str(rougher)
 
 
 def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

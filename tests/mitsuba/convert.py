@@ -9,7 +9,7 @@ import numpy as np
 from glrt.errors import SceneError
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.facets import facet_loss
-from glrt.scene.materials import Dielectric, Metal, Opaque
+from glrt.scene.materials import Dielectric, Metal, Opaque, Principled
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import Disk, Plane, Quad, Sphere
@@ -244,6 +244,8 @@ def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
     material = scene.materials[finish.material]
     if isinstance(material, Dielectric):
         return {"bsdf": _glass(finish.material, material)}
+    if isinstance(material, Principled):
+        return {"bsdf": _metallic(finish.material, material)}
     surface: Words = {"bsdf": {"type": "twosided", "bsdf": _scattering(material, is_native)}}
     if any(scene.emission(finish)):
         if isinstance(material, Opaque) and material.cone:
@@ -260,6 +262,15 @@ def _glass(name: str, material: Dielectric) -> Words:
         return rough_glass.words(material.alpha, material.ior, loss)
     kind = "thindielectric" if material.thin else "dielectric"
     return {"type": kind, "int_ior": material.ior, "ext_ior": 1.0}
+
+
+def _metallic(name: str, material: Principled) -> Words:
+    """The case in which Disney's surface is glTF's, but for shadowing at high roughness."""
+    if material.metallic < 1 or material.clearcoat or material.alpha < 1:
+        raise SceneError(f"material '{name}': Mitsuba has another principled surface.")
+    color = _color(material.color)
+    roughness = float(material.roughness)
+    return {"type": "principled", "base_color": color, "metallic": 1.0, "roughness": roughness}
 
 
 def _scattering(material: Any, is_native: bool) -> Words:

@@ -87,6 +87,20 @@ def sunlit(**sun: Any) -> Scene:
     return scene_of(things, MATERIALS, CAMERA, background={"sky": {"scale": 3.0}}, sun=above)
 
 
+def polished(roughness: float = 0.3) -> Scene:
+    """Principled balls of metal: what glTF and Disney's model agree on."""
+    metal: dict[str, Any] = {"type": "principled", "metallic": 1.0}
+    materials = MATERIALS | {
+        "gold": {**metal, "color": [1.0, 0.77, 0.34], "roughness": 0.2},
+        "copper": {**metal, "color": [0.95, 0.64, 0.54], "roughness": roughness},
+    }
+    swapped = {"glass": "gold", "rough": "copper", "mirror": "gold"}
+    things = [
+        item | {"material": swapped.get(item["material"], item["material"])} for item in OBJECTS
+    ]
+    return scene_of(things, materials, CAMERA, background=SKY)
+
+
 def solids(*objects: dict[str, Any]) -> Scene:
     """Disks, boxes and cylinders of several materials."""
     return scene_of(list(objects) or SOLIDS, MATERIALS, CAMERA, background=SKY)
