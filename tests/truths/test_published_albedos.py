@@ -6,8 +6,8 @@ import pytest
 from glrt.scene.gloss import facet_shares
 
 # MaterialX (Academy Software Foundation), the rational fit of the directional albedo of GGX with
-# height-correlated shadowing: factors of 1, x, y, xy, x^2, y^2, x^2 y, x y^2 and x^2 y^2, with x the
-# cosine and y alpha, in the numerators by f0 and f90 and in their denominators.
+# height-correlated shadowing: factors of 1, x, y, xy, x^2, y^2, x^2 y, x y^2 and x^2 y^2, with the
+# cosine x and alpha y, in the numerators by f0 and f90 and in their denominators.
 FIT = np.array(
     [
         [0.1003, 0.9345, 1, 1],
