@@ -79,8 +79,8 @@ struct Walk {
     int place;  // the slot that comes next
     uvec2 group;
     bool goes_on;
-    bool goes_in;   // to an instance
-    bool gets_out;  // of it
+    bool goes_in;     // to the tree of an instance
+    bool gets_out;    // of it, if it is in one
     int depth_there;  // of the stack when it went in
 };
 
@@ -97,7 +97,7 @@ struct Course {
 
 // Visits a slot on the way to the nearest shape nearer than hit.distance, or as near and of a lower
 // number. Children are visited in the order in which the ray enters them: `group` is how many are left,
-// from bit 24 on, and their numbers, 3 bits each, the nearest first. Tells whether the slot is a leaf.
+// from bit 24 on, and their numbers, 3 bits each, the nearest first.
 void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
@@ -178,7 +178,7 @@ void visit_any(Ray ray, Course course, Slot slot, int ignored, precise inout Wal
     walk.group.y &= walk.group.y - 1u;
 }
 
-// What a course follows from.
+// What a course follows from: a ray in the frame of a tree.
 struct Among {
     vec3 start;  // relative to the middle of the grid
     vec3 clear;  // the same, off the triangle that the ray leaves
