@@ -211,7 +211,7 @@ class Renderer:
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
-        if not 1 <= samples <= (most := self.most_samples):
+        if not (most := self.most_samples) >= samples >= 1:
             raise UsageError(f"a dispatch of this scene takes 1 to {most} samples, not {samples}")
         self._check_part(self.samples + samples)
         with self.context.gl:
