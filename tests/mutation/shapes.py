@@ -94,7 +94,7 @@ SHAPES = [
     ),
     Mutant(
         "along an axis a ray with a zero below 0 enters boxes at their far sides",
-        edit("shapes/tree_node.glsl", "lessThan(inverse,", "lessThan(ray.direction,"),
+        edit("shapes/tree_node.glsl", "lessThan(inverse,", "lessThan(direction,"),
         "accel/test_shapes_by_tree.py::test_a_ray_finds_by_the_tree_what_it_finds_without",
     ),
     Mutant(
