@@ -62,7 +62,7 @@ def test_json_is_one_line_with_the_promised_figures(
     assert figures["error"] == pytest.approx(Image.load(first[0] / "a.exr").error)
     seconds = figures["seconds"]
     assert isinstance(seconds, dict)
-    assert list(seconds) == ["setup", "compile", "render"]
+    assert list(seconds) == ["setup", "load", "build", "pack", "compile", "render"]
     assert figures["samples_per_second"] == pytest.approx(24 * 16 * 4 / seconds["render"], rel=0.01)
     assert 20e6 < float(str(figures["peak_bytes"])) < 4e9
 
