@@ -232,13 +232,13 @@ def test_stretched_instances_are_shaded_as_if_kept_apart(
 def test_instances_scaled_by_a_power_of_two_keep_their_bits(context: Context, power: int) -> None:
     settings: dict[str, Any] = {"width": 16, "height": 16, "bounces": 6}
     plain = rendered(group(), context, 8, **settings)
-    same(plain, rendered(group(2.0**power), context, 8, **settings))
+    assert same(plain, rendered(group(2.0**power), context, 8, **settings))
 
 
 def test_instances_far_from_the_origin_keep_their_bits(context: Context) -> None:
     settings: dict[str, Any] = {"width": 16, "height": 16, "bounces": 6}
     plain = rendered(group(), context, 8, **settings)
-    same(plain, rendered(group(1.0, (2.0**20, -(2.0**19), 2.0**18)), context, 8, **settings))
+    assert same(plain, rendered(group(1.0, (2.0**20, -(2.0**19), 2.0**18)), context, 8, **settings))
 
 
 def test_the_triangles_of_instances_are_kept_once() -> None:
