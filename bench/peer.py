@@ -23,7 +23,8 @@ from bench.processes import Process
 from glrt.errors import GlrtError, RenderError
 from glrt.image.image import Image
 from glrt.scene.assets import AssetFolder
-from glrt.scene.loading import copy_files, files_of, hashes_of, with_files
+from glrt.scene.file_copies import copy_files
+from glrt.scene.loading import files_of, hashes_of, with_files
 from glrt.scene.scene import Scene
 from glrt.scene.toml import parse_scene, scene_to_dict
 

@@ -8,6 +8,7 @@
 #include "sampling/sobol.glsl"
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"
+#include "sampling/angle.glsl"
 #include "shapes/all_shapes.glsl"
 #include "integrators/camera.glsl"
 #include "film/pixel.glsl"

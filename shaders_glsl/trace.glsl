@@ -9,6 +9,7 @@
 #include "sampling/sobol.glsl"
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"
+#include "sampling/angle.glsl"
 #include "shapes/all_shapes.glsl"
 #include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from glrt.scene.materials import Dielectric, Material, Metal, Principled, glass_of
+from glrt.scene.materials import Dielectric, Material, Metal, Opaque, Principled, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.own_trees import Apart, tree_sizes, with_own_tree
 from glrt.scene.scene import Finish, Scene
@@ -96,16 +96,22 @@ class Contents:
         return [name for name, material in own.items() if material.clearcoat > 0]
 
     @property
+    def mapped(self) -> set[str]:
+        """The keys that are images in some material."""
+        opaque = [it for it in self.materials.values() if isinstance(it, Opaque)]
+        return {key for it in opaque for key in it.textures}
+
+    @property
     def transmitting(self) -> list[str]:
         """The principled materials that are glass in part, or have holes."""
         own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
-        return [name for name, it in own.items() if it.glass or it.alpha < 1]
+        return [name for name, it in own.items() if it.glass or it.has_holes]
 
     @property
     def holed(self) -> list[str]:
         """The principled materials that light passes in part."""
         own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
-        return [name for name, it in own.items() if it.alpha < 1]
+        return [name for name, it in own.items() if it.has_holes]
 
     @property
     def solid_glasses(self) -> list[str]:
@@ -168,10 +174,10 @@ def contents_of(scene: Scene, apart: Apart = "repeated") -> Contents:
     """Count what is in a scene; `apart` are the meshes with trees of their own."""
     shapes = dict.fromkeys(KINDS, 0)
     lamps = dict.fromkeys(KINDS, 0)
-    emits = {name: material.emits for name, material in scene.materials.items()}
+    samples = {name: is_sampled(material) for name, material in scene.materials.items()}
     for shape in scene.visible:
         shapes[shape.shape] += 1
-        lamps[shape.shape] += emits[shape.material]
+        lamps[shape.shape] += samples[shape.material]
     meshes = scene.meshes
     instances = with_own_tree(meshes, scene.materials, apart)
     shared, own = tree_sizes(meshes, instances)
@@ -182,12 +188,19 @@ def contents_of(scene: Scene, apart: Apart = "repeated") -> Contents:
         finishes,
         lamps,
         triangles=shared + sum(own),
-        bright_triangles=sum(len(mesh.triangles.faces) for mesh in meshes if emits[mesh.material]),
+        bright_triangles=sum(
+            len(mesh.triangles.faces) for mesh in meshes if samples[mesh.material]
+        ),
         instances=instances,
         largest_tree=max([shared, *own]),
         is_smooth=any(mesh.smooth for mesh in meshes),
         is_colored=any(has_vertex_colors(scene, mesh) for mesh in meshes),
     )
+
+
+def is_sampled(material: Material) -> bool:
+    """Whether a lamp of this material can be sampled: one whose emission is an image is not."""
+    return material.emits and not (isinstance(material, Opaque) and "emission" in material.textures)
 
 
 def has_vertex_colors(scene: Scene, mesh: Mesh) -> bool:

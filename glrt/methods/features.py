@@ -42,6 +42,12 @@ class Needs:
     instance_bits: int
     has_smooth: bool  # meshes whose normals are interpolated
     has_vertex_color: bool  # meshes whose vertices have colours
+    has_map: bool  # images on surfaces
+    has_color_map: bool
+    has_emission_map: bool
+    has_gloss_map: bool  # of metallic or roughness
+    has_normal_map: bool
+    has_coverage_map: bool  # of alpha
     has_mirror: bool
     has_rough_metal: bool
     has_rough_glass: bool
@@ -118,6 +124,12 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         instance_bits=found.instance_bits,
         has_smooth=found.is_smooth,
         has_vertex_color=found.is_colored,
+        has_map=bool(found.mapped),
+        has_color_map="color" in found.mapped,
+        has_emission_map="emission" in found.mapped,
+        has_gloss_map=bool(found.mapped & {"metallic", "roughness"}),
+        has_normal_map="normal" in found.mapped,
+        has_coverage_map="alpha" in found.mapped,
         has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
         has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
         has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),

@@ -13,8 +13,10 @@ Modules, each importing only what stands above it:
 - pack_instances: meshes with a tree of their own, and where they stand
 - pack_tree: the tree over shapes, a packer of leaves for each kind
 - pack_lights: lamps as rows of the kernel's blocks
+- pack_maps: images on surfaces, and where they lie on shapes
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values
+- texel_texture: the texels of images on surfaces
 - pipelines: compute or fragment shader
 - image_texture: an image of a scene as a texture
 - sky_table: the image of the sky as a tree by which it is sampled

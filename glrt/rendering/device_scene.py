@@ -19,12 +19,14 @@ from glrt.methods.light_layers import Plan
 from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.rendering.pack_maps import images_of, textures_of
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
     SKY_TREE,
+    TEXELS,
     KernelOptions,
     Tier,
     scene_text,
@@ -34,6 +36,7 @@ from glrt.rendering.pipelines import (
 )
 from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.rendering.sky_table import SkyTable
+from glrt.rendering.texel_texture import TexelTexture
 from glrt.scene.glasses import around_camera
 from glrt.scene.loading import check_loaded
 from glrt.scene.scene import Scene
@@ -88,11 +91,13 @@ class DeviceScene:
         self._kept: dict[str, Shared] = {}  # arrays that renderers of edited scenes share
         self._sky: ImageTexture | None = None
         self._sky_table: SkyTable | None = None
+        self._texels: TexelTexture | None = None
         check_loaded(plan.scene)
         try:
             with context.checked("the scene"):
                 self._upload(before)
                 self._sky = _sky_image(context, plan.scene, before._sky if before else None)
+                self._texels = _texel_texture(context, plan, before._texels if before else None)
                 if needs.sample_sky:
                     known = before._sky_table if before else None
                     self._sky_table = _sky_table(context, plan.scene, known)
@@ -145,6 +150,8 @@ class DeviceScene:
             resources = {**resources, ENVIRONMENT: self._sky.resource}
         if self._sky_table:
             resources = {**resources, SKY_TREE: self._sky_table.resource}
+        if self._texels:
+            resources = {**resources, TEXELS: self._texels.resource}
         kernel.bind(resources, film.images())
         kernel.run_tiles(part.tiles)
 
@@ -158,9 +165,13 @@ class DeviceScene:
     def release(self) -> None:
         """Free what the driver holds."""
         own = {name: some for name, some in self._resources.items() if name not in self._kept}
-        for resource in (*own.values(), *self._kept.values(), self._sky, self._sky_table):
+        for resource in (*own.values(), *self._kept.values(), *self._images):
             if resource:
                 resource.release()
+
+    @property
+    def _images(self) -> list[Shared | None]:
+        return [self._sky, self._sky_table, self._texels]
 
     def _upload(self, before: "DeviceScene | None") -> None:
         self._frame = self._resources["FrameBlock"] = self._gl.buffer(
@@ -231,6 +242,13 @@ def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTab
     picture = scene.sky
     assert picture is not None
     return known.shared() if known and known.samples(picture) else SkyTable(context.gl, picture)
+
+
+def _texel_texture(context: Context, plan: Plan, known: TexelTexture | None) -> TexelTexture | None:
+    images = images_of(textures_of(plan.scene, plan.contents.finishes))
+    if not images:
+        return None
+    return known.shared() if known and known.holds(images) else TexelTexture(context, images)
 
 
 def _tree(scene: Scene, contents: Contents, before: DeviceScene | None) -> SceneTree | None:

@@ -14,10 +14,12 @@ from glrt.methods.features import everything
 from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.rendering.pack_maps import images_of, textures_of
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pack_tree import SceneTree, tree_of
-from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, scene_text, upload
+from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, scene_text, upload
 from glrt.rendering.sky_table import sky_sampling, tree_texture
+from glrt.rendering.texel_texture import texture_of as texels_of
 from glrt.scene.glasses import around_camera
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
@@ -79,6 +81,8 @@ def resources_of(
     sky: dict[str, Resource] = {}
     if pixels is not None and sampling:
         sky = {ENVIRONMENT: texture_of(gl, pixels), SKY_TREE: tree_texture(gl, sampling.tree)}
+    if scene and (images := images_of(textures_of(scene, scene.finishes))):
+        sky[TEXELS] = texels_of(gl, images)
     return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 
 
@@ -92,6 +96,7 @@ def _choice(found: Contents) -> dict[str, bool | int]:
         "HAS_INSTANCE": bool(found.instances),
         "INSTANCE_BITS": found.instance_bits,
         "HAS_TRANSMISSION": bool(found.transmitting),
+        "HAS_MAP": bool(found.mapped),
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),
@@ -103,7 +108,7 @@ def _choice(found: Contents) -> dict[str, bool | int]:
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
     trees, lamps = (
-        ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint"),
+        ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint", "Axes", "Uv", "Map", "Maps"),
         ("Emitter", "Light", "Cluster", "Aim"),
     )
     others = (*trees, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)

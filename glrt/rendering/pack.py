@@ -13,6 +13,7 @@ from glrt.methods.contents import Contents, contents_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_details import pack_conductors, pack_facets
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
+from glrt.rendering.pack_maps import pack_coordinates, pack_maps
 from glrt.rendering.pack_materials import pack_emitters, pack_materials
 from glrt.rendering.pack_mesh import pack_tints
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
@@ -52,6 +53,8 @@ def pack_scene(
         **pack_tree(tree, arrays),
         **({"Triangle": tree.lit_by(lights, len(shapes))} if tree else {}),
         "Tint": pack_tints(scene, found),
+        **pack_coordinates(scene, shapes, found, eye),
+        **pack_maps(scene, found.finishes),
         "Material": pack_materials(scene, found.finishes),
         "Conductor": pack_conductors(scene, found.finishes),
         **pack_facets(scene, found.finishes),

@@ -79,8 +79,22 @@ def _pack_glasses(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) ->
 
 
 def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
-    """The rows of the materials that have one in the array of the struct Gloss."""
-    return {name: row for row, name in enumerate(_principled(scene, finishes))}
+    """The first rows of the materials that have some in the array of the struct Gloss."""
+    found, first = dict[str, int](), 0
+    for name, material in _principled(scene, finishes).items():
+        found[name] = first
+        first += len(_alphas(material))
+    return found
+
+
+def _alphas(material: Principled) -> list[float]:
+    """The alpha of each row: one, or where roughness is an image one for each step of it."""
+    if material.roughness_map is None:
+        return [material.facet_alpha]
+    return [(step / _STEPS) ** 2 for step in range(_STEPS + 1)]
+
+
+_STEPS = 255  # of roughness: shaders_glsl/textures/mapped.glsl
 
 
 GLASS, HOLE = "glass", "hole"
@@ -96,7 +110,7 @@ def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[tuple[str, str
     for name, material in _principled(scene, finishes).items():
         if material.glass:
             found[name, GLASS] = material.glass
-        if material.alpha < 1:
+        if material.has_holes:
             found[name, HOLE] = _NOTHING
     return found
 
@@ -109,7 +123,8 @@ def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principle
 def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
     """Rows of the struct Gloss; what their facets reflect is appended to `albedos`."""
     gloss = _principled(scene, finishes)
-    rows = np.zeros(len(gloss), STRUCTS["Gloss"])
+    of_all = [(name, it, alpha) for name, it in gloss.items() for alpha in _alphas(it)]
+    rows = np.zeros(len(of_all), STRUCTS["Gloss"])
     first: dict[float, int] = {}  # of the albedos, by alpha
 
     def place(alpha: float) -> int:
@@ -120,14 +135,13 @@ def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> A
         return first[alpha]
 
     parts = {part: len(finishes) + k for k, part in enumerate(glass_parts(scene, finishes))}
-    for row, (name, it) in zip(rows, gloss.items(), strict=True):
-        shares, rest = facet_shares(it.facet_alpha), 1 - it.glass_share
+    for row, (name, it, alpha) in zip(rows, of_all, strict=True):
+        shares = facet_shares(alpha)
         row["f0"], row["f90"] = it.head_on, it.specular
-        row["metallic"] = it.metallic / rest if rest > 0 else 0.0
         row["transmission"], row["glass"] = it.glass_share, parts.get((name, GLASS), 0)
-        row["coverage"], row["hole"] = it.alpha, parts.get((name, HOLE), 0)
+        row["hole"] = parts.get((name, HOLE), 0)
         row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
-        row["first"] = row["first_coat"] = place(it.facet_alpha)
+        row["first"] = row["first_coat"] = place(alpha)
         if it.clearcoat:
             row["first_coat"] = place(it.coat_alpha)
         row["kept"], row["brightest"] = shares.kept, max(it.head_on)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
-from glrt.methods.contents import MOST_NEAR, Contents
+from glrt.methods.contents import MOST_NEAR, Contents, is_sampled
 from glrt.rendering.aims import Aims, aims_of, around_all
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.rendering.lamp_bodies import LAMPS, Bodies, bodies_of, joined, triangle_bodies
@@ -46,7 +46,7 @@ def lamps_of(
     found = [
         number
         for number, shape in enumerate(shapes)
-        if type(shape) in LAMPS and scene.finish(shape).group
+        if type(shape) in LAMPS and is_sampled(scene.materials[shape.material])
     ]
     lamps: list[Shape] = [shapes[number] for number in found]
     bodies = bodies_of(lamps)
@@ -87,7 +87,7 @@ def radiance(scene: Scene, lamp: Object) -> float:
 def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) -> Array:
     """The numbers of the triangles that emit."""
     meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
-    is_bright = np.array([bool(scene.finish(mesh).group) for mesh in meshes])
+    is_bright = np.array([is_sampled(scene.materials[mesh.material]) for mesh in meshes])
     numbers: Array = np.flatnonzero(is_bright[tree.triangles["owner"][: tree.shared]])
     return numbers
 

@@ -43,9 +43,12 @@ def pack_light(row: Any, material: Light) -> None:
 
 
 def pack_principled(row: Any, material: Principled) -> None:
-    """Base colour and the alpha of GGX; the rest stands in the struct Gloss."""
+    """Base colour and what images may vary; the rest stands in the struct Gloss."""
+    rest = 1 - material.glass_share
     row["kind"], row["color"] = CONSTANTS["PRINCIPLED"], material.color
-    row["alpha"] = material.facet_alpha
+    row["alpha"], row["roughness"] = material.facet_alpha, material.roughness
+    row["metallic"] = material.metallic / rest if rest > 0 else 0.0
+    row["coverage"] = material.coverage
 
 
 PACKERS: dict[type, Callable[[Any, Any], None]] = {

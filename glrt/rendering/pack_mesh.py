@@ -82,14 +82,19 @@ def _leaves(local: Array, pairs: Pairs, of: Array) -> Array:
     return rows
 
 
+def corner_meshes(scene: Scene, contents: Contents) -> list[Mesh]:
+    """The meshes whose vertices are the rows of the struct Corner, in their order."""
+    placed = scene.meshes
+    own = distinct([placed[number] for number in contents.instances])[0]
+    shared = [mesh for number, mesh in enumerate(placed) if number not in contents.instances]
+    return [*shared, *own]
+
+
 def pack_tints(scene: Scene, contents: Contents) -> Array:
     """Rows of the struct Tint, one for each corner: white where a mesh has no colours."""
     if not contents.is_colored:
         return np.zeros(0, STRUCTS["Tint"])
-    placed = scene.meshes
-    own = distinct([placed[number] for number in contents.instances])[0]
-    shared = [mesh for number, mesh in enumerate(placed) if number not in contents.instances]
-    meshes = [mesh.triangles for mesh in (*shared, *own)]
+    meshes = [mesh.triangles for mesh in corner_meshes(scene, contents)]
     rows = np.zeros(sum(len(mesh.vertices) for mesh in meshes), STRUCTS["Tint"])
     first = 0
     for mesh in meshes:

@@ -13,12 +13,14 @@ from glrt.gpu.program import FragmentKernel, Kernel, Resource
 from glrt.gpu.struct_arrays import Arrays, scene_arrays, uniform_bytes
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
+from glrt.rendering.texel_texture import BITS, WIDTH
 
 # "baked" writes the shapes into the kernel's text, so that each edit of them compiles; "generic"
 # reads them. Materials are never written: a colour is to change without compiling.
 Tier = Literal["generic", "baked"]
 ENVIRONMENT = "environment_image"  # the texture of the image of the sky
 SKY_TREE = "environment_tree"  # that of the tree by which it is sampled
+TEXELS = "map_texels"  # that of the images on surfaces
 MOST_BAKED = 32  # shapes
 
 
@@ -76,6 +78,10 @@ vec3 environment_pixel(int column, int row) {{
 }}
 uniform sampler2D {SKY_TREE};
 vec4 sky_part(int column, int row) {{ return texelFetch({SKY_TREE}, ivec2(column, row), 0); }}
+uniform sampler2D {TEXELS};
+vec4 texel_at(int index) {{
+    return texelFetch({TEXELS}, ivec2(index & {WIDTH - 1}, index >> {BITS}), 0);
+}}
 """
 
 

@@ -10,7 +10,10 @@ Modules, each importing only what stands above it:
 - image_files: images in files, of any format, as arrays of linear values
 - named_files: files that a scene names by a path
 - named_images: images that a scene names by a path
+- texture_sizes: images made smaller
+- textures: images and checkerboards in place of colors and numbers
 - triangle_meshes: triangle meshes as arrays, checked
+- gltf: glTF files
 - mesh_formats: files of meshes as arrays
 - named_meshes: meshes that a scene names by a path
 - camera: where a scene is seen from
@@ -27,14 +30,17 @@ Modules, each importing only what stands above it:
 - meshes: triangle meshes and their places
 - cylinder: the round one of them, with ends or without
 - shapes: what there is to see
+- texture_axes: texture coordinates of flat shapes
 - sun: a disc at infinity
 - sky_picture: the image of all directions that a scene has
 - contents: the fields of a scene
 - validation: what is wrong with a scene, in words
+- file_contents: what the files hold that a scene names
 - mtl_files: materials of OBJ files
 - own_trees: which meshes have a tree of their own
 - own_materials: meshes divided by the materials of their files
 - loading: the files that a scene names, read into it
+- file_copies: copies of them elsewhere
 - tables: the parts of a scene as plain tables, and tables as TOML
 - nesting: glasses that overlap by priority
 - scene: all of it together, and whether the parts fit

@@ -32,7 +32,7 @@ class FacetShares(NamedTuple):
         return kept if kept < 1 - LEAST_LOSS else 1.0
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=512)
 def facet_shares(alpha: float) -> FacetShares:
     """Of facets that scatter light once."""
     root = np.linspace(0, 1, STEPS + 1)

@@ -5,7 +5,7 @@ docs/extending.md says how a type is added.
 """
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -14,6 +14,7 @@ from glrt.scene.cone import Cone
 from glrt.scene.dielectric import Dielectric
 from glrt.scene.principled import Principled
 from glrt.scene.surfaces import RADIANCE, Opaque, Surface, alpha_of
+from glrt.scene.textures import Texture
 from glrt.scene.values import BLACK, Color, Fraction, Number, Radiance, Triple
 from glrt.settings import Cost, Editable
 
@@ -41,14 +42,17 @@ class Lambertian(Opaque):
     """A matte (Lambertian) surface."""
 
     type: Literal["lambertian"] = Field("lambertian", description="the kind of material")
-    color: Color = Field(description="albedo, 0 to 1 each")
+    color: Color = Field(description="albedo, 0 to 1 each, or a texture")
+    color_map: Texture | None = None
+
+    textured: ClassVar[Mapping[str, bool]] = {"color": True}
 
     if TYPE_CHECKING:
 
         def __init__(
             self,
             *,
-            color: Triple,
+            color: Triple | Texture,
             emission: Triple = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
@@ -63,8 +67,9 @@ class Metal(Opaque):
 
     type: Literal["metal"] = Field("metal", description="the kind of material")
     color: Color | None = Field(
-        None, description="reflectance, the same at all angles, 0 to 1 each"
+        None, description="reflectance, the same at all angles, 0 to 1 each, or a texture"
     )
+    color_map: Texture | None = None
     preset: PresetName | None = Field(None, description="name of a measured metal")
     ior: Indices | None = Field(
         None, description="index of refraction in red, green and blue, with `k`"
@@ -77,12 +82,14 @@ class Metal(Opaque):
         description="0: a mirror; the alpha of GGX is its square",
     )
 
+    textured: ClassVar[Mapping[str, bool]] = {"color": True}
+
     if TYPE_CHECKING:
 
         def __init__(
             self,
             *,
-            color: Triple | None = None,
+            color: Triple | Texture | None = None,
             preset: PresetName | None = None,
             ior: Triple | None = None,
             k: Triple | None = None,

@@ -1,4 +1,4 @@
-"""Files of triangle meshes as arrays: PLY, OBJ and STL, read by trimesh."""
+"""Files of triangle meshes as arrays: PLY, OBJ and STL, read by trimesh, and glTF."""
 
 import logging
 import re
@@ -12,38 +12,46 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.errors import SceneError
+from glrt.scene.gltf.document import Document
+from glrt.scene.gltf.primitives import mesh_of
 from glrt.scene.image_files import decode_srgb
 from glrt.scene.triangle_meshes import TriangleMesh, checked, places
 from glrt.text import quoted
 
-FORMATS = (".ply", ".obj", ".stl")
+FORMATS = (".ply", ".obj", ".stl", ".glb", ".gltf")
+GLTF = (".glb", ".gltf")
+Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
 _LIBRARY = re.compile(rb"^mtllib[ \t]+(.+)$", re.MULTILINE)
 _FILES = re.compile(r"\S.*?\.mtl(?=\s|$)", re.IGNORECASE)  # names may have blanks
 _PARTS = re.compile(rb"^(?:usemtl (.*)|f)", re.MULTILINE)
 
 
-def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
+def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = None) -> TriangleMesh:
     """The mesh in what a file holds; the suffix of its path tells the format.
 
     Polygons are divided into triangles. Colours of vertices are linear where a PLY file has them as
-    floats, else sRGB. Of materials, the names of those of OBJ files are read; colours of faces and
-    texture coordinates are not.
+    floats, else sRGB. Of materials, the names of those of OBJ and glTF files are read; colours of
+    faces are not. `fetch` reads the buffers of glTF files.
     Raises `SceneError`, which begins with `where`, for what is no mesh.
     """
     suffix = PurePosixPath(path).suffix.lower()
     if suffix not in FORMATS:
         raise SceneError(
-            f"{where}: {quoted(path)} is no file of a mesh that glrt reads, which end in .ply, "
-            ".obj or .stl. Convert it to one of them."
+            f"{where}: {quoted(path)} is no file of a mesh that glrt reads, which end in .glb, "
+            ".gltf, .obj, .ply or .stl. Convert it to one of them."
         )
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
+            if suffix in GLTF:
+                return mesh_of(Document(content, fetch or _alone))
             if suffix == ".obj" and b"usemtl" in content:
                 content = _plain_lines(content)
                 return _mesh(_reader(suffix)(BytesIO(content)), suffix, _names(content))
             return _mesh(_reader(suffix)(BytesIO(content)), suffix)
+    except SceneError:
+        raise  # of a file beside it
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except Exception as error:  # trimesh raises whatever its parts do
@@ -52,6 +60,10 @@ def decode_mesh(content: bytes, path: str, where: str) -> TriangleMesh:
         f"{where}: {quoted(path)} is damaged, or no {suffix[1:].upper()} file: {problem}. Export "
         "it again."
     )
+
+
+def _alone(path: str) -> bytes:
+    raise ValueError(f"it names {quoted(path)}, and only its own content is at hand")
 
 
 def libraries(content: bytes) -> list[str]:
@@ -110,12 +122,14 @@ def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> Tr
     vertices, faces, first = [], [], 0
     normals: list[Any] = []
     colors: list[Any] = []
+    sets: list[Any] = []
     for part in parts:
         points = np.asarray(part["vertices"], np.float64).reshape(-1, 3)
         vertices.append(points)
         faces.append(_fans(np.asarray(part.get("faces", ()), np.int64)) + first)
         normals.append(part.get("vertex_normals"))
         colors.append(_linear(part.get("vertex_colors"), suffix))
+        sets.append(_uv(part.get("visual"), len(points)))
         first += len(points)
     if not vertices:
         raise ValueError("it has no triangles")
@@ -123,7 +137,17 @@ def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> Tr
     if suffix == ".stl":  # no triangles share vertices there
         return checked(points, places(points)[triangles])
     names, labels = _labels(owners, [len(rows) for rows in faces])
-    return checked(points, triangles, _joined(normals), _joined(colors), names, labels)
+    rows = _joined(normals), _joined(colors), names, labels, _joined(sets)
+    return checked(points, triangles, *rows)
+
+
+def _uv(visual: Any, count: int) -> NDArray[np.float64] | None:
+    """(v, 4) texture coordinates, both sets the same, of v that grows downwards."""
+    found = getattr(visual, "uv", None)
+    if found is None or len(found) != count:
+        return None
+    u, v = np.asarray(found, np.float64)[:, :2].T
+    return np.stack([u, 1 - v, u, 1 - v], axis=1)
 
 
 def _labels(owners: Sequence[str], counts: list[int]) -> tuple[tuple[str, ...], Any]:

@@ -1,8 +1,9 @@
 """Files that a scene names: the path, and the SHA-256 of the content once it is known."""
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import Field, PrivateAttr
 
@@ -22,11 +23,28 @@ class NamedFile(Frozen):
     sha256: str | None = Field(None, description="of the content, in hex, where it is known")
 
     _origin: Path | None = PrivateAttr(None)
+    _companions: Mapping[str, str] = PrivateAttr({})
 
     @property
     def origin(self) -> Path | None:
         """The file that was read."""
         return self._origin
+
+    @property
+    def path(self) -> str:
+        """That of the file: `FILE.glb#2` is in one of the name before the number."""
+        return container_of(self.file)[0]
+
+    @property
+    def companions(self) -> Mapping[str, str]:
+        """SHA-256 in hex by path, of other files that it was read from."""
+        return self._companions
+
+    def with_companions(self, hashes: Mapping[str, str]) -> Self:
+        """The file, which knows the others that it was read from."""
+        found = self.model_copy()
+        found._companions = hashes
+        return found
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, NamedFile) or type(self) is not type(other):
@@ -35,6 +53,15 @@ class NamedFile(Frozen):
 
     def __hash__(self) -> int:
         return hash((self.file, self.sha256))
+
+
+_INSIDE = re.compile(r"(.+\.(?:glb|gltf))#([0-9]{1,6})", re.IGNORECASE)
+
+
+def container_of(path: str) -> tuple[str, int | None]:
+    """The file of a path, and the number of the image in it that the path means, if any."""
+    match = _INSIDE.fullmatch(path)
+    return (match[1], int(match[2])) if match else (path, None)
 
 
 def by_path(kind: type[NamedFile]) -> Callable[[Any], Any]:

@@ -33,7 +33,7 @@ class MeshFile(NamedFile):
 
     @property
     def libraries(self) -> Mapping[str, str]:
-        """SHA-256 in hex by path, of the MTL files that materials were taken from."""
+        """SHA-256 in hex by path, of the files that materials alone were taken from."""
         return self._libraries
 
     @property

@@ -4,15 +4,21 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 from typing import Any, TypeVar
 
+from pydantic import ValidationError
+
 from glrt.errors import SceneError
 from glrt.scene.assets import AssetReader
 from glrt.scene.contents import MAX_OBJECTS, Contents
-from glrt.scene.materials import Material
-from glrt.scene.mesh_formats import libraries
+from glrt.scene.file_contents import Beside
+from glrt.scene.gltf.document import Document
+from glrt.scene.gltf.looks import looks_of
+from glrt.scene.materials import Material, Principled
+from glrt.scene.mesh_formats import GLTF, libraries
 from glrt.scene.meshes import Mesh
 from glrt.scene.mtl_files import Entry, decode_mtl, material_of
 from glrt.scene.named_meshes import MeshFile
 from glrt.scene.validation import validated
+from glrt.scene.values import plain
 from glrt.text import counted, quoted, unknown
 
 SceneType = TypeVar("SceneType", bound=Contents)
@@ -58,49 +64,86 @@ class _Division:
 
     reader: AssetReader
     materials: dict[str, Material]
-    files: dict[MeshFile, tuple[MeshFile, dict[str, Entry]]] = field(default_factory=dict)
+    files: dict[MeshFile, tuple[MeshFile, dict[str, Material]]] = field(default_factory=dict)
 
     def parts(self, shape: Mesh, where: str) -> list[Mesh]:
         """A mesh for each material, in the order in which the file uses them."""
         names = _names(shape, where)
         if shape.file not in self.files:
-            self.files[shape.file] = self._read(shape, where)
-        file, entries = self.files[shape.file]
+            read = _of_gltf if _is_gltf(shape) else _of_mtl
+            self.files[shape.file] = read(shape, self.reader, where)
+        file, own = self.files[shape.file]
         for name in names:
-            if name not in entries:
-                advice = unknown("material", name, sorted(entries), "Its MTL files have")
+            if name not in own:
+                advice = unknown("material", name, sorted(own), "Its MTL files have")
                 raise SceneError(f"{where}: {file.file}: {advice} Or {_REMEDY}.")
-            self.materials.setdefault(f"{file.file}:{name}", material_of(entries[name])[0])
+            self.materials.setdefault(f"{file.file}:{name}", own[name])
         return [
             shape.model_copy(update={"file": file, "part": name, "material": f"{file.file}:{name}"})
             for name in names
         ]
 
-    def _read(self, shape: Mesh, where: str) -> tuple[MeshFile, dict[str, Entry]]:
-        """The file with the hashes of its MTL files, and what those say; the first of a name."""
-        asset = self.reader.read(shape.file.file, where)
-        paths = libraries(asset.content)
-        if not paths:
-            raise SceneError(
-                f"{where}: {shape.file.file} names no MTL file by mtllib: {_REMEDY}, or export it "
-                "with its materials."
-            )
-        entries, hashes = dict[str, Entry](), dict[str, str]()
-        for path in paths:
-            found = self.reader.read(path, where, asset)
-            entries = decode_mtl(found.content, f"{where}: {found.path}") | entries
-            hashes[found.path] = found.sha256
-        used = [entries[name] for name in shape.triangles_of_file.parts if name in entries]
-        unread = [key for entry in used for key in material_of(entry)[1]]
-        return shape.file.with_libraries(hashes, tuple(sorted(set(unread)))), entries
+
+def _is_gltf(shape: Mesh) -> bool:
+    return PurePosixPath(shape.file.file).suffix.lower() in GLTF
+
+
+def _of_mtl(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dict[str, Material]]:
+    """The file with the hashes of its MTL files, and what those say; the first of a name."""
+    asset = reader.read(shape.file.file, where)
+    paths = libraries(asset.content)
+    if not paths:
+        raise SceneError(
+            f"{where}: {shape.file.file} names no MTL file by mtllib: {_REMEDY}, or export it "
+            "with its materials."
+        )
+    entries, hashes = dict[str, Entry](), dict[str, str]()
+    for path in paths:
+        found = reader.read(path, where, asset)
+        entries = decode_mtl(found.content, f"{where}: {found.path}") | entries
+        hashes[found.path] = found.sha256
+    used = [entries[name] for name in shape.triangles_of_file.parts if name in entries]
+    unread = [key for entry in used for key in material_of(entry)[1]]
+    file = shape.file.with_libraries(hashes, tuple(sorted(set(unread))))
+    return file, {name: material_of(entry)[0] for name, entry in entries.items()}
+
+
+def _of_gltf(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dict[str, Material]]:
+    """The file, and the materials that its triangles have; no glass that would enclose nothing."""
+    asset = reader.read(shape.file.file, where)
+    parts = shape.triangles_of_file.parts
+    own, unread = dict[str, Material](), list[str]()
+    try:
+        document = Document(asset.content, Beside(asset, reader, where))
+        looks = looks_of(document, asset.path)
+        for name, part in parts.items():
+            look = looks[name]
+            if look.table.get("transmission") and not look.table["thin"] and part.opening:
+                look.unread.append("the volume of glass that is not closed")
+                for key in ("attenuation_color", "attenuation_distance"):
+                    look.table.pop(key, None)
+                look.table["thin"] = True
+            own[name] = Principled.model_validate(plain(look.table), strict=True)
+            unread += look.unread
+    except ValueError as error:
+        raise SceneError(f"{where}: {shape.file.file}: {_first_line(error)}.") from None
+    unread += document.unknown_extensions
+    return shape.file.with_libraries({}, tuple(sorted(set(unread)))), own
+
+
+def _first_line(error: ValueError) -> str:
+    if isinstance(error, ValidationError):
+        detail = error.errors()[0]
+        return f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
+    return str(error)
 
 
 def _names(shape: Mesh, where: str) -> list[str]:
     """The materials of an object that has none in the scene."""
     file, mesh = shape.file.file, shape.triangles_of_file
-    if PurePosixPath(file).suffix.lower() != ".obj":
+    if PurePosixPath(file).suffix.lower() not in (".obj", *GLTF):
         raise SceneError(
-            f"{where}: {file} has no materials of its own, as OBJ files have: {_REMEDY}."
+            f"{where}: {file} has no materials of its own, as OBJ and glTF files have: {_REMEDY}."
         )
     names = list(mesh.parts)
     if not names:
@@ -124,5 +167,5 @@ def part_problem(shape: Mesh) -> str:
     if shape.part is None or shape.part in names:
         return ""
     if not names:
-        return f"it has no part {quoted(shape.part)}: only OBJ files with usemtl have parts"
+        return f"it has no part {quoted(shape.part)}: glTF and OBJ files with materials have parts"
     return unknown("part", shape.part, sorted(names), "The file has")

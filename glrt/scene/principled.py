@@ -1,13 +1,14 @@
 """glTF's metallic-roughness surface."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from glrt.scene.cone import Cone
 from glrt.scene.dielectric import Dielectric
 from glrt.scene.surfaces import Opaque, alpha_of
+from glrt.scene.textures import NormalTexture, Texture, data_texture
 from glrt.scene.values import BLACK, WHITE, Color, Fraction, Length, Number, Triple
 from glrt.settings import Cost, Editable
 
@@ -16,6 +17,7 @@ class Principled(Opaque):
     """glTF's metallic-roughness surface: a coat, over metal and dielectric facets, over matte.
 
     Facets are GGX with Schlick's reflectance. docs/explanation/principled.md tells the formulas.
+    Color, emission, metallic, roughness and alpha may be textures.
     """
 
     type: Literal["principled"] = Field("principled", description="the kind of material")
@@ -56,15 +58,34 @@ class Principled(Opaque):
     clearcoat_roughness: Annotated[Fraction, Editable()] = Field(
         0.1, description="of the coat; 0: smooth; the alpha of GGX is its square"
     )
+    normal: Annotated[NormalTexture | None, BeforeValidator(data_texture)] = Field(
+        None, description="an image of normals in tangent space, `{ image, strength }`"
+    )
+    alpha_cutoff: Annotated[Fraction | None, Editable()] = Field(
+        None, description="the surface is there where alpha is at least this, and nowhere else"
+    )
+    color_map: Texture | None = None
+    emission_map: Texture | None = None
+    metallic_map: Texture | None = None
+    roughness_map: Texture | None = None
+    alpha_map: Texture | None = None
+
+    textured: ClassVar[Mapping[str, bool]] = {
+        "color": True,
+        "emission": True,
+        "metallic": False,
+        "roughness": False,
+        "alpha": False,
+    }
 
     if TYPE_CHECKING:
 
         def __init__(
             self,
             *,
-            color: Triple = WHITE,
-            metallic: Number = 0.0,
-            roughness: Number = 0.4,
+            color: Triple | Texture = WHITE,
+            metallic: Number | Texture = 0.0,
+            roughness: Number | Texture = 0.4,
             ior: Number = 1.5,
             specular: Number = 1.0,
             specular_color: Triple = WHITE,
@@ -72,10 +93,12 @@ class Principled(Opaque):
             attenuation_color: Triple | None = None,
             attenuation_distance: Number | None = None,
             thin: bool = False,
-            alpha: Number = 1.0,
+            alpha: Number | Texture = 1.0,
             clearcoat: Number = 0.0,
             clearcoat_roughness: Number = 0.1,
-            emission: Triple = BLACK,
+            normal: NormalTexture | Mapping[str, Any] | None = None,
+            alpha_cutoff: Number | None = None,
+            emission: Triple | Texture = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
         ) -> None: ...
@@ -89,8 +112,10 @@ class Principled(Opaque):
     def _has_glass_that_can_be(self) -> Self:
         if self.transmission > 0 and self.clearcoat > 0:
             raise ValueError("a coat over transmission is not known; leave one of the two out")
-        if self.alpha < 1 and self.emits:
+        if self.has_holes and self.emits:
             raise ValueError("a lamp has no alpha; leave alpha or emission out")
+        if self.metallic_map and self.transmission > 0:
+            raise ValueError("metallic as a texture with transmission is not known; give a number")
         _ = self.glass  # raises what does not fit
         return self
 
@@ -106,6 +131,18 @@ class Principled(Opaque):
             attenuation_distance=self.attenuation_distance,
             thin=self.thin,
         )
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether light passes it in part or in places."""
+        return self.alpha_map is not None or self.coverage < 1
+
+    @property
+    def coverage(self) -> float:
+        """Share of the surface that is there, or the factor of the image that says so."""
+        if self.alpha_cutoff is None or self.alpha_map is not None:
+            return self.alpha
+        return 1.0 if self.alpha >= self.alpha_cutoff else 0.0
 
     @property
     def glass_share(self) -> float:

@@ -16,7 +16,8 @@ from glrt.scene.assets import AssetFolder
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.contents import Contents
-from glrt.scene.loading import copy_files, with_files
+from glrt.scene.file_copies import copy_files
+from glrt.scene.loading import with_files
 from glrt.scene.materials import Material, Opaque, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.nesting import nesting_problems

@@ -1,11 +1,14 @@
 """What all materials have, and those that light does not pass."""
 
-from typing import Annotated, ClassVar
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field
+from pydantic import ConfigDict, Field, model_serializer, model_validator
 
 from glrt.scene.cone import Cone
-from glrt.scene.values import BLACK, Color, Name, Radiance, Tagged
+from glrt.scene.named_images import TextureImage
+from glrt.scene.textures import Texture, in_one_key, separated, together
+from glrt.scene.values import BLACK, Color, Name, Radiance, Tagged, require_tag
 from glrt.settings import Cost, Editable
 
 # Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
@@ -27,8 +30,19 @@ class Surface(Tagged):
         return False
 
 
+def _schema(schema: dict[str, Any]) -> None:
+    require_tag(schema)
+    in_one_key(schema)
+
+
 class Opaque(Surface):
-    """What every material has that light does not pass."""
+    """What every material has that light does not pass.
+
+    A key `x` that may be a texture is the factor of a texture, which is `x_map`: both are one key
+    of a scene file.
+    """
+
+    model_config = ConfigDict(json_schema_extra=_schema)
 
     color: Color | None = Field(description="share of light that is reflected")
     emission: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
@@ -45,6 +59,34 @@ class Opaque(Surface):
     )
 
     is_transparent = False
+    textured: ClassVar[Mapping[str, bool]] = {}  # keys that may be; whether they are colors
+
+    @model_validator(mode="before")
+    @classmethod
+    def _has_textures(cls, data: Any) -> Any:
+        for name in cls.textured:
+            if isinstance(data, Mapping) and isinstance(data.get(f"{name}_map"), Mapping):
+                raise ValueError(f"{name}_map is no key; write {name} = {{ image = ... }}")
+        return separated(data, cls.textured)
+
+    @model_serializer(mode="wrap")
+    def _is_written(self, written: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
+        return together(written(self))
+
+    @property
+    def textures(self) -> dict[str, Texture]:
+        """Those that it has, by key."""
+        found = {name: value for name, value in self if isinstance(value, Texture)}
+        return {name.removesuffix("_map"): texture for name, texture in found.items()}
+
+    def with_images(self, known: Mapping[Any, TextureImage]) -> Self:
+        """The same with other images in place of those that are keys."""
+        update = {
+            name: texture.model_copy(update={"image": known[texture.image]})
+            for name, texture in self
+            if isinstance(texture, Texture) and texture.image in known
+        }
+        return self.model_copy(update=update) if update else self
 
     @property
     def emits(self) -> bool:

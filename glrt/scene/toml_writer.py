@@ -7,7 +7,8 @@ from typing import Any
 
 from glrt.errors import SceneError, UsageError
 from glrt.files import write_whole
-from glrt.scene.loading import copy_files, hashes_of, with_hashes
+from glrt.scene.file_copies import copy_files
+from glrt.scene.loading import hashes_of, with_hashes
 from glrt.scene.scene import Scene
 from glrt.scene.tables import scene_to_dict, toml_text
 from glrt.scene.tables import toml_lines as toml_lines

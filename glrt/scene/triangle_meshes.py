@@ -28,6 +28,7 @@ class TriangleMesh:
     colors: Floats | None = None  # (v, 3), linear sRGB, 0 to 1 each; None: none were given
     names: tuple[str, ...] = ()  # of the materials of the file; empty: before the first
     labels: Ints | None = None  # (n,): the number of a name; None: the file names none
+    uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None: none
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -90,8 +91,9 @@ class TriangleMesh:
     def _only(self, kept: Ints, normals: Floats) -> "TriangleMesh":
         used, faces = np.unique(self.faces[kept], return_inverse=True)
         colors = None if self.colors is None else self.colors[used]
-        part = TriangleMesh(self.vertices[used], faces.reshape(-1, 3), normals[used], colors)
-        return part.outward
+        uv = None if self.uv is None else self.uv[used]
+        rows = self.vertices[used], faces.reshape(-1, 3), normals[used], colors
+        return TriangleMesh(*rows, uv=uv).outward
 
     def _volume(self) -> float:
         a, b, c = (self.vertices[self.faces[:, k]] - self.box[0] for k in range(3))
@@ -129,6 +131,7 @@ def checked(
     colors: Any = None,
     names: tuple[str, ...] = (),
     labels: Ints | None = None,
+    uv: Any = None,
 ) -> TriangleMesh:
     """A mesh of arrays as of `TriangleMesh`; triangles of two equal corners are left out.
 
@@ -138,7 +141,8 @@ def checked(
     triangles = _table(faces, "faces", np.int64)
     turned = None if normals is None else _table(normals, "normals", np.float64)
     dyes = None if colors is None else _table(colors, "colors", np.float64)
-    problem = next(_problems(points, triangles, turned, dyes), None)
+    sets = None if uv is None else np.ascontiguousarray(uv, np.float64)
+    problem = next(_problems(points, triangles, turned, dyes, sets), None)
     if problem:
         raise ValueError(problem)
     equal = triangles == np.roll(triangles, 1, axis=1)
@@ -149,9 +153,9 @@ def checked(
     used = np.zeros(len(points), bool)
     used[kept] = True
     rank = np.cumsum(used) - 1
-    normal_rows, color_rows = (None if rows is None else rows[used] for rows in (turned, dyes))
+    own = [None if rows is None else rows[used] for rows in (turned, dyes, sets)]
     labels = None if labels is None else labels[whole]
-    return TriangleMesh(points[used], rank[kept], normal_rows, color_rows, names, labels)
+    return TriangleMesh(points[used], rank[kept], own[0], own[1], names, labels, own[2])
 
 
 def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
@@ -169,7 +173,11 @@ def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
 
 
 def _problems(
-    vertices: Floats, faces: Ints, normals: Floats | None, colors: Floats | None
+    vertices: Floats,
+    faces: Ints,
+    normals: Floats | None,
+    colors: Floats | None,
+    uv: Floats | None,
 ) -> Iterator[str]:
     if not len(faces):
         yield "it has no triangles"
@@ -190,13 +198,16 @@ def _problems(
     if wrong.any():
         row = int(wrong.argmax())
         yield f"vertex {row} has a coordinate that is no number from {_range()}"
-    for name, rows in (("normals", normals), ("colors", colors)):
+    for name, rows in (("normals", normals), ("colors", colors), ("texture coordinates", uv)):
         if rows is not None and len(rows) != len(vertices):
             yield f"it has {len(rows):,} {name} for {len(vertices):,} vertices"
             return
     if normals is not None and not np.isfinite(normals[used]).all():
         row = int((used & ~np.isfinite(normals).all(axis=1)).argmax())
         yield f"the normal of vertex {row} is not finite"
+    if uv is not None and not (np.abs(uv) <= LARGEST)[used].all():
+        row = int((used & ~(np.abs(uv) <= LARGEST).all(axis=1)).argmax())
+        yield f"the texture coordinates of vertex {row} are no numbers from {_range()}"
     if colors is not None and not ((colors >= 0) & (colors <= 1))[used].all():
         row = int((used & ~((colors >= 0) & (colors <= 1)).all(axis=1)).argmax())
         yield f"the color of vertex {row} is not three numbers from 0 to 1"

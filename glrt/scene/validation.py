@@ -18,6 +18,7 @@ from glrt.scene.contents import Contents
 from glrt.scene.materials import TYPES
 from glrt.scene.shapes import KINDS
 from glrt.scene.sun import Sun
+from glrt.scene.textures import NormalTexture, Texture
 from glrt.scene.values import SMALLEST, plain
 from glrt.settings import RenderSettings
 from glrt.text import nearest, number, shortened, unknown
@@ -113,9 +114,15 @@ def _place(detail: ErrorDetails) -> Place:
         place = place[:-1]
     if place[:1] in (("objects",), ("materials",)):
         place = place[:2] + place[3:]
+        place = (*place[:2], *(_without_map(step) for step in place[2:]))
     if detail["type"].startswith("union_tag"):
         place = (*place, detail["ctx"]["discriminator"].strip("'"))
     return place
+
+
+def _without_map(step: int | str) -> int | str:
+    """A texture `x_map` is a key `x` of scene files."""
+    return step.removesuffix("_map") if isinstance(step, str) else step
 
 
 def _is_short_vector(detail: ErrorDetails) -> bool:
@@ -135,12 +142,14 @@ def _model(location: Place) -> type[BaseModel]:
         return _TABLES[table]
     if location[3:-1] == ("cone",):
         return Cone
+    if len(location) > 4 and str(location[3]).endswith(("_map", "normal")):
+        return NormalTexture if location[3] == "normal" else Texture
     model: type[BaseModel] = _KINDS[table][str(location[2])]
     return model
 
 
 def _keys(detail: ErrorDetails) -> tuple[str, ...]:
-    return tuple(_model(detail["loc"]).model_fields)
+    return tuple(key for key in _model(detail["loc"]).model_fields if not key.endswith("_map"))
 
 
 def _path(place: Place, data: Mapping[str, Any]) -> str:
@@ -228,7 +237,7 @@ def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
     model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
     kind = "scene" if model is Contents else model.__name__.lower()
     owner = f"[{table}]" if table in _TABLES else f"a {kind}"
-    text = unknown("key", key, model.model_fields, f"Keys of {owner}")
+    text = unknown("key", key, _keys(detail), f"Keys of {owner}")
     if model is not Contents and key in Contents.model_fields:
         text += f" The {key} of the scene itself must stand above the first [table]."
     return text

@@ -36,7 +36,7 @@ def _with_a_length(vector: "Vector") -> "Vector":
     return vector
 
 
-def _require_tag(schema: dict[str, Any]) -> None:
+def require_tag(schema: dict[str, Any]) -> None:
     """The tag has a default for Python alone; a file must name it."""
     tags = [key for key, value in schema["properties"].items() if "const" in value]
     schema["required"] = tags + schema.get("required", [])
@@ -113,4 +113,4 @@ class Value(Frozen):
 class Tagged(Value):
     """A value whose kind a scene file names."""
 
-    model_config = ConfigDict(json_schema_extra=_require_tag)
+    model_config = ConfigDict(json_schema_extra=require_tag)

@@ -13,8 +13,8 @@ const float COAT_F0 = 0.04;  // of ior 1.5
 // What a path meets of a surface that is glass in part, or has holes: one of these, or the rest.
 Material met_part(Material material, float u) {
     precise Gloss gloss = gloss_at(material.details);
-    if (u >= gloss.coverage) return material_at(gloss.hole);
-    if (u >= gloss.transmission * gloss.coverage) return material;
+    if (u >= material.coverage) return material_at(gloss.hole);
+    if (u >= gloss.transmission * material.coverage) return material;
     precise Material glass = material_at(gloss.glass);
     glass.color = material.color;
     return glass;
@@ -46,12 +46,12 @@ vec3 sent_back(vec3 f0, float f90, float kept) {
 
 Principled principled_of(Material material) {
     precise Gloss gloss = gloss_at(material.details);
-    precise vec3 f0 = gloss.f0 + gloss.metallic * (material.color - gloss.f0);
-    precise float f90 = gloss.f90 + gloss.metallic * (1.0 - gloss.f90);
+    precise vec3 f0 = gloss.f0 + material.metallic * (material.color - gloss.f0);
+    precise float f90 = gloss.f90 + material.metallic * (1.0 - gloss.f90);
     precise vec3 of_dielectric = sent_back(gloss.f0, gloss.f90, gloss.kept);
     precise vec3 of_metal = sent_back(material.color, 1.0, gloss.kept);
-    precise vec3 again = of_dielectric + gloss.metallic * (of_metal - of_dielectric);
-    precise vec3 base = (1.0 - gloss.metallic) * material.color;
+    precise vec3 again = of_dielectric + material.metallic * (of_metal - of_dielectric);
+    precise vec3 base = (1.0 - material.metallic) * material.color;
     return Principled(gloss, f0, f90, again, base);
 }
 

@@ -100,7 +100,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
 // Around the shading normal, on the side of wo; around the facet's own where the shading normal faces
 // away from wo, or would reflect it through the surface.
 mat3 shading_frame(vec3 facing, vec3 normal, vec3 direction) {
-    if (HAS_SMOOTH) {
+    if (HAS_SMOOTH || HAS_NORMAL_MAP) {
         precise float along = dot(normal, direction);
         precise vec3 reflected = direction - 2.0 * along * normal;
         if (along >= 0.0 || dot(reflected, facing) <= 0.0) return frame_around(facing);
@@ -142,7 +142,7 @@ bool passes(precise inout Path path, Surface surface, Material material, bool en
 void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, vec3 facing, vec3 behind) {
     precise float height = dot(light.ray.direction, facing);
     precise float along = dot(light.ray.direction, vertex.frame[2]);
-    if (HAS_SMOOTH && height * along <= 0.0) light.pdf = 0.0;
+    if ((HAS_SMOOTH || HAS_NORMAL_MAP) && height * along <= 0.0) light.pdf = 0.0;
     precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
     gather(path, direct, light.layer, path.depth + 1);
@@ -171,7 +171,8 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     precise vec3 facing = true_normal(surface);
     precise float side = dot(path.ray.direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
     facing *= side;
-    precise mat3 around = shading_frame(facing, side * surface.normal, path.ray.direction);
+    precise vec3 shaded = HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal;
+    precise mat3 around = shading_frame(facing, side * shaded, path.ray.direction);
     precise Vertex vertex = vertex_of(around, to_local(around, -path.ray.direction), material, side > 0.0);
     precise Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
     if (!is_followed(material)) {
@@ -198,7 +199,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
         gather_sampled(path, vertex, light, facing, behind);
     }
     precise Scattering next = sample_material(vertex, rng);
-    if (HAS_SMOOTH && (dot(next.direction, facing) < 0.0) != next.crosses) return false;
+    if ((HAS_SMOOTH || HAS_NORMAL_MAP) && (dot(next.direction, facing) < 0.0) != next.crosses) return false;
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return false;
     if (HAS_DIELECTRIC) path.scale *= next.scale;

@@ -30,20 +30,6 @@ bool is_beside(Quad quad, vec3 origin) {
     return z * z > 0.0;
 }
 
-// atan on 0..1, an odd polynomial whose largest relative error is 1e-7: the built-in differs
-// between drivers.
-float small_angle(float tangent) {
-    precise float q = tangent * tangent;
-    precise float p = 0.0247340375 - 0.00482252624 * q;
-    p = p * q - 0.0602030977;
-    p = p * q + 0.0996847111;
-    p = p * q - 0.140413272;
-    p = p * q + 0.19974214;
-    p = p * q - 0.333323916;
-    precise float angle = tangent + tangent * (q * p);
-    return angle;
-}
-
 // The angle from x to x + width at the height z: a difference of the two would lose small ones.
 float strip_angle(float x, float width, float z) {
     precise float end = x + width;

@@ -1,14 +1,6 @@
 // Light from infinitely far away: a gradient over the height of a direction, or an image. HAS_HORIZON: two
 // gradients, each from the horizon to a pole.
 
-// From 0 to PI, of a sine that is not below 0.
-float angle_of(float sine, float cosine) {
-    precise float size = abs(cosine);
-    precise float acute = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
-    precise float angle = cosine < 0.0 ? PI - acute : acute;
-    return angle;
-}
-
 // The image of the sky, of all directions: the top row is +y, the middle column -z, three quarters of the
 // width +x. Between the middles of four pixels it is bilinear; around the vertical axis there is no edge.
 
@@ -25,12 +17,8 @@ struct SkyPatch {
 };
 
 SkyPlace sky_place(vec3 direction) {
-    precise float across = sqrt(direction.x * direction.x + direction.z * direction.z);
-    precise float azimuth = abs(direction.x) + abs(direction.z) > 0.0 ? angle_of(abs(direction.x), -direction.z) : 0.0;
-    precise float turned = direction.x < 0.0 ? -azimuth : azimuth;
-    precise float turns = 0.5 / PI * turned + 0.5 + frame.background_turn;
-    precise float height = angle_of(across, direction.y) / PI;
-    precise vec2 place = vec2(turns, height) * vec2(environment_size()) - 0.5;
+    precise float turns = turns_of(direction) + frame.background_turn;
+    precise vec2 place = vec2(turns, descent_of(direction)) * vec2(environment_size()) - 0.5;
     precise vec2 corner = floor(place);
     precise vec2 share = place - corner;
     return SkyPlace(ivec2(corner), share);

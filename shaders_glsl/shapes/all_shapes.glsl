@@ -15,3 +15,6 @@
 #include "shapes/tree_node.glsl"
 #include "shapes/tree.glsl"
 #include "shapes/find_hit.glsl"
+#include "textures/coordinates.glsl"
+#include "textures/map.glsl"
+#include "textures/mapped.glsl"

@@ -118,10 +118,3 @@ Surface surface_at(Ray ray, Hit hit) {
     if (HAS_MESH && up_to_mesh(hit.shape)) return mesh_surface(ray, hit.shape);
     return no_surface();
 }
-
-// What the surface is made of that a ray met.
-Material material_of(Ray ray, Surface surface) {
-    precise Material material = material_at(surface.material);
-    if (HAS_VERTEX_COLOR && is_triangle(surface.shape)) material.color *= vertex_color(ray, surface.shape);
-    return material;
-}

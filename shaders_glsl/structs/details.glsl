@@ -25,7 +25,6 @@ struct Glass {
 struct Gloss {
     vec3 f0;             // of its dielectric facets, head-on
     float f90;           // of the same, grazing
-    float metallic;      // share of the surface that is metal
     float coat;          // weight of the coat; 0: none
     float coat_alpha;    // of its facets
     int first;           // of the rows of albedos of the facets
@@ -36,7 +35,6 @@ struct Gloss {
     float brightest;     // channel of f0
     float transmission;  // chance that a path meets its glass
     int glass;           // row of that among the materials
-    float coverage;      // chance that a path does not meet a hole
     int hole;            // row of that
     float even_base;     // 1 over the share of even light that dielectric facets leave
 };

@@ -15,6 +15,10 @@ struct Material {
     int layer;       // of its light group, where light is kept by layers
     int emitter;     // how it emits: index into the emitters
     int details;     // index into the conductors, the glasses or the gloss; or NO_DETAILS
+    float metallic;  // share of a principled surface that is metal
+    float roughness; // of it: the factor of an image
+    float coverage;  // chance that a path does not meet a hole of it
+    int spare;       // fills the row
 };
 
 // How lamps emit that do not so evenly and to both sides.

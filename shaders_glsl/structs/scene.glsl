@@ -4,5 +4,6 @@
 #include "structs/shapes.glsl"
 #include "structs/material.glsl"
 #include "structs/details.glsl"
+#include "structs/maps.glsl"
 #include "structs/lights.glsl"
 #include "structs/frame.glsl"

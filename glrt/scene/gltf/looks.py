@@ -1,0 +1,135 @@
+"""Materials of a glTF file as those of a scene."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from glrt.scene.gltf.document import Document, number, numbers
+from glrt.scene.gltf.primitives import material_names
+from glrt.scene.gltf.textures import TextureTables
+from glrt.scene.values import LARGEST
+
+_UNREAD = {  # textures that have no counterpart, by extension
+    "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
+    "KHR_materials_transmission": ("transmissionTexture",),
+    "KHR_materials_volume": ("thicknessTexture",),
+    "KHR_materials_clearcoat": (
+        "clearcoatTexture",
+        "clearcoatRoughnessTexture",
+        "clearcoatNormalTexture",
+    ),
+}
+_PLAIN = {"type": "principled", "color": (1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
+_GREY = {"type": "principled", "color": (0.8, 0.8, 0.8), "roughness": 0.5}
+
+
+@dataclass
+class Look:
+    """A material as a table of a scene, and what of it was left out."""
+
+    table: dict[str, Any]
+    unread: list[str] = field(default_factory=list)
+
+
+def looks_of(document: Document, path: str) -> dict[str, Look]:
+    """The materials of a file by the names of `material_names`, and one for what has none."""
+    folder = path.rpartition("/")[0] + "/" if "/" in path else ""
+    textures = TextureTables(document, path, folder)
+    found = {
+        name: _look(document, textures, index)
+        for index, name in enumerate(material_names(document))
+    }
+    return {**found, "without material": Look(dict(_GREY))}
+
+
+def _look(document: Document, textures: TextureTables, index: int) -> Look:
+    here, given = f"materials[{index}]", document.items("materials")[index]
+    look = Look(dict(_PLAIN))
+    _metallic_roughness(document, textures, given, here, look)
+    _surface(document, textures, given, here, look)
+    _emission(document, textures, given, here, look)
+    _layers(document, given, here, look)
+    return look
+
+
+def _metallic_roughness(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    here = f"{here}.pbrMetallicRoughness"
+    own = document.table(given.get("pbrMetallicRoughness", {}), here)
+    *color, alpha = numbers(own.get("baseColorFactor", [1, 1, 1, 1]), 4, f"{here}.color", 0, 1)
+    image = textures.table(own.get("baseColorTexture"), f"{here}.baseColorTexture")
+    look.table["color"] = {**image, "factor": tuple(color)} if image else tuple(color)
+    mode = given.get("alphaMode", "OPAQUE")
+    if mode not in ("OPAQUE", "MASK", "BLEND"):
+        raise ValueError(f"{here}: alphaMode is none of OPAQUE, MASK and BLEND")
+    if mode != "OPAQUE":
+        look.table["alpha"] = {**image, "channel": "a", "factor": alpha} if image else alpha
+    if mode == "MASK":
+        cutoff = number(given.get("alphaCutoff", 0.5), f"{here}: alphaCutoff", 0)
+        look.table["alpha_cutoff"] = min(cutoff, 1.0)
+    rest = textures.table(own.get("metallicRoughnessTexture"), f"{here}.metallicRoughnessTexture")
+    for key, channel in (("metallic", "b"), ("roughness", "g")):
+        factor = number(own.get(f"{key}Factor", 1), f"{here}.{key}Factor", 0, 1)
+        look.table[key] = {**rest, "channel": channel, "factor": factor} if rest else factor
+
+
+def _surface(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    image = textures.table(given.get("normalTexture"), f"{here}.normalTexture")
+    if image:
+        scale = number(given["normalTexture"].get("scale", 1), f"{here}.normalTexture.scale")
+        look.table["normal"] = {**image, "strength": min(max(scale, 0.0), 100.0)}
+    if document.extension(given, "KHR_materials_unlit", here) is not None:
+        look.unread.append("KHR_materials_unlit")
+
+
+def _emission(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    own = document.extension(given, "KHR_materials_emissive_strength", here) or {}
+    strength = number(own.get("emissiveStrength", 1), f"{here}: emissiveStrength", 0, 1e9)
+    factor = numbers(given.get("emissiveFactor", [0, 0, 0]), 3, f"{here}.emissiveFactor", 0, 1e6)
+    emission = tuple(min(value * strength, LARGEST) for value in factor)
+    if not any(emission):
+        return
+    image = textures.table(given.get("emissiveTexture"), f"{here}.emissiveTexture")
+    look.table["emission"] = {**image, "factor": emission} if image else emission
+    if look.table.pop("alpha", None) is not None:
+        look.table.pop("alpha_cutoff", None)
+        look.unread.append("alphaMode of what emits")
+
+
+def _layers(document: Document, given: dict[str, Any], here: str, look: Look) -> None:
+    """What extensions of materials say."""
+
+    def own(name: str) -> dict[str, Any]:
+        found = document.extension(given, f"KHR_materials_{name}", here) or {}
+        look.unread += [key for key in _UNREAD.get(f"KHR_materials_{name}", ()) if key in found]
+        return found
+
+    def value(table: dict[str, Any], key: str, default: float, most: float = 1.0) -> float:
+        return number(table.get(key, default), f"{here}: {key}", 0, most)
+
+    ior = value(own("ior"), "ior", 1.5, 1e3)
+    look.table["ior"] = ior if ior >= 1 else 1e3  # 0: what reflects everything
+    specular = own("specular")
+    look.table["specular"] = value(specular, "specularFactor", 1)
+    tint = numbers(specular.get("specularColorFactor", [1, 1, 1]), 3, f"{here}: specular", 0)
+    look.table["specular_color"] = tuple(min(each, 1.0) for each in tint)
+    look.table["transmission"] = value(own("transmission"), "transmissionFactor", 0)
+    volume = own("volume")
+    look.table["thin"] = value(volume, "thicknessFactor", 0, 1e15) == 0
+    distance = volume.get("attenuationDistance")
+    if distance is not None and not look.table["thin"]:
+        color = volume.get("attenuationColor", [1, 1, 1])
+        look.table["attenuation_color"] = numbers(color, 3, f"{here}: attenuationColor", 0, 1)
+        look.table["attenuation_distance"] = number(
+            distance, f"{here}: attenuationDistance", 1e-15, 1e15
+        )
+    coat = own("clearcoat")
+    look.table["clearcoat"] = value(coat, "clearcoatFactor", 0)
+    look.table["clearcoat_roughness"] = value(coat, "clearcoatRoughnessFactor", 0)
+    if look.table["transmission"] and look.table["clearcoat"]:
+        look.table["clearcoat"] = 0.0
+        look.unread.append("clearcoat over transmission")

@@ -1,0 +1,181 @@
+"""The triangles of the meshes of a glTF file, where its nodes stand."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.scene.gltf.accessors import Floats, Ints, floats, indices
+from glrt.scene.gltf.document import Document
+from glrt.scene.gltf.nodes import Placed, placed_nodes
+from glrt.scene.triangle_meshes import MOST_TRIANGLES, TriangleMesh, checked
+
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_WITHOUT_AREA = (0, 1, 2, 3)  # points and lines
+_NO_MATERIAL = "without material"
+
+
+class _Part(NamedTuple):
+    """A primitive in the coordinates of the file."""
+
+    points: Floats  # (v, 3)
+    faces: Ints  # (n, 3)
+    normals: Floats  # (v, 3)
+    colors: Floats | None
+    uv: Floats | None  # (v, 4): both sets
+    material: str
+
+
+def mesh_of(document: Document) -> TriangleMesh:
+    """All triangles that the file shows; their materials are named as by `material_names`."""
+    names, parts, count = material_names(document), list[_Part](), 0
+    for placed in placed_nodes(document):
+        if "mesh" not in placed.node:
+            continue
+        for part in _parts(document, placed, names):
+            parts.append(part)
+            count += len(part.faces)
+            if count > MOST_TRIANGLES:
+                raise ValueError(f"it has more than {MOST_TRIANGLES:,} triangles")
+    if not parts:
+        raise ValueError("it shows no triangles")
+    firsts = np.cumsum([0, *(len(part.points) for part in parts[:-1])])
+    faces = [part.faces + first for part, first in zip(parts, firsts, strict=True)]
+    used = list(dict.fromkeys(part.material for part in parts))
+    labels = [np.full(len(part.faces), used.index(part.material)) for part in parts]
+    return checked(
+        np.concatenate([part.points for part in parts]),
+        np.concatenate(faces),
+        np.concatenate([part.normals for part in parts]),
+        _joined([part.colors for part in parts], [len(part.points) for part in parts], 3, 1.0),
+        tuple(used),
+        np.concatenate(labels),
+        _joined([part.uv for part in parts], [len(part.points) for part in parts], 4, 0.0),
+    )
+
+
+def material_names(document: Document) -> list[str]:
+    """Of each material another one: its own, or `material 3`."""
+    found = list[str]()
+    for index, material in enumerate(document.items("materials")):
+        given = document.table(material, f"materials[{index}]").get("name")
+        name = _one_line(given) if isinstance(given, str) else ""
+        if not name or name in found or name == _NO_MATERIAL:
+            name = f"{name or 'material'} {index}"
+        while name in found:
+            name += "'"
+        found.append(name)
+    return found
+
+
+def _one_line(text: str) -> str:
+    return "".join(letter for letter in text if letter.isprintable()).strip()[:200]
+
+
+def _joined(parts: list[Floats | None], counts: list[int], width: int, rest: float) -> Any:
+    """Rows of all parts, `rest` where a part has none; None where no part has any."""
+    if all(part is None for part in parts):
+        return None
+    filled = [
+        np.full((count, width), rest) if part is None else part
+        for part, count in zip(parts, counts, strict=True)
+    ]
+    return np.concatenate(filled)
+
+
+def _parts(document: Document, placed: Placed, names: list[str]) -> Iterator[_Part]:
+    index = placed.node["mesh"]
+    mesh = document.item("meshes", index, f"nodes[{placed.number}].mesh")
+    primitives = document.list(mesh.get("primitives"), f"meshes[{index}].primitives")
+    for place, primitive in enumerate(primitives):
+        here = f"meshes[{index}].primitives[{place}]"
+        found = _part(document, document.table(primitive, here), here, placed, names)
+        if found:
+            yield found
+
+
+def _part(
+    document: Document, primitive: dict[str, Any], here: str, placed: Placed, names: list[str]
+) -> _Part | None:
+    mode = primitive.get("mode", _TRIANGLES)
+    if mode in _WITHOUT_AREA:
+        return None
+    attributes = document.table(primitive.get("attributes"), f"{here}.attributes")
+    if "POSITION" not in attributes:
+        return None  # left to an extension
+    points = floats(document, attributes["POSITION"], (3,), f"{here}.attributes.POSITION")
+    faces = _faces(document, primitive, mode, len(points), here)
+    if not len(faces):
+        return None
+
+    def rows(name: str, sizes: tuple[int, ...]) -> Floats | None:
+        if name not in attributes:
+            return None
+        found = floats(document, attributes[name], sizes, f"{here}.attributes.{name}")
+        if len(found) != len(points):
+            raise ValueError(f"{here} has {len(points):,} places and {len(found):,} of {name}")
+        return found
+
+    colors, first, second = rows("COLOR_0", (3, 4)), rows("TEXCOORD_0", (2,)), rows(*_SECOND)
+    columns = colors[:, :3].clip(0, 1) if colors is not None else None
+    empty = np.zeros((len(points), 2))
+    sets = (first if first is not None else empty, second if second is not None else empty)
+    uv = None if first is None and second is None else np.concatenate(sets, axis=1)
+    material = _material(document, primitive, names, here)
+    normals = rows("NORMAL", (3,))
+    moved = points @ placed.matrix[:3, :3].T + placed.matrix[:3, 3]
+    if np.linalg.det(placed.matrix[:3, :3]) < 0:
+        faces = faces[:, ::-1]
+    if normals is None:  # facets: no triangles share vertices then
+        at = faces.ravel()
+        corners = moved[faces]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        facing = across.repeat(3, axis=0)
+        columns, uv = (None if rows is None else rows[at] for rows in (columns, uv))
+        return _Part(moved[at], np.arange(len(at)).reshape(-1, 3), facing, columns, uv, material)
+    turned = normals @ _inverse(placed.matrix[:3, :3])
+    return _Part(moved, faces, turned, columns, uv, material)
+
+
+_SECOND: tuple[str, tuple[int, ...]] = ("TEXCOORD_1", (2,))
+
+
+def _inverse(linear: NDArray[np.float64]) -> NDArray[np.float64]:
+    """By which normals turn; the adjugate where there is no inverse, of a length that is free."""
+    a, b, c = linear.T
+    adjugate = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
+    sign = -1.0 if np.linalg.det(linear) < 0 else 1.0
+    largest = np.abs(adjugate).max()
+    return adjugate * (sign / largest if largest > 0 else 0.0)
+
+
+def _material(document: Document, primitive: dict[str, Any], names: list[str], here: str) -> str:
+    if "material" not in primitive:
+        return _NO_MATERIAL
+    document.item("materials", primitive["material"], f"{here}.material")
+    index: int = primitive["material"]
+    return names[index]
+
+
+def _faces(document: Document, primitive: dict[str, Any], mode: Any, count: int, here: str) -> Ints:
+    """(n, 3) of a list, a strip or a fan of triangles."""
+    if mode not in (_TRIANGLES, _STRIP, _FAN):
+        raise ValueError(f"{here}.mode must be a whole number from 0 to 6, got {mode!r}"[:200])
+    order = np.arange(count)
+    if "indices" in primitive:
+        order = indices(document, primitive["indices"], f"{here}.indices")
+        if order.max() >= count:
+            raise ValueError(f"{here}.indices names vertex {order.max()}, of {count:,} from 0")
+    if mode == _TRIANGLES:
+        if len(order) % 3:
+            raise ValueError(f"{here} has {len(order):,} corners, which is no multiple of three")
+        return order.reshape(-1, 3)
+    if len(order) < 3:
+        return np.zeros((0, 3), np.int64)
+    if mode == _FAN:
+        around = np.broadcast_to(order[0], len(order) - 2)
+        return np.stack([around, order[1:-1], order[2:]], axis=1)
+    strip = np.stack([order[:-2], order[1:-1], order[2:]], axis=1)
+    strip[1::2] = strip[1::2, [1, 0, 2]]
+    return strip

@@ -1,0 +1,37 @@
+// Angles by their tangents: the built-in functions differ between drivers.
+
+// atan on 0..1, an odd polynomial whose largest relative error is 1e-7.
+float small_angle(float tangent) {
+    precise float q = tangent * tangent;
+    precise float p = 0.0247340375 - 0.00482252624 * q;
+    p = p * q - 0.0602030977;
+    p = p * q + 0.0996847111;
+    p = p * q - 0.140413272;
+    p = p * q + 0.19974214;
+    p = p * q - 0.333323916;
+    precise float angle = tangent + tangent * (q * p);
+    return angle;
+}
+
+// From 0 to PI, of a sine that is not below 0.
+float angle_of(float sine, float cosine) {
+    precise float size = abs(cosine);
+    precise float acute = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
+    precise float angle = cosine < 0.0 ? PI - acute : acute;
+    return angle;
+}
+
+// Of a direction about the vertical axis: from 0 to 1, in the middle -z, at three quarters +x.
+float turns_of(vec3 direction) {
+    precise float azimuth = abs(direction.x) + abs(direction.z) > 0.0 ? angle_of(abs(direction.x), -direction.z) : 0.0;
+    precise float turned = direction.x < 0.0 ? -azimuth : azimuth;
+    precise float turns = 0.5 / PI * turned + 0.5;
+    return turns;
+}
+
+// From the zenith, 0, to straight below, 1.
+float descent_of(vec3 direction) {
+    precise float across = sqrt(direction.x * direction.x + direction.z * direction.z);
+    precise float descent = angle_of(across, direction.y) / PI;
+    return descent;
+}

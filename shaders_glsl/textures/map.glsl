@@ -1,0 +1,62 @@
+// The value of an image at texture coordinates: between the middles of four texels bilinear, by hand, so that
+// drivers agree to the bit.
+
+// Into 0..1, or for a mirrored image too.
+float within(float place, int wrap) {
+    if (wrap == CLAMP) return clamp(place, 0.0, 1.0);
+    precise float period = wrap == MIRROR ? 2.0 : 1.0;
+    precise float rest = place - period * floor(place / period);
+    precise float folded = rest > 1.0 ? 2.0 - rest : rest;
+    return clamp(folded, 0.0, 1.0);
+}
+
+// The number of a texel next to the image: across the edge where it repeats.
+int wrapped(int number, int size, int wrap) {
+    if (wrap != REPEAT) return clamp(number, 0, size - 1);
+    if (number < 0) return number + size;
+    return number < size ? number : number - size;
+}
+
+vec4 texel_of(Map map, int column, int row) {
+    precise vec4 texel = texel_at(map.first + row * map.width + column);
+    return texel;
+}
+
+vec4 map_value(int number, Coordinates at) {
+    precise Map map = map_at(number);
+    precise vec3 uv = vec3(map.set == 0 ? at.first : at.second, 1.0);
+    precise float across = within(dot(map.u, uv), map.wrap) * float(map.width);
+    precise float down = within(dot(map.v, uv), map.wrap) * float(map.height);
+    if (map.is_sharp != 0) {
+        return texel_of(map, min(int(across), map.width - 1), min(int(down), map.height - 1));
+    }
+    precise vec2 place = vec2(across, down) - 0.5;
+    precise vec2 corner = floor(place);
+    precise vec2 share = place - corner;
+    int left = wrapped(int(corner.x), map.width, map.wrap);
+    int right = wrapped(int(corner.x) + 1, map.width, map.wrap);
+    int above = wrapped(int(corner.y), map.height, map.wrap);
+    int below = wrapped(int(corner.y) + 1, map.height, map.wrap);
+    precise vec4 left_above = texel_of(map, left, above);
+    precise vec4 left_below = texel_of(map, left, below);
+    precise vec4 upper = left_above + share.x * (texel_of(map, right, above) - left_above);
+    precise vec4 lower = left_below + share.x * (texel_of(map, right, below) - left_below);
+    precise vec4 value = upper + share.y * (lower - upper);
+    return value;
+}
+
+float channel_of(vec4 value, int channel) {
+    if (channel == 3) return value.w;
+    if (channel == 2) return value.z;
+    return channel == 1 ? value.y : value.x;
+}
+
+float number_at(int number, Coordinates at) {
+    return channel_of(map_value(number, at), map_at(number).channel);
+}
+
+vec3 color_at(int number, Coordinates at) {
+    precise vec4 value = map_value(number, at);
+    int channel = map_at(number).channel;
+    return channel == ALL_CHANNELS ? value.xyz : vec3(channel_of(value, channel));
+}

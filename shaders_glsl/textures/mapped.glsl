@@ -1,0 +1,101 @@
+// What images make of a material, and of the normal of its surface.
+
+const float ROUGHNESS_STEPS = 255.0;  // for each there is a row of the struct Gloss
+
+// Roughness between its steps: energy would be lost or won, as what facets reflect is tabled by step.
+Material with_gloss(Material material, Maps maps, Coordinates at) {
+    precise Material found = material;
+    if (maps.metallic != NO_MAP) found.metallic *= number_at(maps.metallic, at);
+    if (maps.roughness == NO_MAP) return found;
+    precise float roughness = material.roughness * clamp(number_at(maps.roughness, at), 0.0, 1.0);
+    int step = int(roughness * ROUGHNESS_STEPS + 0.5);
+    precise float stepped = float(step) / ROUGHNESS_STEPS;
+    found.alpha = stepped * stepped;
+    found.details += step;
+    return found;
+}
+
+Material mapped(Ray ray, Surface surface, Material material) {
+    precise Material found = material;
+    precise Maps maps = maps_at(surface.material);
+    precise Coordinates at = coordinates_of(ray, surface);
+    if (HAS_COLOR_MAP && maps.color != NO_MAP) found.color *= clamp(color_at(maps.color, at), 0.0, 1.0);
+    if (HAS_EMISSION_MAP && maps.emission != NO_MAP) found.emission *= color_at(maps.emission, at);
+    if (HAS_GLOSS_MAP) found = with_gloss(found, maps, at);
+    if (HAS_COVERAGE_MAP && maps.coverage != NO_MAP) {
+        found.coverage *= number_at(maps.coverage, at);
+        if (maps.cutoff >= 0.0) found.coverage = found.coverage >= maps.cutoff ? 1.0 : 0.0;
+    }
+    return found;
+}
+
+// What the surface is made of that a ray met.
+Material material_of(Ray ray, Surface surface) {
+    precise Material material = material_at(surface.material);
+    if (HAS_VERTEX_COLOR && is_triangle(surface.shape)) material.color *= vertex_color(ray, surface.shape);
+    if (!HAS_MAP) return material;
+    return mapped(ray, surface, material);
+}
+
+// Where u grows along a surface, and where v falls, of any length.
+struct Tangents {
+    vec3 along;
+    vec3 up;
+};
+
+Tangents triangle_tangents(int shape, int set) {
+    ivec3 corners = triangle_of(shape).corners;
+    int instance = instance_of(shape);
+    precise vec3 a = corner_at(corners.x).position;
+    precise vec3 b = corner_at(corners.y).position;
+    precise vec3 c = corner_at(corners.z).position;
+    if (instance > 0) {
+        precise Instance row = instance_at(instance - 1);
+        a = place_of(row, a);
+        b = place_of(row, b);
+        c = place_of(row, c);
+    }
+    precise Uv first = uv_at(corners.x);
+    precise Uv second = uv_at(corners.y);
+    precise Uv third = uv_at(corners.z);
+    precise vec2 start = set == 0 ? first.first : first.second;
+    precise vec2 one = (set == 0 ? second.first : second.second) - start;
+    precise vec2 other = (set == 0 ? third.first : third.second) - start;
+    precise float turn = one.x * other.y - other.x * one.y;
+    precise float turned = turn < 0.0 ? -1.0 : turn > 0.0 ? 1.0 : 0.0;
+    precise vec3 along = turned * ((b - a) * other.y - (c - a) * one.y);
+    precise vec3 down = turned * ((c - a) * one.x - (b - a) * other.x);
+    return Tangents(along, -down);
+}
+
+Tangents tangents_of(Surface surface, int set) {
+    if (HAS_MESH && is_triangle(surface.shape)) return triangle_tangents(surface.shape, set);
+    precise vec3 normal = surface.normal;
+    if (HAS_SPHERE && up_to_sphere(surface.shape)) {
+        return Tangents(vec3(-normal.z, 0.0, normal.x), vec3(0.0, 1.0, 0.0));
+    }
+    precise Axes axes = axes_at(surface.shape - first_plane());
+    precise vec3 along = cross(axes.v, normal);
+    if (dot(along, axes.u) < 0.0) along = -along;
+    return Tangents(along, -axes.v);
+}
+
+// The normal that the image of a material gives, on the side of the surface's own.
+vec3 bent_normal(Ray ray, Surface surface) {
+    precise vec3 normal = surface.normal;
+    int number = maps_at(surface.material).normal;
+    if (number == NO_MAP) return normal;
+    precise Map map = map_at(number);
+    precise Tangents tangents = tangents_of(surface, map.set);
+    precise vec3 along = tangents.along - dot(tangents.along, normal) * normal;
+    precise float size = dot(along, along);
+    if (!(size > 0.0)) return normal;
+    along /= sqrt(size);
+    precise vec3 up = cross(normal, along);
+    if (dot(up, tangents.up) < 0.0) up = -up;
+    precise vec3 texel = 2.0 * map_value(number, coordinates_of(ray, surface)).xyz - 1.0;
+    precise vec3 bent = map.strength * (texel.x * along + texel.y * up) + texel.z * normal;
+    if (!(dot(bent, normal) > 0.0)) return normal;
+    precise vec3 unit = normalized(bent);
+    return unit;
+}
