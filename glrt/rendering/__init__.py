@@ -6,10 +6,10 @@ Modules, each importing only what stands above it:
 - pack_shapes: shapes as rows, a packer for each kind
 - aims: where lamps can be seen from
 - lamp_bodies: where lamps are and how far they reach
+- tree_cache: what takes long to build, kept on the disk
 - pack_details: what some materials have beyond their row
 - pack_materials: materials as rows, a packer for each type
 - pack_mesh: triangles of meshes, in the frame of the tree
-- tree_cache: trees over many triangles, kept on the disk
 - pack_instances: meshes with a tree of their own, and where they stand
 - pack_tree: the tree over shapes, a packer of leaves for each kind
 - pack_lights: lamps as rows of the kernel's blocks

@@ -3,16 +3,21 @@
 shaders_glsl/structs/details.glsl declares the rows.
 """
 
+import hashlib
 from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from glrt.rendering.kernel_structs import CONSTANTS, STRUCTS
+from glrt.rendering.tree_cache import kept
+from glrt.scene import facets, gloss
 from glrt.scene.conductors import Conductor
 from glrt.scene.facets import STEPS, facet_loss
 from glrt.scene.glasses import glasses_of
-from glrt.scene.gloss import FacetShares, facet_shares
+from glrt.scene.gloss import ROUGHNESS_STEPS, FacetShares, facet_shares, shares_by_step
 from glrt.scene.materials import Dielectric, Metal, Principled
 from glrt.scene.scene import Finish, Scene
 
@@ -83,18 +88,24 @@ def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
     found, first = dict[str, int](), 0
     for name, material in _principled(scene, finishes).items():
         found[name] = first
-        first += len(_alphas(material))
+        first += 1 if material.roughness_map is None else ROUGHNESS_STEPS + 1
     return found
 
 
-def _alphas(material: Principled) -> list[float]:
-    """The alpha of each row: one, or where roughness is an image one for each step of it."""
+def _facets(material: Principled) -> list[FacetShares]:
+    """Of each row: one, or where roughness is an image one for each step of it."""
     if material.roughness_map is None:
-        return [material.facet_alpha]
-    return [(step / _STEPS) ** 2 for step in range(_STEPS + 1)]
+        return [facet_shares(material.facet_alpha)]
+    return _by_step()
 
 
-_STEPS = 255  # of roughness: shaders_glsl/textures/mapped.glsl
+@cache
+def _by_step() -> list[FacetShares]:
+    """Those of each step of roughness, which take two seconds: they are kept on the disk."""
+    texts = [Path(module.__file__ or "").read_bytes() for module in (facets, gloss)]
+    known_as = f"gloss-{hashlib.blake2b(b''.join(texts), digest_size=16).hexdigest()}"
+    rows = kept(known_as, shares_by_step)
+    return [FacetShares.of(*row) for row in zip(rows["head_on"], rows["grazing"], strict=True)]
 
 
 GLASS, HOLE = "glass", "hole"
@@ -122,28 +133,26 @@ def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principle
 
 def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
     """Rows of the struct Gloss; what their facets reflect is appended to `albedos`."""
-    gloss = _principled(scene, finishes)
-    of_all = [(name, it, alpha) for name, it in gloss.items() for alpha in _alphas(it)]
+    found = _principled(scene, finishes)
+    of_all = [(name, it, shares) for name, it in found.items() for shares in _facets(it)]
     rows = np.zeros(len(of_all), STRUCTS["Gloss"])
-    first: dict[float, int] = {}  # of the albedos, by alpha
+    first: dict[int, int] = {}  # of the albedos
 
-    def place(alpha: float) -> int:
-        if alpha not in first:
-            first[alpha] = ALBEDOS * len(albedos)
-            shares = facet_shares(alpha)
+    def place(shares: FacetShares) -> int:
+        if id(shares) not in first:
+            first[id(shares)] = ALBEDOS * len(albedos)
             albedos.append((shares.head_on, shares.grazing))
-        return first[alpha]
+        return first[id(shares)]
 
     parts = {part: len(finishes) + k for k, part in enumerate(glass_parts(scene, finishes))}
-    for row, (name, it, alpha) in zip(rows, of_all, strict=True):
-        shares = facet_shares(alpha)
+    for row, (name, it, shares) in zip(rows, of_all, strict=True):
         row["f0"], row["f90"] = it.head_on, it.specular
         row["transmission"], row["glass"] = it.glass_share, parts.get((name, GLASS), 0)
         row["hole"] = parts.get((name, HOLE), 0)
         row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
-        row["first"] = row["first_coat"] = place(alpha)
+        row["first"] = row["first_coat"] = place(shares)
         if it.clearcoat:
-            row["first_coat"] = place(it.coat_alpha)
+            row["first_coat"] = place(facet_shares(it.coat_alpha))
         row["kept"], row["brightest"] = shares.kept, max(it.head_on)
         row["spread"] = 1 / (1 - shares.kept) if shares.kept < 1 else 0.0
         row["again"] = again = _again(max(it.head_on), it.specular, shares.kept)
