@@ -17,6 +17,7 @@ Modules, each importing only what stands above it:
 - chart: `glrt chart`
 - stress: `glrt stress`
 - doctor: `glrt doctor`
+- importing: `glrt import`
 - schema: `glrt schema`
 - commands: the table of commands
 - main: how the command starts and ends

@@ -22,8 +22,12 @@ COMMANDS = {  # name, and what `glrt --help` says of it
     "chart": "measure error against time",
     "stress": "test where methods fail",
     "doctor": "test which OpenGL routes work",
+    "import": "write the scene of a model",
     "schema": "print the scene format as JSON Schema",
 }
+
+
+_MODULES = {"import": "importing"}  # where a command is no name in Python
 
 
 def make_parser(called: str) -> Parser:
@@ -69,4 +73,4 @@ def _called(words: list[str]) -> str:
 
 
 def _module(name: str) -> Any:
-    return import_module(f"glrt.cli.{name}")
+    return import_module(f"glrt.cli.{_MODULES.get(name, name)}")

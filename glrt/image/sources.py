@@ -1,4 +1,4 @@
-"""Find the SCENE of a command line: a scene file, a name, a picture with its recipe, or `-`."""
+"""Find the SCENE of a command line: a scene file, a name, a model, a rendered picture, or `-`."""
 
 import os
 import sys
@@ -14,6 +14,7 @@ from glrt.image.recipe import Recipe
 from glrt.scene.assets import AssetFolder
 from glrt.scene.catalog import PICTURES, find
 from glrt.scene.loading import files_of, with_files
+from glrt.scene.model_scene import is_model, model_scene
 from glrt.scene.scene import Scene
 from glrt.scene.toml import LARGEST, decode_scene, read_scene
 from glrt.scene.validation import scene_error
@@ -42,14 +43,14 @@ def load(
     assets_from: str | Path | None = None,
     accept_changed: bool = False,
 ) -> Scene:
-    """The scene of a TOML file, of a name in the folder `scenes`, or of a rendered picture.
+    """The scene of a TOML file, of a name in the folder `scenes`, of a model or of a picture.
 
     A path comes first, then a name with or without `.toml`; a name may contain folders, as
-    `methods/glass`. `-` is a TOML file on standard input. The files that the scene names are read
-    from its folder, or that of the picture, or from `assets_from`, and not from outside of it
-    unless `allow_outside`. Those of a picture must be the ones that it was made with, unless
-    `accept_changed`. Raises `SceneError` with one paragraph if there is no such scene or it is
-    wrong, `UsageError` for a picture without recipe.
+    `methods/glass`. A model is a glTF, OBJ, PLY or STL file. `-` is a TOML file on standard input.
+    The files that the scene names are read from its folder, or that of the picture, or from
+    `assets_from`, and not from outside of it unless `allow_outside`. Those of a picture must be the
+    ones that it was made with, unless `accept_changed`. Raises `SceneError` with one paragraph if
+    there is no such scene or it is wrong, `UsageError` for a picture without recipe.
     """
     folder = None if assets_from is None else Path(assets_from)
     return load_recipe(source, FileRules(allow_outside, folder, accept_changed))[0]
@@ -67,6 +68,8 @@ def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, S
         scene, folder = _scene_of(sys.stdin), None
     else:
         path = find(source)
+        if is_model(path):
+            return _of_model(path, rules, shown(source)), None
         scene, folder = read_scene(path), path.absolute().parent
     return _with_files(scene, folder, rules, shown(source)), None
 
@@ -86,6 +89,11 @@ def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Reci
     if recipe.traced:
         update["traced"] = recipe.traced.model_copy(update={"scene": read(recipe.traced.scene)})
     return recipe.model_copy(update=update)
+
+
+def _of_model(path: Path, rules: FileRules, source: str) -> Scene:
+    base = path.absolute().parent
+    return model_scene(path, AssetFolder(base, rules.allow_outside), source)
 
 
 def _with_files(
@@ -111,11 +119,11 @@ def recipe_of(source: str | Path) -> Recipe | None:
 
 
 def scene_file_of(source: str | Path) -> Path | None:
-    """The scene file that a path or a name means; None for a picture, and for standard input."""
+    """The scene file that a path or a name means; None for a picture, a model, standard input."""
     if _is_standard_input(source):
         return None
     path = find(source)
-    return None if path.suffix.lower() in PICTURES else path
+    return None if path.suffix.lower() in PICTURES or is_model(path) else path
 
 
 def shown(source: str | Path) -> str:
@@ -125,8 +133,10 @@ def shown(source: str | Path) -> str:
 
 def check_not_scene(output: str | Path, source: str | Path) -> None:
     """Raise UsageError for an output that would replace the scene file, be it through a link."""
-    file = scene_file_of(source)
-    if file is None or not os.path.exists(output) or not os.path.samefile(output, file):
+    file = None if _is_standard_input(source) else find(source)
+    if file is None or file.suffix.lower() in PICTURES:
+        return
+    if not os.path.exists(output) or not os.path.samefile(output, file):
         return
     raise UsageError(
         f"Cannot write {output}: it is the scene file itself, or a link to it, {file}. Choose "

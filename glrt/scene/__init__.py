@@ -44,6 +44,7 @@ Modules, each importing only what stands above it:
 - tables: the parts of a scene as plain tables, and tables as TOML
 - nesting: glasses that overlap by priority
 - scene: all of it together, and whether the parts fit
+- model_scene: scenes of model files alone
 - toml: scene files read
 - toml_writer: scene files written, with their comments kept
 - catalog: the scenes that come with glrt, by name

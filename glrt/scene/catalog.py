@@ -7,6 +7,7 @@ from glrt.resources import folder
 from glrt.text import unknown
 
 PICTURES = (".exr", ".png")
+MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl")
 
 
 def scene_names() -> list[str]:
@@ -34,7 +35,7 @@ def find(source: str | Path) -> Path:
     named = file_of(str(path).removesuffix(".toml"))
     if not (path.is_absolute() or ".." in path.parts) and _is_file(named):
         return named
-    if str(path) != path.name or path.suffix.lower() in PICTURES:
+    if str(path) != path.name or path.suffix.lower() in (*PICTURES, *MODELS):
         return path  # meant as a path: its reader says what is wrong with it
     names = all_scene_names()
     short = {name.rpartition("/")[2]: name for name in reversed(names)}

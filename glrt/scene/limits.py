@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
-from glrt.scene.materials import Dielectric, glass_of
+from glrt.scene.materials import Dielectric, Opaque, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
 from glrt.scene.summary import few
+from glrt.scene.texture_sizes import MOST_TEXELS, sizes_of
 from glrt.settings import Settings
 from glrt.text import number, quoted
 
@@ -36,6 +37,7 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         _walled_in(scene),
         _dark(scene),
         *_unread(scene),
+        _large_images(scene),
     )
     return [text for text in found if text]
 
@@ -178,11 +180,27 @@ def _unread(scene: Scene) -> Iterator[str]:
     """What files of materials say that no material has."""
     meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
     for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
+        where = ", ".join(file.libraries) or file.file
         yield (
-            f"{', '.join(file.libraries)}: {few(file.unread)} of the materials of {file.file} "
-            "is not read: textures, transparency without refraction and gloss over matte colour "
-            "are left out. Give its object a `material` of the scene for another look."
+            f"{where}: {few(file.unread)} of the materials of {file.file} is left out: "
+            "docs/how-to/models.md says what is read. Give its object a `material` of the scene "
+            "for another look."
         )
+
+
+def _large_images(scene: Scene) -> str:
+    """Images that are made smaller."""
+    opaque = [it for it in scene.materials.values() if isinstance(it, Opaque)]
+    images = {t.image for it in opaque for t in it.textures.values() if t.image is not None}
+    texels = {image.file: image.texels.shape[:2] for image in images if image.texels is not None}
+    sizes = sizes_of(list(texels.values()))
+    smaller = [file for file, size in zip(texels, sizes, strict=True) if texels[file] != size]
+    if not smaller:
+        return ""
+    return (
+        f"the images of this scene have more than {MOST_TEXELS >> 20} million pixels together: "
+        f"{few(smaller)} {'is' if len(smaller) == 1 else 'are'} made smaller. Use smaller ones."
+    )
 
 
 def _reaches_into(ball: Sphere, lamp: Shape) -> bool:

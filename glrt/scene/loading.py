@@ -121,7 +121,27 @@ def mesh_problems(scene: Contents) -> Iterator[str]:
                 f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot be dielectric. "
                 "Close it in the program that it comes from, or use another material."
             )
+    yield from _without_coordinates(scene)
     yield from _too_many(scene)
+
+
+def _without_coordinates(scene: Contents) -> Iterator[str]:
+    """Objects whose material has an image that could not lie anywhere on them."""
+    for index, shape in enumerate(scene.objects):
+        material = scene.materials.get(shape.material)
+        if not isinstance(material, Opaque) or not material.textures:
+            continue
+        key = f"objects[{index}].material: {quoted(shape.material)} has a texture"
+        if shape.shape in _NO_COORDINATES:
+            yield f"{key}, and a {shape.shape} has no texture coordinates. Use a mesh of its form."
+        elif isinstance(shape, Mesh) and shape.triangles_of_file.uv is None:
+            yield (
+                f"{key}, and {shape.file.file} has no texture coordinates. Export it with them, or "
+                "use another material."
+            )
+
+
+_NO_COORDINATES = ("box", "cylinder")
 
 
 def _too_many(scene: Contents) -> Iterator[str]:

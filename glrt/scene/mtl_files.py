@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 
 from glrt.errors import SceneError
 from glrt.scene.materials import Dielectric, Lambertian, Material, Metal
-from glrt.scene.values import BLACK, LARGEST, Color, Radiance
+from glrt.scene.textures import Texture
+from glrt.scene.values import BLACK, LARGEST, WHITE, Color, Radiance
 from glrt.text import number, quoted
 
 LONGEST = 16 << 20  # bytes of a file
@@ -22,6 +23,7 @@ _GLASS, _MIRRORS = (4, 6, 7, 9), (3, 5)  # models of `illum`
 _USUAL_IOR = 1.5  # where Ni is not given
 _LEAST_IOR = 1e-3
 _GREY = (0.8, 0.8, 0.8)  # where no colour is given
+_LONGEST_PATH = 500  # letters of the path of an image
 _CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 
 
@@ -32,6 +34,7 @@ class Entry:
     colors: dict[str, Radiance] = field(default_factory=dict)
     numbers: dict[str, float] = field(default_factory=dict)
     unread: dict[str, None] = field(default_factory=dict)
+    image: str = ""  # of the diffuse colour: a path from the file
 
 
 def decode_mtl(content: bytes, where: str) -> dict[str, Entry]:
@@ -78,8 +81,16 @@ def _read(key: str, words: list[str], entry: Entry) -> None:
         if len(words) != 1:
             raise ValueError(f"{key} needs one number")
         entry.numbers[key] = _number(key, words[0], _NUMBERS[key])
+    elif key == "map_Kd" and words and not any(word.startswith("-") for word in words):
+        entry.image = _image(" ".join(words))
     elif key not in _SILENT:
         entry.unread[key] = None
+
+
+def _image(path: str) -> str:
+    if _CONTROL.search(path) or len(path) > _LONGEST_PATH:
+        raise ValueError("map_Kd needs the path of an image, without control characters")
+    return path.replace("\\", "/")
 
 
 def _number(key: str, word: str, largest: float) -> float:
@@ -94,8 +105,11 @@ def _number(key: str, word: str, largest: float) -> float:
     return value + 0.0  # without a negative zero
 
 
-def material_of(entry: Entry) -> tuple[Material, list[str]]:
-    """The material of a scene that is nearest, and the keys that it leaves out."""
+def material_of(entry: Entry, folder: str = "") -> tuple[Material, list[str]]:
+    """The material of a scene that is nearest, and the keys that it leaves out.
+
+    `folder` of the file, with '/' at its end, is where its images lie.
+    """
     colors, numbers, unread = entry.colors, entry.numbers, list(entry.unread)
     emission = colors.get("Ke", BLACK)
     if _is_glass(numbers):
@@ -107,13 +121,17 @@ def material_of(entry: Entry) -> tuple[Material, list[str]]:
     gloss: Color = colors.get("Ks", BLACK)
     is_grey = not any(gloss) and not any(emission)
     diffuse: Color = colors.get("Kd", _GREY if is_grey else BLACK)
+    color: Color | Texture = diffuse
+    if entry.image:
+        factor = diffuse if any(diffuse) else WHITE  # many programs write 0 beside an image
+        color = Texture(image=folder + entry.image, factor=factor)
     if numbers.get("Pm", 0.0) >= 0.5:
-        return Metal(color=diffuse, roughness=_roughness(numbers), emission=emission), unread
-    if any(gloss) and (numbers.get("illum") in _MIRRORS or not any(diffuse)):
+        return Metal(color=color, roughness=_roughness(numbers), emission=emission), unread
+    if any(gloss) and (numbers.get("illum") in _MIRRORS or not (any(diffuse) or entry.image)):
         return Metal(color=gloss, roughness=_roughness(numbers), emission=emission), unread
     if any(gloss):
         unread.append("Ks")
-    return Lambertian(color=diffuse, emission=emission), unread
+    return Lambertian(color=color, emission=emission), unread
 
 
 def _opacity(numbers: dict[str, float]) -> float:

@@ -15,7 +15,7 @@ from glrt.scene.gltf.looks import looks_of
 from glrt.scene.materials import Material, Principled
 from glrt.scene.mesh_formats import GLTF, libraries
 from glrt.scene.meshes import Mesh
-from glrt.scene.mtl_files import Entry, decode_mtl, material_of
+from glrt.scene.mtl_files import decode_mtl, material_of
 from glrt.scene.named_meshes import MeshFile
 from glrt.scene.validation import validated
 from glrt.scene.values import plain
@@ -97,15 +97,17 @@ def _of_mtl(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dic
             f"{where}: {shape.file.file} names no MTL file by mtllib: {_REMEDY}, or export it "
             "with its materials."
         )
-    entries, hashes = dict[str, Entry](), dict[str, str]()
+    found, hashes = dict[str, tuple[Material, list[str]]](), dict[str, str]()
     for path in paths:
-        found = reader.read(path, where, asset)
-        entries = decode_mtl(found.content, f"{where}: {found.path}") | entries
-        hashes[found.path] = found.sha256
-    used = [entries[name] for name in shape.triangles_of_file.parts if name in entries]
-    unread = [key for entry in used for key in material_of(entry)[1]]
-    file = shape.file.with_libraries(hashes, tuple(sorted(set(unread))))
-    return file, {name: material_of(entry)[0] for name, entry in entries.items()}
+        library = reader.read(path, where, asset)
+        entries = decode_mtl(library.content, f"{where}: {library.path}")
+        folder = library.path.rpartition("/")[0] + "/" if "/" in library.path else ""
+        found = {name: material_of(entry, folder) for name, entry in entries.items()} | found
+        hashes[library.path] = library.sha256
+    used = [found[name] for name in shape.triangles_of_file.parts if name in found]
+    unread = {key for _, keys in used for key in keys}
+    file = shape.file.with_libraries(hashes, tuple(sorted(unread)))
+    return file, {name: material for name, (material, _) in found.items()}
 
 
 def _of_gltf(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dict[str, Material]]:

@@ -8,7 +8,7 @@ from pydantic import ConfigDict, Field, model_serializer, model_validator
 from glrt.scene.cone import Cone
 from glrt.scene.named_images import TextureImage
 from glrt.scene.textures import Texture, in_one_key, separated, together
-from glrt.scene.values import BLACK, Color, Name, Radiance, Tagged, require_tag
+from glrt.scene.values import BLACK, WHITE, Color, Name, Radiance, Tagged, require_tag
 from glrt.settings import Cost, Editable
 
 # Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
@@ -71,7 +71,9 @@ class Opaque(Surface):
 
     @model_serializer(mode="wrap")
     def _is_written(self, written: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
-        return together(written(self))
+        given = {name: getattr(self, name) for name in self.textured}
+        others = {name: value for name, value in given.items() if value not in (1.0, WHITE)}
+        return together(written(self), others)
 
     @property
     def textures(self) -> dict[str, Texture]:

@@ -40,8 +40,19 @@ def scene_to_dict(scene: Contents) -> dict[str, Any]:
 
 
 def toml_text(scene: Contents) -> str:
-    """A scene file, to its last line."""
-    return "\n".join(toml_lines(scene_to_dict(scene))).strip() + "\n"
+    """A scene file, to its last line; what has its default is left out."""
+    return "\n".join(toml_lines(_short_tables(scene))).strip() + "\n"
+
+
+def _short_tables(scene: Contents) -> dict[str, Any]:
+    """`scene_to_dict` without defaults, but for the kinds of materials and shapes."""
+    found = scene.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+    for name, material in scene.materials.items():
+        found["materials"][name] = {"type": material.type, **found["materials"][name]}
+    for table, thing in zip(found.get("objects", []), scene.objects, strict=True):
+        kind = {"shape": thing.shape}
+        table.update({**kind, **{key: table.pop(key) for key in list(table) if key != "shape"}})
+    return dict(found)
 
 
 def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:

@@ -152,12 +152,14 @@ def _with_kind(table: dict[str, Any], is_color: bool) -> dict[str, Any]:
     return table
 
 
-def together(told: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a material as `separated` takes them."""
+def together(told: dict[str, Any], factors: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys of a material as `separated` takes them; `factors` are those that are no 1."""
     for key in [key for key in told if key.endswith("_map")]:
         name, table = key.removesuffix("_map"), told.pop(key)
         if table is not None:
-            told[name] = {**table, "factor": told[name]}
+            factor = factors.get(name, 1.0)
+            plain = list(factor) if isinstance(factor, tuple) else factor
+            told[name] = {**table, **({"factor": plain} if name in factors else {})}
     return told
 
 

@@ -1,0 +1,48 @@
+"""`glrt import`: write the scene of a model."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from glrt.errors import UsageError
+from glrt.image.sources import load
+from glrt.scene.catalog import find
+from glrt.scene.limits import cautions
+from glrt.scene.model_scene import is_model
+from glrt.settings import settings_for
+from glrt.text import counted
+
+DESCRIPTION = "Write the scene of a model (.glb, .gltf, .obj, .ply or .stl) as a scene file."
+EPILOG = (
+    "The scene has a mesh for each material of the model, its camera and lights or usual ones, and "
+    "renders to the same picture as the model. In another folder it gets a copy of the model. "
+    "Exit codes: 0 done, 2 wrong usage or no such model."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("model", metavar="MODEL", help="a model")
+    parser.add_argument(
+        "-o", dest="scene", required=True, metavar="FILE.toml", help="the scene file to write"
+    )
+    parser.add_argument(
+        "--allow-outside",
+        action="store_true",
+        help="read files outside of the folder of the model too: only for models that you trust",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """0; what is no model is a UsageError."""
+    if not is_model(Path(arguments.model)):
+        raise UsageError(
+            f"{arguments.model} is no model: its name must end in .glb, .gltf, .obj, .ply or .stl."
+        )
+    scene = load(find(arguments.model), allow_outside=arguments.allow_outside)
+    scene.save(arguments.scene)
+    for text in cautions(scene, settings_for(scene.render)):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    what = counted(len(scene.objects), "object"), counted(len(scene.materials), "material")
+    print(f"Wrote {arguments.scene}: {', '.join(what)}.")
+    return 0
