@@ -103,9 +103,9 @@ class Contents:
 
     @property
     def transmitting(self) -> list[str]:
-        """The principled materials that are glass in part, or have holes."""
+        """The principled materials that are glass in part."""
         own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
-        return [name for name, it in own.items() if it.glass or it.has_holes]
+        return [name for name, it in own.items() if it.glass]
 
     @property
     def holed(self) -> list[str]:

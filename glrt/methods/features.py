@@ -55,7 +55,8 @@ class Needs:
     has_attenuation: bool  # glass that absorbs light
     has_nested: bool  # glasses that overlap by priority
     media: int  # how many of them
-    has_transmission: bool  # principled surfaces that are glass in part, or have holes
+    has_transmission: bool  # principled surfaces that are glass in part
+    has_hole: bool  # or have holes
     has_coat: bool  # principled surfaces under a clear coat
     has_conductor: bool  # metal whose reflectance depends on the angle
     has_lens: bool
@@ -134,9 +135,10 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
         has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),
         has_transmission=bool(found.transmitting),
+        has_hole=bool(found.holed),
         has_coat=bool(found.coated),
         has_conductor=bool(found.conductors),
-        has_pane=traits.follows and bool(found.panes or found.holed),
+        has_pane=traits.follows and bool(found.panes),
         has_attenuation=traits.follows and bool(found.tinted),
         has_nested=traits.follows and bool(found.media),
         media=len(found.media) if traits.follows else 0,

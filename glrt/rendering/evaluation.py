@@ -97,6 +97,7 @@ def _choice(found: Contents) -> dict[str, bool | int]:
         "INSTANCE_BITS": found.instance_bits,
         "HAS_TRANSMISSION": bool(found.transmitting),
         "HAS_MAP": bool(found.mapped),
+        "HAS_HOLE": bool(found.holed),
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),

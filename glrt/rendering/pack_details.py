@@ -108,22 +108,13 @@ def _by_step() -> list[FacetShares]:
     return [FacetShares.of(*row) for row in zip(rows["head_on"], rows["grazing"], strict=True)]
 
 
-GLASS, HOLE = "glass", "hole"
-_NOTHING = Dielectric(ior=1.0, thin=True)  # a pane that light passes as if it were not there
-
-
-def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[tuple[str, str], Dielectric]:
-    """The glass and the holes that principled materials are in part.
+def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Dielectric]:
+    """The glass that principled materials are in part.
 
     They are rows of the struct Material after those of the finishes.
     """
-    found: dict[tuple[str, str], Dielectric] = {}
-    for name, material in _principled(scene, finishes).items():
-        if material.glass:
-            found[name, GLASS] = material.glass
-        if material.has_holes:
-            found[name, HOLE] = _NOTHING
-    return found
+    materials = _principled(scene, finishes).items()
+    return {name: material.glass for name, material in materials if material.glass}
 
 
 def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principled]:
@@ -147,8 +138,7 @@ def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> A
     parts = {part: len(finishes) + k for k, part in enumerate(glass_parts(scene, finishes))}
     for row, (name, it, shares) in zip(rows, of_all, strict=True):
         row["f0"], row["f90"] = it.head_on, it.specular
-        row["transmission"], row["glass"] = it.glass_share, parts.get((name, GLASS), 0)
-        row["hole"] = parts.get((name, HOLE), 0)
+        row["transmission"], row["glass"] = it.glass_share, parts.get(name, 0)
         row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
         row["first"] = row["first_coat"] = place(shares)
         if it.clearcoat:

@@ -87,7 +87,7 @@ def _glass_parts(scene: Scene, finishes: Sequence[Finish]) -> Array:
     """Rows of the glass that some materials are in part, in the order of `glass_parts`."""
     parts, number_of = glass_parts(scene, finishes), glass_rows(scene, finishes)
     rows = np.zeros(len(parts), STRUCTS["Material"])
-    for row, ((name, _), glass) in zip(rows, parts.items(), strict=True):
+    for row, (name, glass) in zip(rows, parts.items(), strict=True):
         pack_dielectric(row, glass)
         row["details"] = CONSTANTS["NO_DETAILS"] if glass.thin else number_of.get(name, -1)
     return rows

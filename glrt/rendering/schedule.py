@@ -80,9 +80,11 @@ def _levels_of_sky(scene: Scene) -> int:
 
 
 def _passed(scene: Scene, found: Contents) -> int:
-    """Surfaces inside other glass that a segment may pass; where there are more, it is a guess."""
-    media = found.media
-    return min(sum(thing.material in media for thing in scene.visible), MOST_PASSED) if media else 0
+    """Holes, and surfaces inside other glass, that a segment may pass; of more it is a guess."""
+    passed = {*found.media, *found.holed}
+    return (
+        min(sum(thing.material in passed for thing in scene.visible), MOST_PASSED) if passed else 0
+    )
 
 
 def rounds_of_search(

@@ -10,11 +10,10 @@
 
 const float COAT_F0 = 0.04;  // of ior 1.5
 
-// What a path meets of a surface that is glass in part, or has holes: one of these, or the rest.
+// What a path meets of a surface that is glass in part: that, or the rest.
 Material met_part(Material material, float u) {
     precise Gloss gloss = gloss_at(material.details);
-    if (u >= material.coverage) return material_at(gloss.hole);
-    if (u >= gloss.transmission * material.coverage) return material;
+    if (u >= gloss.transmission) return material;
     precise Material glass = material_at(gloss.glass);
     glass.color = material.color;
     return glass;

@@ -55,7 +55,8 @@ void add_aovs(precise inout Pixel first, precise inout Pixel second, ivec2 place
     for (int index = frame.first_sample; index < end; index += 1) {
         precise Sampler rng = sampler_at(place, index, frame.seed);
         precise Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
-        precise Hit hit = closest_hit(ray);
+        leave_vertex(rng.seed, 0);
+        precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
         add_aov(first, FIRST_AOV, ray, hit, index);
         add_aov(second, SECOND_AOV, ray, hit, index);
     }

@@ -59,13 +59,16 @@ struct Path {
     int depth;        // scattering events so far
     vec3 absorption;  // of the glass that its next segment lies in
     uint counts;      // of the glasses with a priority there
+    uint holes;       // that this segment has passed
+    Ray start;        // it, where it left the vertex, if it has
+    float way;        // from there to the last hole
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
 Path start_path(Ray ray) {
     precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, NO_LAYERS);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, NO_LAYERS);
 }
 
 // Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
@@ -137,6 +140,22 @@ bool passes(precise inout Path path, Surface surface, Material material, bool en
     return true;
 }
 
+// Whether a segment goes on through a hole of a surface.
+bool passes_hole(precise inout Path path, Surface surface, Material material, float distance) {
+    if (!is_hole(material, path.holes)) return false;
+    path.holes += 1u;
+    path.way += distance;
+    path.ray = beyond(path.ray, surface);
+    return true;
+}
+
+// `emission_weight` of what a segment meets, which may have passed holes.
+float weight_of_emission(Path path, Hit hit, int light) {
+    if (!HAS_HOLE) return emission_weight(path.ray, hit, light, path.pdf, path.lamps);
+    precise Hit met = Hit(path.way + hit.distance, hit.shape);
+    return emission_weight(path.start, met, light, path.pdf, path.lamps);
+}
+
 // Light of a sample, scattered at a vertex. `facing`: the true normal on the side of wo; `behind`: what the
 // other side absorbs.
 void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, vec3 facing, vec3 behind) {
@@ -167,6 +186,7 @@ void gather_sun(precise inout Path path) {
 
 // Scatters at a surface, after gathering direct light there; false when the path ends.
 bool scatter_path(precise inout Path path, Surface surface, Material material, precise inout Sampler rng) {
+    leave_vertex(rng.seed, path.depth + 1);
     if (HAS_TRANSMISSION && material.kind == PRINCIPLED) material = met_part(material, next_1d(rng));
     precise vec3 facing = true_normal(surface);
     precise float side = dot(path.ray.direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
@@ -209,6 +229,9 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     path.ray = ray;
     if (HAS_ATTENUATION && next.crosses) path.absorption = behind;
     if (HAS_NESTED && next.crosses) path.counts = beyond;
+    path.holes = 0u;
+    path.start = ray;
+    path.way = 0.0;
     path.pdf = next.pdf;
     path.lamps = lamps;
     path.depth += 1;
@@ -217,6 +240,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
 
 // Follows one segment; false when the path ends with it.
 bool extend_path(precise inout Path path, precise inout Sampler rng) {
+    if (path.holes == 0u) leave_vertex(rng.seed, path.depth);
     precise Hit hit = closest_hit(path.ray);
     if (hit.shape == NO_SHAPE) {
         if (HAS_BACKGROUND) {
@@ -230,10 +254,11 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
     }
     precise Surface surface = surface_at(path.ray, hit);
     precise Material material = material_of(path.ray, surface);
-    precise float share = emission_weight(path.ray, hit, surface.light, path.pdf, path.lamps);
+    precise float share = weight_of_emission(path, hit, surface.light);
     bool facing = dot(path.ray.direction, true_normal(surface)) < 0.0;
     if (HAS_ATTENUATION) absorb(path, material, !facing, hit.distance);
     if (HAS_NESTED && passes(path, surface, material, facing)) return true;
+    if (HAS_HOLE && passes_hole(path, surface, material, hit.distance)) return true;
     precise vec3 emission = emitted(material, -path.ray.direction, facing);
     precise vec3 light = path.scale * path.throughput * emission * share;
     gather(path, light, material.layer, path.depth);

@@ -18,3 +18,4 @@
 #include "textures/coordinates.glsl"
 #include "textures/map.glsl"
 #include "textures/mapped.glsl"
+#include "textures/holes.glsl"

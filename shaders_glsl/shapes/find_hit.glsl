@@ -100,12 +100,6 @@ Hit closest_hit(Ray ray) {
     return find_hit(ray, FAR, NO_SHAPE, false);
 }
 
-// Whether anything but the lamp `ignored` stands within `limit`.
-bool occluded(Ray ray, float limit, int ignored) {
-    if (COUNT_RAYS) rays_so_far += 1.0;
-    return find_hit(ray, limit, ignored, true).shape != NO_SHAPE;
-}
-
 // The point hit, put back onto the shape: the distance alone leaves it beside.
 Surface surface_at(Ray ray, Hit hit) {
     precise vec3 p = ray.origin + hit.distance * ray.direction;

@@ -35,7 +35,7 @@ struct Gloss {
     float brightest;     // channel of f0
     float transmission;  // chance that a path meets its glass
     int glass;           // row of that among the materials
-    int hole;            // row of that
+    int spare;           // fills the row
     float even_base;     // 1 over the share of even light that dielectric facets leave
 };
 

@@ -16,7 +16,7 @@ struct Material {
     int emitter;     // how it emits: index into the emitters
     int details;     // index into the conductors, the glasses or the gloss; or NO_DETAILS
     float metallic;  // share of a principled surface that is metal
-    float roughness; // of it: the factor of an image
+    float roughness; // of it, or the factor of an image
     float coverage;  // chance that a path does not meet a hole of it
     int spare;       // fills the row
 };
