@@ -15,7 +15,7 @@ from glrt.scene.gltf.looks import looks_of
 from glrt.scene.materials import Material, Principled
 from glrt.scene.mesh_formats import GLTF, libraries
 from glrt.scene.meshes import Mesh
-from glrt.scene.mtl_files import decode_mtl, material_of
+from glrt.scene.mtl_files import Entry, decode_mtl, material_of
 from glrt.scene.named_meshes import MeshFile
 from glrt.scene.validation import validated
 from glrt.scene.values import plain
@@ -102,12 +102,30 @@ def _of_mtl(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dic
         library = reader.read(path, where, asset)
         entries = decode_mtl(library.content, f"{where}: {library.path}")
         folder = library.path.rpartition("/")[0] + "/" if "/" in library.path else ""
+        for entry in entries.values():
+            _check_image(entry, folder, shape, reader, where)
         found = {name: material_of(entry, folder) for name, entry in entries.items()} | found
         hashes[library.path] = library.sha256
     used = [found[name] for name in shape.triangles_of_file.parts if name in found]
     unread = {key for _, keys in used for key in keys}
     file = shape.file.with_libraries(hashes, tuple(sorted(unread)))
     return file, {name: material for name, (material, _) in found.items()}
+
+
+def _check_image(
+    entry: Entry, folder: str, shape: Mesh, reader: AssetReader, where: str
+) -> None:
+    """Leave an image out that is not there, as of many files, or that could not lie anywhere."""
+    if not entry.image:
+        return
+    try:
+        reader.read(folder + entry.image, where)
+        is_usable = shape.triangles_of_file.uv is not None
+    except SceneError:
+        is_usable = False
+    if not is_usable:
+        entry.image = ""
+        entry.unread["map_Kd"] = None
 
 
 def _of_gltf(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dict[str, Material]]:

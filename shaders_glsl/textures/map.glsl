@@ -28,7 +28,9 @@ vec4 map_value(int number, Coordinates at) {
     precise float across = within(dot(map.u, uv), map.wrap) * float(map.width);
     precise float down = within(dot(map.v, uv), map.wrap) * float(map.height);
     if (map.is_sharp != 0) {
-        return texel_of(map, min(int(across), map.width - 1), min(int(down), map.height - 1));
+        int column = min(int(across), map.width - 1);
+        int row = min(int(down), map.height - 1);
+        return texel_of(map, column, row);
     }
     precise vec2 place = vec2(across, down) - 0.5;
     precise vec2 corner = floor(place);

@@ -61,6 +61,7 @@ SETS = {
     **{f"smallest with {flag}": smallest_with(flag) for flag in sorted(FLAGS)},
     **{f"all but {flag}": all_but(flag) for flag in sorted(FLAGS)},
 }
+_CHECKER = {"checker": [0.25, 0.75]}
 MATERIALS: dict[str, dict[str, Any]] = {
     "matte": MATTE,
     "mirror": {"type": "metal", "color": [1, 1, 1], "roughness": 0},
@@ -73,6 +74,12 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "plastic": {"type": "principled"},
     "painted": {"type": "principled", "clearcoat": 1.0},
     "wax": {"type": "principled", "transmission": 0.5, "roughness": 0},
+    "checked": {"type": "lambertian", "color": _CHECKER},
+    "glowing": {"type": "principled", "emission": _CHECKER},
+    "worn": {"type": "principled", "roughness": _CHECKER},
+    "bumpy": {"type": "principled", "normal": _CHECKER},
+    "torn": {"type": "principled", "alpha": _CHECKER},
+    "gauze": {"type": "principled", "alpha": 0.5},
     "lamp": lamp(),
     "spot": lamp(cone={"axis": [0, 1, 0]}),
 }
@@ -125,6 +132,9 @@ def needs_with(flags: set[str]) -> Needs:
     made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane"}
     made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
+    made_of |= {"HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
+    made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
+    made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []
     ball, flat = sphere([9, 9, 9], 1, "matte"), _flat_shape(flags)

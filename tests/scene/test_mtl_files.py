@@ -52,7 +52,7 @@ def test_what_is_left_out_is_named() -> None:
         "newmtl a\r\nKa 1 1 1\r\n\tmap_Kd wood.png\r\nKd 1 1 1\r\nKs 1 1 1\r\nd 0.5\r\nTf 1 1 1\r\n"
     )
     found = decode_mtl(text.encode("utf-8-sig"), "here")
-    assert material_of(found["a"])[1] == ["map_Kd", "Tf", "d", "Ks"]
+    assert material_of(found["a"])[1] == ["Tf", "d", "Ks"]
 
 
 WRONG = {

@@ -39,9 +39,24 @@ PROBES = {
     "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
     "HAS_TRANSMISSION": (
         "bsdfs/principled.glsl",
-        "u >= gloss.coverage",
-        "u >= {} * gloss.coverage",
+        "u >= gloss.transmission",
+        "u >= {} * gloss.transmission",
     ),
+    "HAS_MAP": (
+        "textures/map.glsl",
+        "vec2(across, down) - 0.5",
+        "vec2(across, down) - {}",
+    ),
+    "HAS_COLOR_MAP": ("textures/mapped.glsl", "found.color *=", "found.color *= {} *"),
+    "HAS_EMISSION_MAP": ("textures/mapped.glsl", "found.emission *=", "found.emission *= {} *"),
+    "HAS_GLOSS_MAP": (
+        "textures/mapped.glsl",
+        "roughness * ROUGHNESS_STEPS",
+        "{} * roughness * ROUGHNESS_STEPS",
+    ),
+    "HAS_NORMAL_MAP": ("textures/mapped.glsl", "+ texel.z * normal", "+ {} * texel.z * normal"),
+    "HAS_COVERAGE_MAP": ("textures/mapped.glsl", "found.coverage *=", "found.coverage *= {} *"),
+    "HAS_HOLE": ("textures/holes.glsl", ">= material.coverage", ">= {} * material.coverage"),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
     "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
     "HAS_NESTED": (
@@ -85,6 +100,13 @@ NEEDED_TOO = {
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
     "HAS_COAT": {"HAS_PRINCIPLED"},
     "HAS_TRANSMISSION": {"HAS_PRINCIPLED", "HAS_DIELECTRIC"},
+    "HAS_MAP": {"HAS_COLOR_MAP"},
+    "HAS_COLOR_MAP": {"HAS_MAP"},
+    "HAS_EMISSION_MAP": {"HAS_MAP", "HAS_PRINCIPLED"},
+    "HAS_GLOSS_MAP": {"HAS_MAP", "HAS_PRINCIPLED"},
+    "HAS_NORMAL_MAP": {"HAS_MAP", "HAS_PRINCIPLED"},
+    "HAS_HOLE": {"HAS_PRINCIPLED"},
+    "HAS_COVERAGE_MAP": {"HAS_MAP", "HAS_HOLE", "HAS_PRINCIPLED"},
     "SAMPLE_SUN": {"HAS_SUN"},
     "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
     "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
@@ -107,7 +129,11 @@ NEEDED_TOO = {
 GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
-    "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION"},
+    "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION", "HAS_HOLE", "HAS_COVERAGE_MAP"}
+    | {"HAS_EMISSION_MAP", "HAS_GLOSS_MAP", "HAS_NORMAL_MAP"},
+    "HAS_MAP": {"HAS_COLOR_MAP", "HAS_EMISSION_MAP", "HAS_GLOSS_MAP"}
+    | {"HAS_NORMAL_MAP", "HAS_COVERAGE_MAP"},
+    "HAS_HOLE": {"HAS_COVERAGE_MAP"},
     "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED", "HAS_TRANSMISSION"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},

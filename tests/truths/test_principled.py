@@ -274,7 +274,7 @@ def test_a_scene_asks_for_glass_where_some_is_glass() -> None:
     assert needs.has_rough_glass
     assert "dielectric" in needs.materials
     assert not needs_of(ball(), Settings()).has_transmission
-    assert needs_of(ball(alpha=0.5), Settings()).has_pane
+    assert needs_of(ball(alpha=0.5), Settings()).has_hole
     assert "glass is black" in omissions(ball(transmission=0.5), Settings(method="phong"))
 
 
