@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from glrt.scene.shapes import Disk, Plane, Quad, Sphere
     from glrt.scene.solids import Box
     from glrt.scene.sun import Sun
+    from glrt.scene.textures import NormalTexture, Texture
     from glrt.settings import Settings
 
 __all__ = [
@@ -70,6 +71,7 @@ __all__ = [
     "Light",
     "Mesh",
     "Metal",
+    "NormalTexture",
     "Plane",
     "Principled",
     "Quad",
@@ -78,6 +80,7 @@ __all__ = [
     "Settings",
     "Sphere",
     "Sun",
+    "Texture",
     "__version__",
     "compare",
     "load",
@@ -103,6 +106,7 @@ _HOMES = {
     "Light": "scene.materials",
     "Mesh": "scene.meshes",
     "Metal": "scene.materials",
+    "NormalTexture": "scene.textures",
     "Principled": "scene.materials",
     "Plane": "scene.shapes",
     "Quad": "scene.shapes",
@@ -110,6 +114,7 @@ _HOMES = {
     "Scene": "scene.scene",
     "Settings": "settings",
     "Sphere": "scene.shapes",
+    "Texture": "scene.textures",
     "compare": "comparison.verdict",
     "load": "image.sources",
     "merge": "image.merge",

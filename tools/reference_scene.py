@@ -19,6 +19,7 @@ from glrt.scene import (
     shapes,
     solids,
     sun,
+    textures,
 )
 from glrt.settings import RenderSettings, editable_of
 
@@ -41,6 +42,17 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
         materials.Principled,
     ),
     ("[materials.NAME] of type light", "", materials.Light),
+    (
+        "texture",
+        'In place of a color or a number: `color = { image = "wood.jpg" }`. '
+        "[Textures](../how-to/textures.md).",
+        textures.Texture,
+    ),
+    (
+        "normal of a material of type principled",
+        'A texture with `strength`: `normal = { image = "bumps.png" }`.',
+        textures.NormalTexture,
+    ),
     ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", cone.Cone),
     ("[[objects]] of shape sphere", "", shapes.Sphere),
     ("[[objects]] of shape plane", "", shapes.Plane),
@@ -93,6 +105,8 @@ def keys(model: type[BaseModel]) -> str:
     schema = model.model_json_schema()
     rows = []
     for name, field in model.model_fields.items():
+        if name not in schema["properties"]:
+            continue  # a texture, which is a part of another key
         part = schema["properties"][name]
         start = default(name, schema, field.default)
         cells = (f"`{name}`", kind(part), start, limits(part), editable_of(field).unit)
@@ -102,6 +116,11 @@ def keys(model: type[BaseModel]) -> str:
 
 def kind(part: dict[str, Any]) -> str:
     """The type of a value in words."""
+    if any("Texture" in option.get("$ref", "") for option in part.get("anyOf", ())):
+        plain = [p for p in part["anyOf"] if "$ref" not in p and p.get("type") != "null"]
+        nested = [p for option in plain for p in option.get("anyOf", [option])]
+        shown = [kind(option) for option in nested if option.get("type") != "null"]
+        return " or ".join([*shown, "[texture](#texture)"])
     if part.get("anyOf", [{}])[-1].get("type") == "array":
         return " or ".join(kind(option) for option in part["anyOf"])
     if "anyOf" in part:
@@ -119,7 +138,7 @@ def kind(part: dict[str, Any]) -> str:
         return f"{part['maxItems']} numbers" if "minItems" in part else "list of tables"
     if part.get("type") == "object" or "$ref" in part or "allOf" in part:
         return "table"
-    return WORDS[str(part["type"])]
+    return WORDS[str(part["type"])] if "type" in part else "number or 3 numbers"
 
 
 def limits(part: dict[str, Any]) -> str:

@@ -56,25 +56,23 @@ class Mesh(Sided):
     """Triangles of a file: taken by its matrix, then scaled, then turned, then moved.
 
     Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, colors=None,
-    material=...)`: places of vertices, (v, 3); the numbers of those of each triangle, (n, 3),
-    counter-clockwise seen from outside; normals at the vertices, (v, 3); and linear colours there,
-    (v, 3) of 0 to 1, by which that of the material is multiplied. Such a mesh is saved beside its
-    scene.
+    uv=None, material=...)`: places of vertices, (v, 3); the numbers of those of each triangle,
+    (n, 3), counter-clockwise seen from outside; normals at the vertices, (v, 3); linear colours
+    there, (v, 3) of 0 to 1, by which that of the material is multiplied; and texture coordinates
+    there, (v, 2), (0, 0) in the upper left of an image. Such a mesh is saved beside its scene.
     """
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
-    file: NamedMesh = Field(
-        description="path of a file of triangles or polygons, .ply, .obj or .stl"
-    )
+    file: NamedMesh = Field(description="path of a model, .glb, .gltf, .obj, .ply or .stl")
     material: str = Field(
         "",
         pattern=r"^[^\x00-\x1f\x7f]*$",
-        description="name of one of the materials; default: those that an OBJ file has of its own",
+        description="name of one of the materials; default: those of the file itself, which OBJ and "
+        "glTF files have",
     )
     part: Name | None = Field(
         None,
-        description="name of a material of the OBJ file, whose triangles alone are taken; default: "
-        "all",
+        description="name of a material of the file, whose triangles alone are taken; default: all",
     )
     translate: Vector = Field((0.0, 0.0, 0.0), description="where the origin of the file lies")
     rotate: Vector = Field(
@@ -109,6 +107,7 @@ class Mesh(Sided):
             faces: Any = None,
             normals: Any = None,
             colors: Any = None,
+            uv: Any = None,
             *,
             file: MeshFile | str | None = None,
             translate: Triple = (0, 0, 0),
@@ -126,12 +125,12 @@ class Mesh(Sided):
 
     else:
 
-        def __init__(self, vertices=None, faces=None, normals=None, colors=None, **fields):
+        def __init__(self, vertices=None, faces=None, normals=None, colors=None, uv=None, **fields):
             """Raises ValueError, which says what is wrong with which row of an array."""
             if vertices is not None or faces is not None:
                 if "file" in fields:
                     raise ValueError("a mesh is given by arrays or by a file, not by both")
-                fields["file"] = mesh_of_arrays(vertices, faces, normals, colors)
+                fields["file"] = mesh_of_arrays(vertices, faces, normals, colors, uv)
             super().__init__(**fields)
 
     @property

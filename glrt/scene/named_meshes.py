@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import BeforeValidator, PlainSerializer, PrivateAttr, WithJsonSchema
 
 from glrt.scene.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
@@ -54,12 +55,15 @@ class MeshFile(NamedFile):
         return found
 
 
-def mesh_of_arrays(vertices: Any, faces: Any, normals: Any = None, colors: Any = None) -> MeshFile:
+def mesh_of_arrays(
+    vertices: Any, faces: Any, normals: Any = None, colors: Any = None, uv: Any = None
+) -> MeshFile:
     """A mesh from arrays, under the name of the file that it is saved as.
 
     Raises ValueError, which says what is wrong with which row.
     """
-    triangles = checked(vertices, faces, normals, colors)
+    sets = None if uv is None else np.tile(two_columns(uv), (1, 2))
+    triangles = checked(vertices, faces, normals, colors, uv=sets)
     content = _ply(triangles)
     sha256 = hashlib.sha256(content).hexdigest()
     named = MeshFile(file=f"mesh-{sha256[:12]}.ply")
@@ -68,9 +72,19 @@ def mesh_of_arrays(vertices: Any, faces: Any, normals: Any = None, colors: Any =
     return found
 
 
+def two_columns(uv: Any) -> NDArray[np.float64]:
+    """Texture coordinates as (v, 2); ValueError for what is none."""
+    found = np.asarray(uv)
+    if found.ndim != 2 or found.shape[1] != 2 or found.dtype.kind not in "fiu":
+        raise ValueError(f"uv must be an array of numbers of shape (n, 2), got {found.shape}")
+    return found.astype(np.float64)
+
+
 def _ply(mesh: TriangleMesh) -> bytes:
     """A binary PLY file with every digit."""
     tables = {"x y z": mesh.vertices, "nx ny nz": mesh.normals, "red green blue": mesh.colors}
+    if mesh.uv is not None:  # t grows upwards, as other programs have it
+        tables["s t"] = np.stack([mesh.uv[:, 0], 1 - mesh.uv[:, 1]], axis=1)
     there = {names: rows for names, rows in tables.items() if rows is not None}
     names, columns = " ".join(there).split(), list(there.values())
     rows = np.zeros(len(mesh.faces), [("count", "u1"), ("corners", "<i4", 3)])

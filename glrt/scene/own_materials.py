@@ -112,9 +112,7 @@ def _of_mtl(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dic
     return file, {name: material for name, (material, _) in found.items()}
 
 
-def _check_image(
-    entry: Entry, folder: str, shape: Mesh, reader: AssetReader, where: str
-) -> None:
+def _check_image(entry: Entry, folder: str, shape: Mesh, reader: AssetReader, where: str) -> None:
     """Leave an image out that is not there, as of many files, or that could not lie anywhere."""
     if not entry.image:
         return

@@ -34,7 +34,7 @@ class Texture(Value):
     """An image or a checkerboard over the texture coordinates of a surface.
 
     Exactly one of `image` and `checker` says which. Colors of an image are decoded from sRGB, other
-    numbers are its codes from 0 to 1. docs/how-to/textures.md tells the coordinates of each shape.
+    numbers are its codes from 0 to 1.
     """
 
     image: NamedTexture | None = Field(None, description="path of an image, or FILE.glb#NUMBER")
@@ -111,6 +111,12 @@ class NormalTexture(Texture):
     strength: Annotated[float, Field(ge=0, le=100)] = Field(
         1.0, description="factor of the inclination"
     )
+
+    @model_validator(mode="after")
+    def _has_no_factor(self) -> Self:
+        if self.factor is not None or self.checker is not None:
+            raise ValueError("must be an image with strength, without factor and checker")
+        return self
 
 
 def separated(data: Any, kinds: Mapping[str, bool]) -> Any:

@@ -77,7 +77,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "checked": {"type": "lambertian", "color": _CHECKER},
     "glowing": {"type": "principled", "emission": _CHECKER},
     "worn": {"type": "principled", "roughness": _CHECKER},
-    "bumpy": {"type": "principled", "normal": _CHECKER},
+    "bumpy": {"type": "principled", "normal": {"image": "bumps.png"}},
     "torn": {"type": "principled", "alpha": _CHECKER},
     "gauze": {"type": "principled", "alpha": 0.5},
     "lamp": lamp(),

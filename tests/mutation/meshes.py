@@ -112,7 +112,7 @@ MESHES = [
     ),
     Mutant(
         "each material of a mesh has normals of its own",
-        (Edit("glrt/scene/triangle_meshes.py", "normals[used], colors)", "None, colors)"),),
+        (Edit("glrt/scene/triangle_meshes.py", "normals[used], colors\n", "None, colors\n"),),
         f"{_OWN}::test_normals_at_borders_are_those_of_the_whole",
     ),
     Mutant(
@@ -135,8 +135,8 @@ MESHES = [
         (
             Edit(
                 "glrt/scene/own_materials.py",
-                'self.materials.setdefault(f"{file.file}:{name}", material_of(entries[name])[0])',
-                'self.materials[f"{file.file}:{name}"] = material_of(entries[name])[0]',
+                'self.materials.setdefault(f"{file.file}:{name}", own[name])',
+                'self.materials[f"{file.file}:{name}"] = own[name]',
             ),
         ),
         f"{_OWN}::test_python_may_leave_the_material_out",

@@ -73,7 +73,7 @@ PRINCIPLED = [
     ),
     Mutant(
         "holes are as rare as the surface",
-        edit(_FILE, "u >= gloss.coverage) return", "u < gloss.coverage) return"),
+        edit("textures/holes.glsl", ">= material.coverage;", "< material.coverage;"),
         f"{_TRUTHS}::test_holes_let_light_through",
     ),
     Mutant(

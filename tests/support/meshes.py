@@ -73,8 +73,9 @@ def box(low: Any, high: Any) -> Faces:
 
 
 def mesh(faces: Faces, material: str, **more: Any) -> dict[str, Any]:
-    """An object of a scene, of arrays; with `normals=`, `colors=` those of its vertices."""
-    file = mesh_of_arrays(*faces, more.pop("normals", None), more.pop("colors", None))
+    """An object of a scene, of arrays; with `normals=`, `colors=`, `uv=` those of its vertices."""
+    rows = (more.pop(name, None) for name in ("normals", "colors", "uv"))
+    file = mesh_of_arrays(*faces, *rows)
     return {"shape": "mesh", "file": file, "material": material, **more}
 
 

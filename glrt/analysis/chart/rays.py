@@ -9,7 +9,8 @@ from glrt.settings import Settings
 
 SAMPLES = 32
 COUNTING = Variant({"COUNT_RAYS": True})  # renders the number of rays in place of radiance
-_FILE, _COUNT = "shapes/find_hit.glsl", "if (COUNT_RAYS) rays_so_far += 1.0;"
+_FOLLOWED, _SHADOW = "shapes/find_hit.glsl", "textures/holes.glsl"
+_COUNT = "if (COUNT_RAYS) rays_so_far += 1.0;"
 
 
 def rays_per_sample(scene: Scene, settings: Settings, context: Context) -> float:
@@ -22,6 +23,8 @@ def rays_per_sample(scene: Scene, settings: Settings, context: Context) -> float
 
 def counting_variant(followed: float, shadow: float) -> Variant:
     """COUNTING with weights: of camera and scattered rays, and of shadow rays."""
-    start, middle, end = read(_FILE).split(_COUNT)
-    weighed = [f"rays_so_far += {float(weight)!r};" for weight in (followed, shadow)]
-    return COUNTING._replace(texts={_FILE: start + weighed[0] + middle + weighed[1] + end})
+    texts = {}
+    for file, weight in ((_FOLLOWED, followed), (_SHADOW, shadow)):
+        start, end = read(file).split(_COUNT)
+        texts[file] = f"{start}rays_so_far += {float(weight)!r};{end}"
+    return COUNTING._replace(texts=texts)
