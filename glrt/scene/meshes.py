@@ -67,8 +67,8 @@ class Mesh(Sided):
     material: str = Field(
         "",
         pattern=r"^[^\x00-\x1f\x7f]*$",
-        description="name of one of the materials; default: those of the file itself, which OBJ and "
-        "glTF files have",
+        description="name of one of the materials; default: those of the file, which OBJ and glTF "
+        "files have",
     )
     part: Name | None = Field(
         None,

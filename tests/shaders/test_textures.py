@@ -112,10 +112,10 @@ def shares_of(count: int = 500) -> Any:
 @pytest.mark.parametrize("order", [1, -1])
 def test_a_quad_has_them_along_its_edges(call_glsl: CallGlsl, order: int) -> None:
     """Whichever is longer: the kernel sorts them."""
-    corner, edges = [-1, 1, -4], [[3.0, 0.5, 0], [0.5, -1.5, 0.5]][::order]
-    scene = scene_of([quad(corner, *edges, "m")], {"m": TEXTURED})
+    corner, (u, v) = [-1, 1, -4], [[3.0, 0.5, 0], [0.5, -1.5, 0.5]][::order]
+    scene = scene_of([quad(corner, u, v, "m")], {"m": TEXTURED})
     shares = shares_of()
-    found = coordinates(call_glsl, scene, points_between(corner, *edges, shares))
+    found = coordinates(call_glsl, scene, points_between(corner, u, v, shares))
     assert_allclose(found, shares, atol=3e-6)
 
 

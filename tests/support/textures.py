@@ -47,7 +47,7 @@ def value64(image: Array, uv: Array, wrap: str = "repeat", sharp: bool = False) 
     total = np.zeros((len(uv), 4))
     for x in (0, 1):
         for y in (0, 1):
-            column, row = (corner + [x, y]).astype(int).T
+            column, row = (corner + np.array([x, y])).astype(int).T
             if wrap == "repeat":
                 column, row = column % width, row % height
             column, row = column.clip(0, width - 1), row.clip(0, height - 1)
