@@ -11,7 +11,7 @@ from glrt.scene.assets import AssetReader
 from glrt.scene.contents import MAX_OBJECTS, Contents
 from glrt.scene.file_contents import Beside
 from glrt.scene.gltf.document import Document
-from glrt.scene.gltf.looks import looks_of
+from glrt.scene.gltf.looks import looks_of, make_pane
 from glrt.scene.materials import Material, Principled
 from glrt.scene.mesh_formats import GLTF, libraries
 from glrt.scene.meshes import Mesh
@@ -138,9 +138,7 @@ def _of_gltf(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, di
             look = looks[name]
             if look.table.get("transmission") and not look.table["thin"] and part.opening:
                 look.unread.append("the volume of glass that is not closed")
-                for key in ("attenuation_color", "attenuation_distance"):
-                    look.table.pop(key, None)
-                look.table["thin"] = True
+                make_pane(look)
             own[name] = Principled.model_validate(plain(look.table), strict=True)
             unread += look.unread
     except ValueError as error:

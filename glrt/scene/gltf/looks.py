@@ -130,6 +130,27 @@ def _layers(document: Document, given: dict[str, Any], here: str, look: Look) ->
     coat = own("clearcoat")
     look.table["clearcoat"] = value(coat, "clearcoatFactor", 0)
     look.table["clearcoat_roughness"] = value(coat, "clearcoatRoughnessFactor", 0)
-    if look.table["transmission"] and look.table["clearcoat"]:
+    if look.table["transmission"]:
+        _fit_glass(look)
+
+
+def _fit_glass(look: Look) -> None:
+    """Leave out what glass of a scene cannot have beside it."""
+    if look.table["clearcoat"]:
         look.table["clearcoat"] = 0.0
         look.unread.append("clearcoat over transmission")
+    if isinstance(look.table["metallic"], dict):
+        look.table["metallic"] = 0.0
+        look.unread.append("metallicRoughnessTexture beside transmission")
+    if look.table["thin"]:
+        make_pane(look)
+
+
+def make_pane(look: Look) -> None:
+    """Let its glass be a pane, which is smooth and encloses nothing."""
+    for key in ("attenuation_color", "attenuation_distance"):
+        look.table.pop(key, None)
+    if look.table["roughness"] != 0.0:
+        look.table["roughness"] = 0.0
+        look.unread.append("roughness of thin glass")
+    look.table["thin"] = True

@@ -49,12 +49,12 @@ def lights_of(document: Document, size: float) -> dict[str, Any]:
     lights = document.list(listed.get("lights", []), "lights")
     found: dict[str, Any] = {"materials": {}, "objects": [], "suns": []}
     for placed in placed_nodes(document):
-        own = document.extension(placed.node, "KHR_lights_punctual", f"nodes[{placed.index}]")
+        own = document.extension(placed.node, "KHR_lights_punctual", f"nodes[{placed.number}]")
         if own is None:
             continue
         index = own.get("light")
         if type(index) is not int or not 0 <= index < len(lights):
-            raise ValueError(f"nodes[{placed.index}] names a light that there is not")
+            raise ValueError(f"nodes[{placed.number}] names a light that there is not")
         here = f"lights[{index}]"
         _add(found, document.table(lights[index], here), placed, size, here)
     return found
@@ -76,7 +76,7 @@ def _add(
         return
     radius = LAMP_SIZE * size
     radiance = intensity / LUMENS / (math.pi * radius**2)
-    name = f"light {placed.index}"
+    name = f"light {placed.number}"
     material: dict[str, Any] = {
         "type": "light",
         "emission": tuple(radiance * each for each in color),
