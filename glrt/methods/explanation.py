@@ -23,6 +23,14 @@ from glrt.scene.summary import few
 from glrt.settings import Settings
 from glrt.text import counted, plural
 
+_TEXTURED = {  # by the constant of the kernel: a name, and the keys of materials that ask for it
+    "has_color_map": ("textured color", ("color",)),
+    "has_emission_map": ("textured light", ("emission",)),
+    "has_gloss_map": ("textured gloss", ("metallic", "roughness")),
+    "has_normal_map": ("normal maps", ("normal",)),
+    "has_coverage_map": ("textured alpha", ("alpha",)),
+}
+
 
 class Feature(NamedTuple):
     """A feature of the kernel, whether it is compiled in, and why."""
@@ -57,6 +65,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("tree of shapes", needs.has_tree or MESH in needs.shapes, _tree(found)),
         Feature("smooth normals", needs.has_smooth, _smooth(found)),
         Feature("vertex colours", needs.has_vertex_color, _colored(found)),
+        *_textures(needs, found),
         Feature("mirrors", needs.has_mirror, _made_of(mirrors, "metal of roughness 0")),
         Feature("rough metal", needs.has_rough_metal, _made_of(rough, "metal with roughness")),
         Feature("conductors", needs.has_conductor, _made_of(found.conductors, "measured metal")),
@@ -92,6 +101,20 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]
+
+
+def _textures(needs: Needs, found: Contents) -> list[Feature]:
+    """A row for each kind of texture, and one for holes."""
+    rows = [
+        Feature(name, getattr(needs, constant), _mapped(keys, found))
+        for constant, (name, keys) in _TEXTURED.items()
+    ]
+    return [*rows, Feature("holes", needs.has_hole, _made_of(found.holed, "alpha below 1"))]
+
+
+def _mapped(keys: tuple[str, ...], found: Contents) -> str:
+    there = [key for key in keys if key in found.mapped]
+    return f"{' and '.join(there or keys)} by {'a texture' if there else 'no texture'}"
 
 
 def _kinds_of_glass(needs: Needs, found: Contents) -> list[Feature]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from glrt.scene.materials import TYPES
+from glrt.scene.materials import TYPES, Opaque
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.shapes import KINDS
@@ -12,10 +12,11 @@ MOST_NAMED = 8  # of a sort
 
 
 def summary(scene: Scene) -> list[str]:
-    """Objects by kind, materials by type, and light groups with their intensity."""
+    """Objects by kind, materials by type, textures, and light groups with their intensity."""
     return [
         f"objects    {', '.join(_objects(scene)) or 'none'}",
         f"materials  {'; '.join(_materials(scene)) or 'none'}",
+        *_textures(scene),
         f"lights     {few(_lights(scene)) or 'none'}",
     ]
 
@@ -38,6 +39,18 @@ def _materials(scene: Scene) -> Iterator[str]:
         names = [name for name, material in scene.materials.items() if material.type == type_]
         if names:
             yield f"{type_} {few(names)}"
+
+
+def _textures(scene: Scene) -> Iterator[str]:
+    opaque = [material for material in scene.materials.values() if isinstance(material, Opaque)]
+    textures = [texture for material in opaque for texture in material.textures.values()]
+    if not textures:
+        return
+    images = {texture.image for texture in textures if texture.image is not None}
+    texels = [image.texels for image in images if image.texels is not None]
+    size = sum(each.nbytes for each in texels) / 2**20
+    of_images = f"{counted(len(images), 'image')} of {size:.3g} MiB"
+    yield f"textures   {len(textures)}, {of_images}"
 
 
 def _lights(scene: Scene) -> Iterator[str]:
