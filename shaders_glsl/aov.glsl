@@ -9,6 +9,7 @@
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"
 #include "sampling/angle.glsl"
+#include "sampling/hole_numbers.glsl"
 #include "shapes/all_shapes.glsl"
 #include "integrators/camera.glsl"
 #include "film/pixel.glsl"

@@ -10,6 +10,7 @@
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"
 #include "sampling/angle.glsl"
+#include "sampling/hole_numbers.glsl"
 #include "shapes/all_shapes.glsl"
 #include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"

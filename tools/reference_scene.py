@@ -120,7 +120,7 @@ def kind(part: dict[str, Any]) -> str:
         plain = [p for p in part["anyOf"] if "$ref" not in p and p.get("type") != "null"]
         nested = [p for option in plain for p in option.get("anyOf", [option])]
         shown = [kind(option) for option in nested if option.get("type") != "null"]
-        return " or ".join([*shown, "[texture](#texture)"])
+        return " or ".join([*shown, "[texture](scene-file.md#texture)"])
     if part.get("anyOf", [{}])[-1].get("type") == "array":
         return " or ".join(kind(option) for option in part["anyOf"])
     if "anyOf" in part:

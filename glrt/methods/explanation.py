@@ -80,8 +80,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("coats", needs.has_coat, _made_of(found.coated, "principled with clearcoat")),
         *_kinds_of_glass(needs, found),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
-        Feature("cones", needs.has_cone, _lamps_with("a cone", found.cones)),
-        Feature("one-sided lamps", needs.has_one_sided, _lamps_with("one side", found.one_sided)),
+        *_aims(needs, found),
         Feature("background", needs.has_background, _background(scene)),
         Feature("horizon", needs.has_horizon, _horizon(scene)),
         Feature("image of the sky", needs.has_environment, _environment(scene)),
@@ -100,6 +99,13 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("lighting model", needs.model > 0, _model(settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
+    ]
+
+
+def _aims(needs: Needs, found: Contents) -> list[Feature]:
+    return [
+        Feature("cones", needs.has_cone, _lamps_with("a cone", found.cones)),
+        Feature("one-sided lamps", needs.has_one_sided, _lamps_with("one side", found.one_sided)),
     ]
 
 

@@ -4,16 +4,10 @@
 
 const uint MOST_HOLES = 1024u;  // of a segment: what lies behind more is not seen
 
-uint hole_key = 0u;  // of the sample, and of the vertex
-
-void leave_vertex(uint seed, int depth) {
-    if (HAS_HOLE) hole_key = pcg_hash(seed ^ pcg_hash(uint(depth)));
-}
-
 // `passed`: holes of this segment so far.
 bool is_hole(Material material, uint passed) {
     if (material.kind != PRINCIPLED || material.coverage >= 1.0 || passed >= MOST_HOLES) return false;
-    return unit_float(pcg_hash(hole_key + passed)) >= material.coverage;
+    return hole_number(passed) >= material.coverage;
 }
 
 Ray beyond(Ray ray, Surface surface) {

@@ -17,6 +17,7 @@ from tests.mutation.principled import PRINCIPLED
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
+from tests.mutation.textures import TEXTURES
 from tests.mutation.transport import TRANSPORT
 
 MUTANTS = [
@@ -26,6 +27,7 @@ MUTANTS = [
     *MESHES,
     *INSTANCES,
     *METALS,
+    *TEXTURES,
     *GLASS,
     *LIGHTS,
     *SKY,

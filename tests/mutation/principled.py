@@ -40,7 +40,7 @@ PRINCIPLED = [
         "metal keeps a matte base",
         edit(
             _FILE,
-            "vec3 base = (1.0 - gloss.metallic) * material.color;",
+            "vec3 base = (1.0 - material.metallic) * material.color;",
             "vec3 base = material.color;",
         ),
         f"{_SHADERS}::test_it_scatters_as_the_formulas_say",

@@ -224,17 +224,23 @@ TRANSPORT = [
     ),
     Mutant(
         "the image of the sky is mirrored",
-        edit("lights/sky.glsl", "direction.x < 0.0 ? -azimuth", "direction.x > 0.0 ? -azimuth"),
+        edit("sampling/angle.glsl", "direction.x < 0.0 ? -azimuth", "direction.x > 0.0 ? -azimuth"),
         "truths/test_sky_image.py::test_pixels_stand_where_the_format_says",
     ),
     Mutant(
         "the image of the sky stands on its head",
-        edit("lights/sky.glsl", "angle_of(across, direction.y)", "angle_of(across, -direction.y)"),
+        edit(
+            "sampling/angle.glsl", "angle_of(across, direction.y)", "angle_of(across, -direction.y)"
+        ),
         "truths/test_sky_image.py::test_the_first_row_is_above",
     ),
     Mutant(
         "the image of the sky turns the other way",
-        edit("lights/sky.glsl", "+ 0.5 + frame.background_turn", "+ 1.5 - frame.background_turn"),
+        edit(
+            "lights/sky.glsl",
+            "(direction) + frame.background_turn",
+            "(direction) + 1.0 - frame.background_turn",
+        ),
         "truths/test_sky_image.py::test_a_quarter_turn_moves_what_stood_ahead_to_the_left",
     ),
     Mutant(

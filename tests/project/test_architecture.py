@@ -42,6 +42,7 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "9.5367431640625e-7",  # 2^-20: how far off its triangle a ray starts
     "0.04",  # Schlick's reflectance of a clear coat, head-on
     "21.0",  # 1 / 21: the mean of (1 - cos)^5 over even light
+    "255.0",  # steps of roughness where it is an image
     "32767.0",  # steps of a coordinate of a normal
     "1.0e-6",  # of the squared length of a mean of unit normals
     "8388608.0",  # 2^23: half of the cells of its grid

@@ -176,6 +176,17 @@ def test_rays_to_lights_pass_the_layers_too(
     assert_mean(whole(image), 0.5 * (1 - alpha) ** count, within=0.02, floor=2e-4)
 
 
+@pytest.mark.parametrize("method", ["nee", "mis"])
+def test_rays_to_lights_pass_what_the_path_has_passed(context: Context, method: str) -> None:
+    """A floor under a sheet, seen and lit through it: one hole says nothing of the other."""
+    eye = {"position": [0, 3, 0], "look_at": [0, 0, -1e-3], "fov": 20}
+    floor = plane([0, 0, 0], [0, 1, 0], "floor")
+    materials = {"m": principled(**BLACK, alpha=0.5), "floor": MATTE}
+    scene = scene_of([floor, *sheets(1)], materials, eye, sun=SUN)
+    image = rendered(scene, context, 4096, method=method, bounces=1)
+    assert_mean(whole(image), 0.5**3, within=0.02)
+
+
 def test_a_lamp_behind_a_hole_is_weighed_from_where_the_path_scattered(context: Context) -> None:
     """All methods agree on a floor near a lamp behind a sheet."""
     sheet = quad([-3, 0.4, -3], [6, 0, 0], [0, 0, 6], "m")
