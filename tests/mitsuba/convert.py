@@ -242,6 +242,8 @@ def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
 def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
     """How a surface scatters, on both sides, and what it emits from its front."""
     material = scene.materials[finish.material]
+    if isinstance(material, Opaque) and material.textures:
+        raise SceneError(f"material '{finish.material}': the converter knows no textures.")
     if isinstance(material, Dielectric):
         return {"bsdf": _glass(finish.material, material)}
     if isinstance(material, Principled):

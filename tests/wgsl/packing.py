@@ -9,6 +9,7 @@ import numpy as np
 
 from glrt.errors import SceneError
 from glrt.gpu.structs import read_constants, record
+from glrt.methods.contents import contents_of
 from glrt.rendering.pack import pack_camera, pack_scene
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -45,6 +46,8 @@ def settings_buffer(scene: Scene, settings: Settings) -> bytes:
     kinds = [shape.shape for shape in scene.objects]
     if scene.background.horizon or not {"sphere", "plane", "quad"}.issuperset(kinds):
         raise SceneError("a horizon, or a shape: WGSL has spheres, planes and quads alone.")
+    if contents_of(scene).mapped:
+        raise SceneError("a texture: WGSL has none.")
     bottom, top = scene.background_colors
     values = {
         "background_bottom": bottom,

@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass keeps, a lamp inside it
 - plastic: the light that white plastic keeps
+- textures: coordinates far away, bent normals, layers full of holes
 - sums: accumulation, random numbers, long paths
 - views: positions and fields of view of the camera
 - cases: all cases by name

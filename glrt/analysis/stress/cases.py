@@ -9,6 +9,7 @@ from glrt.analysis.stress import (
     sky,
     spots,
     sums,
+    textures,
     triangles,
     views,
 )
@@ -36,6 +37,9 @@ _ALL = (
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
     Case("plastic", "The light that white plastic keeps", plastic.grazing),
     Case("frosted", "A lamp inside frosted glass", rough_glass.frosted),
+    Case("layers", "Layers that are there in part", textures.layers),
+    Case("bumps", "A normal bent by an image", textures.bumps),
+    Case("far", "Texture coordinates far from the image", textures.far),
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),
     Case("frames", "Many frames accumulated", sums.frames),
