@@ -153,11 +153,23 @@ def test_closed_glass_has_a_volume_and_open_glass_is_thin(tmp_path: Path) -> Non
 
 
 def test_what_is_left_out_is_told_once(tmp_path: Path) -> None:
-    builder = textured_square(extensions={"KHR_materials_unlit": {}})
-    builder.json["extensionsUsed"] = ["KHR_materials_unlit", "EXT_strange"]
+    builder = textured_square(
+        extensions={"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}}}
+    )
+    builder.json["extensionsUsed"] = ["KHR_materials_clearcoat", "EXT_strange"]
     scene = load(saved(tmp_path, builder))
     (told,) = cautions(scene, settings_for(scene.render))
-    assert told.startswith("thing.glb: EXT_strange, KHR_materials_unlit of the materials")
+    assert "thing.glb: EXT_strange, clearcoatTexture of the materials" in told
+
+
+def test_what_is_unlit_looks_the_same_in_every_light(tmp_path: Path, context: Context) -> None:
+    builder = textured_square(extensions={"KHR_materials_unlit": {}})
+    scene = load(saved(tmp_path, builder))
+    camera = scene.camera.model_copy(
+        update={"position": (0.75, 0.75, 1), "look_at": (0.75, 0.75, 0), "fov": 10.0}
+    )
+    image = rendered(scene.model_copy(update={"camera": camera}), context, 4, width=2, height=2)
+    assert_allclose(image.radiance, np.broadcast_to([0, 1, 0], (2, 2, 3)), atol=1e-6)
 
 
 def test_a_camera_of_the_file_is_taken(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ Modules, each importing only what stands above it:
 - document: the parts of a file, and its buffers
 - accessors: its arrays
 - nodes: where its meshes, cameras and lights stand
+- skins: where joints lead the vertices of its meshes
 - primitives: the triangles of its meshes
 - images: the images that it holds or names
 - textures: its textures in the terms of a scene

@@ -16,6 +16,7 @@ Fetch = Callable[[str], bytes]  # the content of a file by its path from this on
 KNOWN = {  # extensions that are read, or change nothing here
     "KHR_mesh_quantization",
     "KHR_materials_ior",
+    "KHR_materials_unlit",
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_volume",

@@ -48,7 +48,17 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
     _surface(document, textures, given, here, look)
     _emission(document, textures, given, here, look)
     _layers(document, given, here, look)
+    if document.extension(given, "KHR_materials_unlit", here) is not None:
+        _let_shine(look)
     return look
+
+
+def _let_shine(look: Look) -> None:
+    """Let it emit its colour and reflect nothing: it looks the same in every light."""
+    shown = {"emission": look.table["color"], "color": (0.0, 0.0, 0.0), "specular": 0.0}
+    kept = {key: look.table[key] for key in ("type", "ior")}
+    look.table.clear()
+    look.table.update(kept | shown | {"metallic": 0.0, "roughness": 1.0, "thin": True})
 
 
 def _metallic_roughness(
@@ -80,8 +90,6 @@ def _surface(
     if image:
         scale = number(given["normalTexture"].get("scale", 1), f"{here}.normalTexture.scale")
         look.table["normal"] = {**image, "strength": min(max(scale, 0.0), 100.0)}
-    if document.extension(given, "KHR_materials_unlit", here) is not None:
-        look.unread.append("KHR_materials_unlit")
 
 
 def _emission(

@@ -1,14 +1,14 @@
 """The triangles of the meshes of a glTF file, where its nodes stand."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glrt.scene.gltf.accessors import Floats, Ints, floats, indices
 from glrt.scene.gltf.document import Document
-from glrt.scene.gltf.nodes import Placed, placed_nodes
+from glrt.scene.gltf.nodes import Matrix, Placed, placed_nodes
+from glrt.scene.gltf.skins import skin_matrices
 from glrt.scene.triangle_meshes import MOST_TRIANGLES, TriangleMesh, checked
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
@@ -30,10 +30,12 @@ class _Part(NamedTuple):
 def mesh_of(document: Document) -> TriangleMesh:
     """All triangles that the file shows; their materials are named as by `material_names`."""
     names, parts, count = material_names(document), list[_Part](), 0
-    for placed in placed_nodes(document):
+    nodes = list(placed_nodes(document))
+    poses = {placed.number: placed.matrix for placed in nodes}
+    for placed in nodes:
         if "mesh" not in placed.node:
             continue
-        for part in _parts(document, placed, names):
+        for part in _parts(document, placed, names, poses):
             parts.append(part)
             count += len(part.faces)
             if count > MOST_TRIANGLES:
@@ -84,30 +86,37 @@ def _joined(parts: list[Floats | None], counts: list[int], width: int, rest: flo
     return np.concatenate(filled)
 
 
-def _parts(document: Document, placed: Placed, names: list[str]) -> Iterator[_Part]:
+def _parts(
+    document: Document, placed: Placed, names: list[str], poses: Mapping[int, Matrix]
+) -> Iterator[_Part]:
     index = placed.node["mesh"]
     mesh = document.item("meshes", index, f"nodes[{placed.number}].mesh")
     primitives = document.list(mesh.get("primitives"), f"meshes[{index}].primitives")
     for place, primitive in enumerate(primitives):
         here = f"meshes[{index}].primitives[{place}]"
-        found = _part(document, document.table(primitive, here), here, placed, names)
+        table = document.table(primitive, here)
+        attributes = document.table(table.get("attributes"), f"{here}.attributes")
+        if table.get("mode", _TRIANGLES) in _WITHOUT_AREA or "POSITION" not in attributes:
+            continue  # points, lines, and what is left to an extension
+        posed = skin_matrices(document, placed, attributes, poses, here)
+        matrices = placed.matrix[None] if posed is None else posed
+        found = _part(document, table, here, matrices)
         if found:
-            yield found
+            yield found._replace(material=_material(document, table, names, here))
 
 
 def _part(
-    document: Document, primitive: dict[str, Any], here: str, placed: Placed, names: list[str]
+    document: Document, primitive: dict[str, Any], here: str, matrices: Floats
 ) -> _Part | None:
-    mode = primitive.get("mode", _TRIANGLES)
-    if mode in _WITHOUT_AREA:
-        return None
-    attributes = document.table(primitive.get("attributes"), f"{here}.attributes")
-    if "POSITION" not in attributes:
-        return None  # left to an extension
+    """A primitive whose vertices are moved by matrices, (1 or v, 4, 4); None without triangles."""
+    attributes = primitive["attributes"]
     points = floats(document, attributes["POSITION"], (3,), f"{here}.attributes.POSITION")
+    mode = primitive.get("mode", _TRIANGLES)
     faces = _faces(document, primitive, mode, len(points), here)
     if not len(faces):
         return None
+    if len(matrices) not in (1, len(points)):
+        raise ValueError(f"{here} has {len(points):,} places and {len(matrices):,} of JOINTS_0")
 
     def rows(name: str, sizes: tuple[int, ...]) -> Floats | None:
         if name not in attributes:
@@ -122,10 +131,10 @@ def _part(
     empty = np.zeros((len(points), 2))
     sets = (first if first is not None else empty, second if second is not None else empty)
     uv = None if first is None and second is None else np.concatenate(sets, axis=1)
-    material = _material(document, primitive, names, here)
     normals = rows("NORMAL", (3,))
-    moved = points @ placed.matrix[:3, :3].T + placed.matrix[:3, 3]
-    if np.linalg.det(placed.matrix[:3, :3]) < 0:
+    linear = matrices[:, :3, :3]
+    moved = (linear @ points[:, :, None])[:, :, 0] + matrices[:, :3, 3]
+    if np.linalg.det(linear[0]) < 0:
         faces = faces[:, ::-1]
     if normals is None:  # facets: no triangles share vertices then
         at = faces.ravel()
@@ -133,21 +142,23 @@ def _part(
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         facing = across.repeat(3, axis=0)
         columns, uv = (None if rows is None else rows[at] for rows in (columns, uv))
-        return _Part(moved[at], np.arange(len(at)).reshape(-1, 3), facing, columns, uv, material)
-    turned = normals @ _inverse(placed.matrix[:3, :3])
-    return _Part(moved, faces, turned, columns, uv, material)
+        return _Part(moved[at], np.arange(len(at)).reshape(-1, 3), facing, columns, uv, "")
+    turned = (_for_normals(linear) @ normals[:, :, None])[:, :, 0]
+    return _Part(moved, faces, turned, columns, uv, "")
 
 
 _SECOND: tuple[str, tuple[int, ...]] = ("TEXCOORD_1", (2,))
 
 
-def _inverse(linear: NDArray[np.float64]) -> NDArray[np.float64]:
-    """By which normals turn; the adjugate where there is no inverse, of a length that is free."""
-    a, b, c = linear.T
-    adjugate = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
-    sign = -1.0 if np.linalg.det(linear) < 0 else 1.0
-    largest = np.abs(adjugate).max()
-    return adjugate * (sign / largest if largest > 0 else 0.0)
+def _for_normals(linear: Floats) -> Floats:
+    """(n, 3, 3): by which normals turn, the cofactors, which need no inverse; of any length."""
+    a, b, c = (linear[:, :, axis] for axis in range(3))
+    cofactors = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=2)
+    sign = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)
+    largest = np.abs(cofactors).max(axis=(1, 2))
+    scale = np.divide(sign, largest, out=np.zeros_like(sign), where=largest > 0)
+    turned: Floats = cofactors * scale[:, None, None]
+    return turned
 
 
 def _material(document: Document, primitive: dict[str, Any], names: list[str], here: str) -> str:
