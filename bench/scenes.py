@@ -18,8 +18,9 @@ from bench.dice import Dice
 from bench.placing import DIGITS, SMALLEST, Ball, Free, Point, Space
 from bench.program import at_least, exit_code_of, parser_of
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene, scene_to_dict
-from glrt.scene.toml_writer import toml_lines, write_scene
+from glrt.scene.tables import toml_text
+from glrt.scene.toml import parse_scene
+from glrt.scene.toml_writer import write_scene
 
 Table = dict[str, Any]
 
@@ -291,7 +292,7 @@ def _write(parsed: argparse.Namespace) -> None:
     if parsed.file:
         write_scene(scene, parsed.file)
     else:
-        print("\n".join(toml_lines(scene_to_dict(scene))).strip())
+        print(toml_text(scene), end="")
 
 
 if __name__ == "__main__":

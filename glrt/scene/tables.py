@@ -45,14 +45,15 @@ def toml_text(scene: Contents) -> str:
 
 
 def _short_tables(scene: Contents) -> dict[str, Any]:
-    """`scene_to_dict` without defaults, but for the kinds of materials and shapes."""
+    """`scene_to_dict` without defaults, but for format and kinds of materials and shapes."""
     found = scene.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     for name, material in scene.materials.items():
         found["materials"][name] = {"type": material.type, **found["materials"][name]}
     for table, thing in zip(found.get("objects", []), scene.objects, strict=True):
         kind = {"shape": thing.shape}
         table.update({**kind, **{key: table.pop(key) for key in list(table) if key != "shape"}})
-    return dict(found)
+    title = {"title": scene.title} if scene.title else {}
+    return {**title, "format": scene.format, **found}
 
 
 def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:

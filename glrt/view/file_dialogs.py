@@ -10,7 +10,10 @@ from pathlib import Path
 from imgui_bundle import portable_file_dialogs
 
 PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # that draw dialogs on Linux
-SCENES = ["Scenes and rendered pictures", "*.toml *.png *.exr"]
+SCENES = [
+    "Scenes, models and rendered pictures",
+    "*.toml *.glb *.gltf *.obj *.ply *.stl *.png *.exr",
+]
 SCENE = ["Scene", "*.toml"]
 PICTURE = ["Picture", "*.png *.exr *.npy"]
 

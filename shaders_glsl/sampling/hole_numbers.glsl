@@ -9,5 +9,6 @@ void leave_vertex(uint seed, int depth) {
 
 // For the surface that a ray meets after `passed` others.
 float hole_number(uint passed) {
-    return unit_float(pcg_hash(hole_key + passed));
+    precise float value = unit_float(pcg_hash(hole_key + passed));
+    return value;
 }

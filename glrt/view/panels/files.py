@@ -18,7 +18,7 @@ def draw_files(app: App) -> None:
     if button("open", bool(app.open_path)) or (entered and app.open_path):
         app.open(app.open_path)
     if _browse("open"):
-        app.dialogs.ask_open("Open a scene or a picture", file_dialogs.SCENES, app.open)
+        app.dialogs.ask_open("Open a scene, a model or a picture", file_dialogs.SCENES, app.open)
     has_picture = app.session.samples > 0
     app.save_path, entered = _path("save", app.save_path, "picture.png, or .exr, .npy")
     imgui.same_line()
