@@ -31,6 +31,7 @@ from tests.mitsuba.scenes import (
     glowing,
     measured,
     meshes,
+    painted,
     pictured,
     polished,
     solids,
@@ -125,6 +126,17 @@ def test_principled_metals_look_the_same_to_mitsuba(context: Context, mitsuba: P
     assert found.sensitivity.light < 0.03
     rougher = judged(ours(context, polished(0.6)), theirs(mitsuba, polished()))
     assert not rougher, str(rougher)
+
+
+@pytest.mark.parametrize("wrap", ["repeat", "mirror", "clamp"])
+def test_images_lie_on_meshes_as_mitsuba_has_them(
+    context: Context, mitsuba: Peer, tmp_path: Path, wrap: str
+) -> None:
+    scene = painted(tmp_path, wrap=wrap)
+    found = judged(ours(context, scene), theirs(mitsuba, scene))
+    assert found, str(found)
+    other = painted(tmp_path, wrap=wrap, rotation=23)
+    assert not judged(ours(context, other), theirs(mitsuba, scene))
 
 
 def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:

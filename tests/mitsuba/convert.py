@@ -9,7 +9,7 @@ import numpy as np
 from glrt.errors import SceneError
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.facets import facet_loss
-from glrt.scene.materials import Dielectric, Metal, Opaque, Principled
+from glrt.scene.materials import Dielectric, Lambertian, Metal, Opaque, Principled
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes import Disk, Plane, Quad, Sphere
@@ -20,6 +20,7 @@ from tests.mitsuba import metal, rough_glass
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
 from tests.mitsuba.near import EXTENT, Near, Vector, around, corners, length, near, normal_of, unit
 from tests.mitsuba.skies import sky, sun
+from tests.mitsuba.textured import bitmap, mesh_of
 
 ROULETTE_DEPTH = 5  # where it starts by Mitsuba's own choice
 NEVER = 1 << 30
@@ -110,7 +111,7 @@ def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> 
         if scene.materials[item.material].emits:
             raise SceneError(f"material '{item.material}': Mitsuba has no lamp without end.")
         grid = _grid(item, at, CELL if liberties.finite else GRID)
-        yield _mesh(mi, surface, *grid)
+        yield mesh_of(mi, surface, *grid)
     elif isinstance(item, Quad | Disk):
         for lift in _lifts(any(scene.emission_of(item)) and not item.is_one_sided, liberties):
             yield _face(mi, surface, item, at, lift)
@@ -169,7 +170,7 @@ def _quad(mi: Any, surface: Words, item: Quad, at: Near, lift: float) -> Any:
     if abs(np.dot(u, v)) <= 1e-6 * length(u) * length(v):
         return {**surface, **_square(mi, center, u, v)}
     points = np.array([center - u - v, center + u - v, center + u + v, center - u + v])
-    return _mesh(mi, surface, points, [[0, 1, 2], [0, 2, 3]])  # a rectangle cannot be sheared
+    return mesh_of(mi, surface, points, [[0, 1, 2], [0, 2, 3]])  # a rectangle cannot be sheared
 
 
 def _circle(mi: Any, center: Vector, normal: Vector, radius: float) -> Words:
@@ -215,24 +216,8 @@ def _triangles(mi: Any, scene: Scene, surface: Words, item: Mesh, at: Near) -> A
     if item.smooth:
         normals = item.world_normals
         normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    return _mesh(mi, surface, at.point(item.world_vertices), faces, normals)
-
-
-def _mesh(
-    mi: Any, surface: Words, points: Vector, triangles: Any, normals: Vector | None = None
-) -> Any:
-    properties = mi.Properties()
-    for name, part in surface.items():
-        properties[name] = mi.load_dict(part)
-    is_smooth = normals is not None
-    mesh = mi.Mesh("mesh", len(points), len(triangles), properties, has_vertex_normals=is_smooth)
-    parameters = mi.traverse(mesh)
-    parameters["vertex_positions"] = np.ravel(points)
-    parameters["faces"] = np.ravel(triangles)
-    if normals is not None:
-        parameters["vertex_normals"] = np.ravel(normals)
-    parameters.update()
-    return mesh
+    uv = None if item.triangles.uv is None else item.triangles.uv[:, :2]
+    return mesh_of(mi, surface, at.point(item.world_vertices), faces, normals, uv)
 
 
 def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
@@ -242,8 +227,9 @@ def _square(mi: Any, middle: Vector, u: Vector, v: Vector) -> Words:
 def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
     """How a surface scatters, on both sides, and what it emits from its front."""
     material = scene.materials[finish.material]
-    if isinstance(material, Opaque) and material.textures:
-        raise SceneError(f"material '{finish.material}': the converter knows no textures.")
+    textures = material.textures if isinstance(material, Opaque) else {}
+    if textures and not (set(textures) == {"color"} and isinstance(material, Lambertian)):
+        raise SceneError(f"material '{finish.material}': the converter paints matte ones alone.")
     if isinstance(material, Dielectric):
         return {"bsdf": _glass(finish.material, material)}
     if isinstance(material, Principled):
@@ -277,7 +263,9 @@ def _metallic(name: str, material: Principled) -> Words:
 
 def _scattering(material: Any, is_native: bool) -> Words:
     if not isinstance(material, Metal):
-        return {"type": "diffuse", "reflectance": _color(material.color)}
+        painted = material.textures.get("color")
+        color = bitmap(painted, material.color) if painted else _color(material.color)
+        return {"type": "diffuse", "reflectance": color}
     how: Words = {"material": "none"}  # reflects all, at all angles
     if material.conductor:
         how = {"eta": _color(material.conductor.ior), "k": _color(material.conductor.k)}

@@ -3,10 +3,13 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from glrt.scene.assets import AssetFolder
 from glrt.scene.loading import with_files
 from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
+from tests.support.gltf_files import png
 from tests.support.meshes import blob, icosphere, mesh, quads
 from tests.support.sky_images import random_sky, write_exr
 
@@ -99,6 +102,21 @@ def polished(roughness: float = 0.3) -> Scene:
         item | {"material": swapped.get(item["material"], item["material"])} for item in OBJECTS
     ]
     return scene_of(things, materials, CAMERA, background=SKY)
+
+
+def painted(folder: Path, **texture: Any) -> Scene:
+    """Meshes under an image, turned and repeated, in a file of this folder."""
+    codes = np.random.default_rng(3).integers(0, 256, (5, 7, 3), np.uint8)
+    (folder / "paint.png").write_bytes(png(codes))
+    image = {"image": "paint.png", "scale": [2.0, 1.5], "rotation": 20, "offset": [0.1, 0.3]}
+    materials = MATERIALS | {"paint": {"type": "lambertian", "color": {**image, **texture}}}
+    points, faces = blob(3)
+    ball = mesh((points, faces), "paint", uv=points[:, :2], scale=0.6, translate=[0, 0.7, 0.3])
+    wall = quads([[-1.8, 0.1, -1], [3.6, 0, 0], [0, 1.8, 0]])
+    back = mesh(wall, "paint", uv=wall[0][:, :2] / 2, smooth=False)
+    floor = plane([0, 0, 0], [0, 2, 0], "white")
+    scene = scene_of([floor, ball, back], materials, CAMERA, background=SKY)
+    return with_files(scene, AssetFolder(folder), "test")
 
 
 def solids(*objects: dict[str, Any]) -> Scene:

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.gpu.context import Context
+from glrt.gpu.context import Context, open_context
 from glrt.methods.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
+from tests.support.images import same_bits
 from tests.support.meshes import icosphere, mesh
 from tests.support.renders import METHODS, assert_agree, assert_mean, rendered, same, whole
 from tests.support.textures import with_images
@@ -214,3 +215,19 @@ def test_a_hole_shows_what_is_behind_in_aovs_too(context: Context) -> None:
     second = rendered(scene_of([wall], materials, {"fov": 60}), context, 16, aov=names)
     for name in names:
         assert_allclose(first.aovs[name].value, second.aovs[name].value, rtol=1e-6)
+
+
+def test_textures_have_the_same_bits_everywhere(context: Context) -> None:
+    """In both pipelines and tiers, with a tree or not, and by EGL and OSMesa."""
+    if not context.is_software:
+        pytest.skip("bits are promised on software drivers alone")
+    board = {"checker": [0.25, 0.75], "scale": [3.0, 2.0]}
+    numbers = {"roughness": board, "metallic": board, "alpha": board}
+    scene = room(principled(color=board, **numbers))
+    expected = rendered(scene, context, 4)
+    assert same(rendered(scene, context, 4, tier="baked"), expected)
+    assert same(rendered(scene, context, 4, pipeline="fragment"), expected)
+    other = open_context("osmesa" if context.route == "egl" else "egl")
+    with other.gl:
+        assert same_bits(rendered(scene, other, 4).radiance, expected.radiance)
+    other.gl.release()
