@@ -126,22 +126,17 @@ def mesh_problems(scene: Contents) -> Iterator[str]:
 
 
 def _without_coordinates(scene: Contents) -> Iterator[str]:
-    """Objects whose material has an image that could not lie anywhere on them."""
+    """Meshes whose material has an image that could not lie anywhere on them."""
     for index, shape in enumerate(scene.objects):
         material = scene.materials.get(shape.material)
         if not isinstance(material, Opaque) or not material.textures:
             continue
-        key = f"objects[{index}].material: {quoted(shape.material)} has a texture"
-        if shape.shape in _NO_COORDINATES:
-            yield f"{key}, and a {shape.shape} has no texture coordinates. Use a mesh of its form."
-        elif isinstance(shape, Mesh) and shape.triangles_of_file.uv is None:
+        if isinstance(shape, Mesh) and shape.triangles_of_file.uv is None:
             yield (
-                f"{key}, and {shape.file.file} has no texture coordinates. Export it with them, or "
-                "use another material."
+                f"objects[{index}].material: {quoted(shape.material)} has a texture, and "
+                f"{shape.file.file} has no texture coordinates. Export it with them, or use "
+                "another material."
             )
-
-
-_NO_COORDINATES = ("box", "cylinder")
 
 
 def _too_many(scene: Contents) -> Iterator[str]:

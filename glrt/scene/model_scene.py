@@ -25,7 +25,7 @@ Table = dict[str, Any]
 FOV = 35.0  # degrees
 _FROM = np.array([0.65, 0.45, 1.0])  # where the camera stands: three quarters, above
 _LIGHT_FROM = np.array([-0.7, 1.0, 0.8])
-_HIGHEST = 512  # edge of the picture in pixels
+_EDGE = 512  # the longer one of the picture, pixels
 _CLAY = {"type": "lambertian", "color": [0.6, 0.58, 0.55]}
 
 
@@ -106,9 +106,9 @@ def _view(mesh: TriangleMesh) -> Mapping[str, Any]:
 
 
 def _size(aspect: float) -> Table:
-    """Of a picture whose longer edge has _HIGHEST pixels."""
+    """Of a picture whose longer edge has _EDGE pixels."""
     longest = max(aspect, 1.0)
-    width, height = (max(round(_HIGHEST * edge / longest), 1) for edge in (aspect, 1.0))
+    width, height = (max(round(_EDGE * edge / longest), 1) for edge in (aspect, 1.0))
     return {"width": width, "height": height}
 
 

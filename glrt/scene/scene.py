@@ -228,6 +228,8 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             missing.add(item.material)  # named once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
+        if item.shape in _NO_COORDINATES and isinstance(material, Opaque) and material.textures:
+            yield ("objects", index, "material"), _TEXTURE_ADVICE.format(item.shape)
         glass = glass_of(material)
         if glass and not (item.encloses or glass.thin):
             article = "an open" if item.has_inside else "a"
@@ -271,6 +273,11 @@ def _sun_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
 _GLASS_ADVICE = (
     "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box, a "
     "cylinder with caps or a closed mesh, or a material with thin = true"
+)
+_NO_COORDINATES = ("box", "cylinder")
+_TEXTURE_ADVICE = (
+    "has a texture, and a {} has no texture coordinates; use a mesh of its form, or a material "
+    "without textures"
 )
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "

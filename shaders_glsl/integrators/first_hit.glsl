@@ -29,7 +29,9 @@ Pixel object_of(ivec2 place) {
     precise vec3 direction = frame.camera.forward + (2.0 * at.x - 1.0) * frame.camera.tan_x * frame.camera.right
                            + (1.0 - 2.0 * at.y) * frame.camera.tan_y * frame.camera.up;
     precise vec3 unit_direction = normalized(direction);
-    precise Hit hit = closest_hit(Ray(vec3(0.0), unit_direction, NO_SHAPE, false));
+    precise Ray ray = Ray(vec3(0.0), unit_direction, NO_SHAPE, false);
+    leave_vertex(0u, 0);  // one number for all pixels: what is there in part is seen whole, or not at all
+    precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
     precise Pixel pixel = empty_pixel();
     pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + object_number(hit.shape)));
     pixel.count = 1.0;

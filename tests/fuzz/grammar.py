@@ -61,8 +61,32 @@ SKIES: st.SearchStrategy[Table] = st.one_of(
     tables(color=triples(RADIANCES)),
     tables({"horizon": triples(RADIANCES)}, bottom=triples(RADIANCES), top=triples(RADIANCES)),
 )
+PAIRS = st.lists(NUMBERS, min_size=2, max_size=2)
+PLACING = {
+    "scale": st.one_of(NUMBERS, PAIRS),
+    "offset": PAIRS,
+    "rotation": st.floats(-720, 720),
+    "wrap": st.sampled_from(["repeat", "mirror", "clamp"]),
+    "factor": FRACTIONS,
+}
+
+
+def boards(values: st.SearchStrategy[Any]) -> st.SearchStrategy[Table]:
+    """Textures that need no file."""
+    return tables(PLACING, checker=st.lists(values, min_size=2, max_size=2))
+
+
+PRINCIPLED = {
+    "metallic": st.one_of(FRACTIONS, boards(FRACTIONS)),
+    "roughness": st.one_of(FRACTIONS, FRACTIONS, boards(FRACTIONS)),
+    "alpha": st.one_of(FRACTIONS, boards(FRACTIONS)),
+    "alpha_cutoff": FRACTIONS,
+    "clearcoat": FRACTIONS,
+}
 MATERIALS = st.one_of(
     tables(type=st.just("lambertian"), color=COLORS),
+    tables(type=st.just("lambertian"), color=boards(st.one_of(COLORS, FRACTIONS))),
+    tables(PRINCIPLED, type=st.just("principled"), color=st.one_of(COLORS, boards(COLORS))),
     tables({"roughness": FRACTIONS}, type=st.just("metal"), color=COLORS),
     tables({"ior": st.one_of(st.floats(0.5, 3), LENGTHS)}, type=st.just("dielectric")),
     tables({"color": COLORS, "group": NAMES}, type=st.just("light"), emission=triples(RADIANCES)),

@@ -9,6 +9,7 @@ from glrt import Renderer
 from glrt.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.scene import loading
 from glrt.scene.limits import cautions
 from glrt.scene.loading import hashes_of
 from glrt.settings import settings_for
@@ -104,3 +105,18 @@ def test_a_texture_stays_on_the_driver_through_edits(tmp_path: Path, context: Co
     fresh.step(4)
     assert same(found, fresh.image())
     fresh.release()
+
+
+def test_too_many_triangles_of_all_meshes_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each file alone has room; those that are kept once count once."""
+    monkeypatch.setattr(loading, "MOST_TRIANGLES", 5)
+    (tmp_path / "thing.glb").write_bytes(textured_square().glb())
+    camera = "[camera]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n"
+    one = '[[objects]]\nshape = "mesh"\nfile = "thing.glb"\n'
+    (tmp_path / "scene.toml").write_text(camera + 2 * one)
+    assert len(load(tmp_path / "scene.toml").meshes) == 2
+    (tmp_path / "scene.toml").write_text(camera + 3 * one)
+    with pytest.raises(SceneError, match="the meshes of this scene have 6 triangles"):
+        load(tmp_path / "scene.toml")

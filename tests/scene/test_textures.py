@@ -146,11 +146,10 @@ def test_what_is_wrong_is_told_by_its_key(name: str) -> None:
 @pytest.mark.parametrize(
     "thing", [box([0, 0, 0], [1, 1, 1], "m"), cylinder([0] * 3, [1] * 3, 1, "m")]
 )
-def test_what_has_no_coordinates_is_refused(thing: dict[str, Any], tmp_path: Path) -> None:
-    scene = scene_of([thing], {"m": {"type": "lambertian", "color": {"checker": [0, 1]}}})
-    scene.save(tmp_path / "scene.toml")
-    with pytest.raises(SceneError, match=f"a {thing['shape']} has no texture coordinates"):
-        load(tmp_path / "scene.toml")
+def test_what_has_no_coordinates_is_refused(thing: dict[str, Any]) -> None:
+    message = rf"objects\[0\].material: has a texture, and a {thing['shape']} has no texture"
+    with pytest.raises(SceneError, match=message):
+        scene_of([thing], {"m": {"type": "lambertian", "color": {"checker": [0, 1]}}})
 
 
 def test_a_mesh_without_coordinates_is_refused(tmp_path: Path) -> None:

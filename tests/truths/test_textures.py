@@ -209,7 +209,7 @@ def test_a_hole_shows_what_is_behind_in_aovs_too(context: Context) -> None:
     gone = principled(alpha=even(0.25), alpha_cutoff=0.5)
     wall = quad([-3, 3, -2], [6, 0, 0], [0, -6, 0], "floor")
     sheet = quad([-3, 3, -1], [6, 0, 0], [0, -6, 0], "m")
-    names: tuple[Aov, ...] = ("albedo", "depth")
+    names: tuple[Aov, ...] = ("albedo", "depth", "object")
     materials = {"m": gone, "floor": MATTE}
     first = rendered(scene_of([wall, sheet], materials, {"fov": 60}), context, 16, aov=names)
     second = rendered(scene_of([wall], materials, {"fov": 60}), context, 16, aov=names)
