@@ -48,12 +48,8 @@ def images_of(textures: Mapping[Texture, None]) -> list[Texture]:
     """One texture for each image or checkerboard, in the order of their texels."""
     found = dict[object, Texture]()
     for texture in textures:
-        found.setdefault(_image(texture), texture)
+        found.setdefault(texture.source, texture)
     return list(found.values())
-
-
-def _image(texture: Texture) -> object:
-    return texture.image if texture.image is not None else texture.checker
 
 
 def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
@@ -63,9 +59,9 @@ def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
     images = images_of(textures)
     shapes = sizes_of([texture.texels.shape[:2] for texture in images])
     firsts = np.cumsum([0, *(height * width for height, width in shapes)])
-    place = {_image(texture): number for number, texture in enumerate(images)}
+    place = {texture.source: number for number, texture in enumerate(images)}
     for row, texture in zip(maps, textures, strict=True):
-        number = place[_image(texture)]
+        number = place[texture.source]
         row["u"], row["v"] = texture.transform
         row["first"], (row["height"], row["width"]) = firsts[number], shapes[number]
         row["wrap"] = CONSTANTS[_WRAPS[texture.wrap]]

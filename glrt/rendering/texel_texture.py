@@ -25,11 +25,7 @@ class TexelTexture(Shared):
 
     def holds(self, images: Sequence[Texture]) -> bool:
         """Whether it is of these images."""
-        return [_source(image) for image in self._images] == [_source(image) for image in images]
-
-
-def _source(texture: Texture) -> object:
-    return texture.image if texture.image is not None else texture.checker
+        return [image.source for image in self._images] == [image.source for image in images]
 
 
 def texture_of(gl: moderngl.Context, images: Sequence[Texture]) -> moderngl.Texture:

@@ -113,15 +113,7 @@ def _size(aspect: float) -> Table:
 
 
 def _add_studio(tables: Table, mesh: TriangleMesh) -> None:
-    """Add what `_studio` says."""
-    found = _studio(mesh)
-    tables["background"] = found["background"]
-    tables["materials"] |= found["materials"]
-    tables["objects"] += found["objects"]
-
-
-def _studio(mesh: TriangleMesh) -> Table:
-    """A soft light above, on the left of the camera, and an even surrounding."""
+    """Add a soft light above, on the left of the camera, and an even surrounding."""
     center, radius = _ball(mesh)
     towards = _LIGHT_FROM / np.linalg.norm(_LIGHT_FROM)
     across = np.cross([0.0, 1.0, 0.0], towards)
@@ -138,8 +130,6 @@ def _studio(mesh: TriangleMesh) -> Table:
         "name": "studio light",
         "emission_side": "front",
     }
-    return {
-        "background": {"bottom": [0.3] * 3, "horizon": [0.55] * 3, "top": [0.9] * 3},
-        "materials": {"studio light": {"type": "light", "emission": [5.0] * 3}},
-        "objects": [lamp],
-    }
+    tables["background"] = {"bottom": [0.3] * 3, "horizon": [0.55] * 3, "top": [0.9] * 3}
+    tables["materials"]["studio light"] = {"type": "light", "emission": [5.0] * 3}
+    tables["objects"].append(lamp)

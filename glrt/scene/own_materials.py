@@ -1,4 +1,4 @@
-"""Meshes without a material: one for each material that their OBJ file has of its own."""
+"""Meshes without a material: one for each material that their OBJ or glTF file has of its own."""
 
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
-from glrt.scene.named_images import ColorImage, DataImage, NamedTexture, Texels
+from glrt.scene.named_images import ColorImage, DataImage, NamedTexture, Texels, TextureImage
 from glrt.scene.values import LARGEST, Angle, Color, Coordinate, Number, Triple, Value
 
 Channel = Literal["r", "g", "b", "a"]
@@ -93,6 +93,11 @@ class Texture(Value):
         cos, sin = math.cos(angle), math.sin(angle)
         turned = np.array([[cos, sin], [-sin, cos]]) * np.array(self.scale)
         return np.column_stack([turned, self.offset])
+
+    @property
+    def source(self) -> TextureImage | tuple[Color, Color] | None:
+        """What its texels are made of: equal for textures that share them."""
+        return self.image if self.image is not None else self.checker
 
     @property
     def texels(self) -> Texels:

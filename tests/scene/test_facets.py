@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from glrt.gpu.glsl import expanded
 from glrt.gpu.structs import read_constants
 from glrt.scene import facets
+from glrt.scene.gloss import ROUGHNESS_STEPS, facet_shares, shares_by_step
 
 
 def test_host_and_kernel_step_alike() -> None:
@@ -30,3 +32,12 @@ def test_albedos_are_those_of_a_finer_quadrature(
 
 def test_smooth_glass_loses_nothing_worth_restoring() -> None:
     assert facets.facet_loss(1e-6, 1.5) is None
+
+
+def test_facets_between_tabled_roughnesses_are_near_their_integrals() -> None:
+    """Of textured roughness, where the table is off most: 0.00082 at step 76, of all 256."""
+    table = shares_by_step()
+    for step in (34, 38, 62, 76, 84, 250):
+        exact = facet_shares((step / ROUGHNESS_STEPS) ** 2)
+        assert_allclose(table["head_on"][step], exact.head_on, atol=1e-3)
+        assert_allclose(table["grazing"][step], exact.grazing, atol=1e-3)
