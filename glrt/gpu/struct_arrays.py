@@ -64,7 +64,7 @@ def scene_arrays(
 TEXTURED = (
     *("Mesh", "Corner", "Triangle", "Instance", "Tint"),
     *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim"),
-    *("Map", "Maps", "Axes", "Uv"),
+    *("Map", "Maps", "Axes", "Uv", "Tangent"),
 )
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered
 

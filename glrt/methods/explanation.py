@@ -29,6 +29,7 @@ _TEXTURED = {  # by the constant of the kernel: a name, and the keys of material
     "has_gloss_map": ("textured gloss", ("metallic", "roughness")),
     "has_normal_map": ("normal maps", ("normal",)),
     "has_coverage_map": ("textured alpha", ("alpha",)),
+    "has_transmission_map": ("textured transmission", ("transmission",)),
 }
 
 

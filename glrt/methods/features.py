@@ -48,6 +48,7 @@ class Needs:
     has_gloss_map: bool  # of metallic or roughness
     has_normal_map: bool
     has_coverage_map: bool  # of alpha
+    has_transmission_map: bool
     has_mirror: bool
     has_rough_metal: bool
     has_rough_glass: bool
@@ -131,6 +132,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_gloss_map=bool(found.mapped & {"metallic", "roughness"}),
         has_normal_map="normal" in found.mapped,
         has_coverage_map="alpha" in found.mapped,
+        has_transmission_map="transmission" in found.mapped,
         has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
         has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
         has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),

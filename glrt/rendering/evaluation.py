@@ -108,9 +108,10 @@ def _choice(found: Contents) -> dict[str, bool | int]:
 
 def no_rows() -> dict[str, Array]:
     """The arrays of a scene without anything."""
-    trees, lamps = (
-        ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint", "Axes", "Uv", "Map", "Maps"),
+    trees = ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint")
+    images, lamps = (
+        ("Axes", "Uv", "Tangent", "Map", "Maps"),
         ("Emitter", "Light", "Cluster", "Aim"),
     )
-    others = (*trees, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
+    others = (*trees, *images, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

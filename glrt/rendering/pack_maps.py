@@ -28,6 +28,7 @@ FIELDS = {  # of the struct Maps, by the key of a material
     "metallic": "metallic",
     "roughness": "roughness",
     "alpha": "coverage",
+    "transmission": "crossed",
 }
 _WRAPS = {"repeat": "REPEAT", "mirror": "MIRROR", "clamp": "CLAMP"}
 _CHANNELS = "rgba"
@@ -64,7 +65,7 @@ def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
         number = place[texture.source]
         row["u"], row["v"] = texture.transform
         row["first"], (row["height"], row["width"]) = firsts[number], shapes[number]
-        row["wrap"] = CONSTANTS[_WRAPS[texture.wrap]]
+        row["wrap_u"], row["wrap_v"] = (CONSTANTS[_WRAPS[wrap]] for wrap in texture.wrap)
         row["is_sharp"] = texture.filter == "nearest" or texture.checker is not None
         channel = texture.channel
         row["channel"] = ALL_CHANNELS if channel is None else _CHANNELS.index(channel)
@@ -85,19 +86,28 @@ def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
 def pack_coordinates(
     scene: Scene, shapes: Sequence[Shape], contents: Contents, eye: Array
 ) -> dict[str, Array]:
-    """Rows of the structs Axes, of planes, quads and disks, and Uv, of corners; or none."""
-    if not contents.mapped:
-        return {"Axes": np.zeros(0, STRUCTS["Axes"]), "Uv": np.zeros(0, STRUCTS["Uv"])}
+    """Rows of the structs Axes, of planes, quads and disks, and Uv and Tangent, of corners.
+
+    None where there are no images; Tangent where there are none of normals.
+    """
+    is_mapped, is_bumpy = bool(contents.mapped), "normal" in contents.mapped
     flat = [axes for shape in shapes if (axes := texture_axes(shape)) is not None]
-    axes_rows = np.zeros(len(flat), STRUCTS["Axes"])
-    for row, axes in zip(axes_rows, flat, strict=True):
+    axes_rows = np.zeros(len(flat) if is_mapped else 0, STRUCTS["Axes"])
+    for row, axes in zip(axes_rows, flat, strict=False):
         row["origin"], row["u"], row["v"] = axes.origin - eye, axes.u, axes.v
-    meshes = [mesh.triangles for mesh in corner_meshes(scene, contents)]
-    rows = np.zeros(sum(len(mesh.vertices) for mesh in meshes), STRUCTS["Uv"])
+    meshes = corner_meshes(scene, contents) if is_mapped else []
+    own = len(scene.meshes) - len(contents.instances)  # from here on, each in its own frame
+    count = sum(len(mesh.triangles.vertices) for mesh in meshes)
+    uv_rows = np.zeros(count, STRUCTS["Uv"])
+    tangents = np.zeros(count if is_bumpy else 0, STRUCTS["Tangent"])
     first = 0
-    for mesh in meshes:
-        some = slice(first, first + len(mesh.vertices))
-        if mesh.uv is not None:
-            rows["first"][some], rows["second"][some] = mesh.uv[:, :2], mesh.uv[:, 2:]
+    for number, mesh in enumerate(meshes):
+        found = mesh.triangles
+        some = slice(first, first + len(found.vertices))
+        if found.uv is not None:
+            uv_rows["first"][some], uv_rows["second"][some] = found.uv[:, :2], found.uv[:, 2:]
+        if is_bumpy:
+            along = found.shading_tangents
+            tangents["along"][some] = along if number >= own else along @ mesh.linear.T
         first = some.stop
-    return {"Axes": axes_rows, "Uv": rows}
+    return {"Axes": axes_rows, "Uv": uv_rows, "Tangent": tangents}

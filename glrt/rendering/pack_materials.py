@@ -48,7 +48,7 @@ def pack_principled(row: Any, material: Principled) -> None:
     row["kind"], row["color"] = CONSTANTS["PRINCIPLED"], material.color
     row["alpha"], row["roughness"] = material.facet_alpha, material.roughness
     row["metallic"] = material.metallic / rest if rest > 0 else 0.0
-    row["coverage"] = material.coverage
+    row["coverage"], row["crossed"] = material.coverage, 1.0
 
 
 PACKERS: dict[type, Callable[[Any, Any], None]] = {

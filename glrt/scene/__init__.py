@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - named_images: images that a scene names by a path
 - texture_sizes: images made smaller
 - textures: images and checkerboards in place of colors and numbers
+- vertex_means: normals and tangents of vertices
 - triangle_meshes: triangle meshes as arrays, checked
 - gltf: glTF files
 - mesh_formats: files of meshes as arrays

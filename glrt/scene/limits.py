@@ -177,14 +177,13 @@ def _dark(scene: Scene) -> str:
 
 
 def _unread(scene: Scene) -> Iterator[str]:
-    """What files of materials say that no material has."""
+    """What files of models say that no scene has."""
     meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
     for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
         where = ", ".join(file.libraries) or file.file
         yield (
-            f"{where}: {few(file.unread)} of the materials of {file.file} is left out: "
-            "docs/how-to/models.md says what is read. Give its object a `material` of the scene "
-            "for another look."
+            f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
+            "what is read. Give its object a `material` of the scene for another look."
         )
 
 

@@ -15,7 +15,8 @@ from glrt.errors import SceneError
 from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.primitives import mesh_of
 from glrt.scene.image_files import decode_srgb
-from glrt.scene.triangle_meshes import TriangleMesh, checked, places
+from glrt.scene.triangle_meshes import TriangleMesh, checked
+from glrt.scene.vertex_means import places
 from glrt.text import quoted
 
 FORMATS = (".ply", ".obj", ".stl", ".glb", ".gltf")
@@ -52,6 +53,8 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
             return _mesh(_reader(suffix)(BytesIO(content)), suffix)
     except SceneError:
         raise  # of a file beside it
+    except ImportError as error:
+        raise SceneError(f"{where}: {quoted(path)} {error}") from None
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except Exception as error:  # trimesh raises whatever its parts do

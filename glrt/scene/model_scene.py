@@ -12,7 +12,7 @@ from glrt.scene.assets import Asset, AssetFolder, AssetReader
 from glrt.scene.file_contents import Beside, with_content
 from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.looks import looks_of
-from glrt.scene.gltf.stage import camera_of, lights_of
+from glrt.scene.gltf.stage import camera_of, left_out, lights_of
 from glrt.scene.loading import with_files
 from glrt.scene.mesh_formats import FORMATS, GLTF, libraries
 from glrt.scene.named_meshes import MeshFile
@@ -72,15 +72,17 @@ def _add_stage(
         camera = camera_of(document)
     except ValueError as error:
         raise SceneError(f"{source}: {error}. Export the file again.") from None
+    thing, suns = tables["objects"][0], lights["suns"]
+    thing["file"] = thing["file"].with_libraries({}, left_out(camera, len(suns), document))
     shines = any(isinstance(looks[name].table.get("emission"), tuple) for name in mesh.parts)
     if camera:
         tables["camera"], aspect = camera
         tables["render"] = _size(aspect or 1.0)
-    if lights["objects"] or lights["suns"]:
+    if lights["objects"] or suns:
         tables["materials"] = lights["materials"]
         tables["objects"] += lights["objects"]
-        if lights["suns"]:
-            tables["sun"] = lights["suns"][0]
+        if suns:
+            tables["sun"] = suns[0]
     elif not shines:
         _add_studio(tables, mesh)
 

@@ -39,13 +39,13 @@ class MeshFile(NamedFile):
 
     @property
     def unread(self) -> tuple[str, ...]:
-        """The keys of those files that were left out."""
+        """What of those files and of its own was left out."""
         return self._unread
 
     def with_libraries(self, hashes: Mapping[str, str], unread: tuple[str, ...]) -> "MeshFile":
-        """The mesh, which knows where its materials were taken from."""
+        """The mesh, which knows where its materials were taken from, and what else was left out."""
         found = self.model_copy()
-        found._libraries, found._unread = hashes, unread
+        found._libraries, found._unread = hashes, tuple(sorted({*self._unread, *unread}))
         return found
 
     def read_as(self, sha256: str, triangles: TriangleMesh, origin: Path | None) -> "MeshFile":

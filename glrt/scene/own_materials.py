@@ -108,7 +108,7 @@ def _of_mtl(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, dic
         hashes[library.path] = library.sha256
     used = [found[name] for name in shape.triangles_of_file.parts if name in found]
     unread = {key for _, keys in used for key in keys}
-    file = shape.file.with_libraries(hashes, tuple(sorted(unread)))
+    file = shape.file.with_libraries(hashes, tuple(unread))
     return file, {name: material for name, (material, _) in found.items()}
 
 
@@ -144,7 +144,9 @@ def _of_gltf(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, di
     except ValueError as error:
         raise SceneError(f"{where}: {shape.file.file}: {_first_line(error)}.") from None
     unread += document.unknown_extensions
-    return shape.file.with_libraries({}, tuple(sorted(set(unread)))), own
+    if document.items("animations"):
+        unread.append("animations")
+    return shape.file.with_libraries({}, tuple(unread)), own
 
 
 def _first_line(error: ValueError) -> str:

@@ -17,7 +17,7 @@ class Principled(Opaque):
     """glTF's metallic-roughness surface: a coat, over metal and dielectric facets, over matte.
 
     Facets are GGX with Schlick's reflectance. docs/explanation/principled.md tells the formulas.
-    Color, emission, metallic, roughness and alpha may be textures.
+    Color, emission, metallic, roughness, alpha and transmission may be textures.
     """
 
     type: Literal["principled"] = Field("principled", description="the kind of material")
@@ -69,6 +69,7 @@ class Principled(Opaque):
     metallic_map: Texture | None = None
     roughness_map: Texture | None = None
     alpha_map: Texture | None = None
+    transmission_map: Texture | None = None
 
     textured: ClassVar[Mapping[str, bool]] = {
         "color": True,
@@ -76,6 +77,7 @@ class Principled(Opaque):
         "metallic": False,
         "roughness": False,
         "alpha": False,
+        "transmission": False,
     }
 
     if TYPE_CHECKING:
@@ -89,7 +91,7 @@ class Principled(Opaque):
             ior: Number = 1.5,
             specular: Number = 1.0,
             specular_color: Triple = WHITE,
-            transmission: Number = 0.0,
+            transmission: Number | Texture = 0.0,
             attenuation_color: Triple | None = None,
             attenuation_distance: Number | None = None,
             thin: bool = False,

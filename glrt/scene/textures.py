@@ -15,7 +15,7 @@ Channel = Literal["r", "g", "b", "a"]
 
 
 def _two(value: Any) -> Any:
-    return (value, value) if isinstance(value, float | int) else value
+    return (value, value) if isinstance(value, float | int | str) else value
 
 
 def _grey(value: Any) -> Any:
@@ -27,7 +27,11 @@ def _grey(value: Any) -> Any:
 
 _NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
 _TWO = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems": 2, "maxItems": 2}]}
+_WRAP = {"enum": ["repeat", "mirror", "clamp"]}
+_TWO_WRAPS = {"anyOf": [_WRAP, {"type": "array", "items": _WRAP, "minItems": 2, "maxItems": 2}]}
 Pair = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_two), WithJsonSchema(_TWO)]
+Wrap = Literal["repeat", "mirror", "clamp"]
+Wraps = Annotated[tuple[Wrap, Wrap], BeforeValidator(_two), WithJsonSchema(_TWO_WRAPS)]
 
 
 class Texture(Value):
@@ -52,8 +56,9 @@ class Texture(Value):
     rotation: Angle = Field(
         0.0, description="degrees by which the coordinates are turned, as in glTF, after scale"
     )
-    wrap: Literal["repeat", "mirror", "clamp"] = Field(
-        "repeat", description="what lies beyond the image: it again, mirrored, or its edge"
+    wrap: Wraps = Field(
+        ("repeat", "repeat"),
+        description="what lies beyond the image, or along u and v: it again, mirrored, or its edge",
     )
     filter: Literal["linear", "nearest"] = Field(
         "linear", description="between the middles of pixels; a checkerboard is always sharp"
@@ -72,7 +77,7 @@ class Texture(Value):
             scale: Number | tuple[Number, Number] = 1.0,
             offset: Number | tuple[Number, Number] = 0.0,
             rotation: Number = 0.0,
-            wrap: Literal["repeat", "mirror", "clamp"] = "repeat",
+            wrap: Wrap | tuple[Wrap, Wrap] = "repeat",
             filter: Literal["linear", "nearest"] = "linear",
             uv: Literal[0, 1] = 0,
         ) -> None: ...

@@ -1,6 +1,6 @@
 """Triangle meshes as arrays: checked, with normals, and whether they enclose a volume."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.values import LARGEST
+from glrt.scene.vertex_means import mean_normals, mean_tangents, places
 from glrt.text import counted, number
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-PORTION = 1 << 18  # triangles whose normals are found at once, so that memory is bounded
 MOST_TRIANGLES = 4_000_000  # of a scene
 
 
@@ -29,6 +29,7 @@ class TriangleMesh:
     names: tuple[str, ...] = ()  # of the materials of the file; empty: before the first
     labels: Ints | None = None  # (n,): the number of a name; None: the file names none
     uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None: none
+    tangents: Floats | None = None  # (v, 3), where u of the first set grows; None: none were given
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -43,15 +44,21 @@ class TriangleMesh:
 
     @cached_property
     def shading_normals(self) -> Floats:
-        """(v, 3), unit: those that were given, else means of the triangles around each vertex.
-
-        Triangles weigh by their angle there (Thuermer and Wuethrich, "Computing Vertex Normals
-        from Polygonal Facets", 1998). Vertices in the same place share theirs.
-        """
+        """(v, 3), unit: those that were given, else means of the triangles around each vertex."""
         given = self.normals if self.normals is not None else self._mean_normals()
         length = np.linalg.norm(given, axis=1, keepdims=True)
         unit: Floats = np.divide(given, length, out=np.zeros_like(given), where=length > 0)
         return unit
+
+    @cached_property
+    def shading_tangents(self) -> Floats:
+        """(v, 3): those that were given, else means; zero where there is none."""
+        given = np.zeros_like(self.vertices) if self.tangents is None else self.tangents
+        is_given = given.any(axis=1, keepdims=True)
+        if self.uv is None or is_given.all():
+            return given
+        normals, uv = self.shading_normals, self.uv[:, :2]
+        return np.where(is_given, given, mean_tangents(self.vertices, self.faces, normals, uv))
 
     @cached_property
     def opening(self) -> str:
@@ -90,38 +97,17 @@ class TriangleMesh:
 
     def _only(self, kept: Ints, normals: Floats) -> "TriangleMesh":
         used, faces = np.unique(self.faces[kept], return_inverse=True)
-        colors = None if self.colors is None else self.colors[used]
-        uv = None if self.uv is None else self.uv[used]
-        rows = self.vertices[used], faces.reshape(-1, 3), normals[used], colors
-        return TriangleMesh(*rows, uv=uv).outward
+        given = self.colors, self.uv, self.tangents
+        colors, uv, tangents = (None if rows is None else rows[used] for rows in given)
+        own = self.vertices[used], faces.reshape(-1, 3), normals[used], colors
+        return TriangleMesh(*own, uv=uv, tangents=tangents).outward
 
     def _volume(self) -> float:
         a, b, c = (self.vertices[self.faces[:, k]] - self.box[0] for k in range(3))
         return float((a * np.cross(b, c)).sum() / 6)
 
     def _mean_normals(self) -> Floats:
-        place = self._place
-        mean = np.zeros((len(place), 3))
-        for first in range(0, len(self.faces), PORTION):
-            mean += self._sums(place, self.faces[first : first + PORTION])
-        return mean[place]
-
-    def _sums(self, place: Ints, faces: Ints) -> Floats:
-        """What some of the triangles add to the normals in each place."""
-        corners = self.vertices[faces]
-        edges = np.roll(corners, -1, axis=1) - corners
-        length = np.linalg.norm(edges, axis=2, keepdims=True)
-        along = np.divide(edges, length, out=np.zeros_like(edges), where=length > 0)
-        cosine = -(along * np.roll(along, 1, axis=1)).sum(axis=2)
-        angle = np.arccos(np.clip(cosine, -1, 1))
-        across = np.cross(along[:, 0], along[:, 1])
-        length = np.linalg.norm(across, axis=1, keepdims=True)
-        facing = np.divide(across, length, out=np.zeros_like(across), where=length > 0)
-        at = place[faces].ravel()
-        weighted = (angle[:, :, None] * facing[:, None]).reshape(-1, 3)
-        sums = [np.bincount(at, weighted[:, axis], len(place)) for axis in range(3)]
-        added: Floats = np.stack(sums, axis=1)
-        return added
+        return mean_normals(self.vertices, self.faces, self._place)
 
 
 def checked(
@@ -132,6 +118,7 @@ def checked(
     names: tuple[str, ...] = (),
     labels: Ints | None = None,
     uv: Any = None,
+    tangents: Any = None,
 ) -> TriangleMesh:
     """A mesh of arrays as of `TriangleMesh`; triangles of two equal corners are left out.
 
@@ -142,7 +129,9 @@ def checked(
     turned = None if normals is None else _table(normals, "normals", np.float64)
     dyes = None if colors is None else _table(colors, "colors", np.float64)
     sets = None if uv is None else np.ascontiguousarray(uv, np.float64)
-    problem = next(_problems(points, triangles, turned, dyes, sets), None)
+    along = None if tangents is None else _table(tangents, "tangents", np.float64)
+    vectors = {"normal": turned, "tangent": along}
+    problem = next(_problems(points, triangles, vectors, dyes, sets), None)
     if problem:
         raise ValueError(problem)
     equal = triangles == np.roll(triangles, 1, axis=1)
@@ -153,9 +142,11 @@ def checked(
     used = np.zeros(len(points), bool)
     used[kept] = True
     rank = np.cumsum(used) - 1
-    own = [None if rows is None else rows[used] for rows in (turned, dyes, sets)]
+    given = (turned, dyes, sets, along)
+    turned, dyes, sets, along = (None if rows is None else rows[used] for rows in given)
     labels = None if labels is None else labels[whole]
-    return TriangleMesh(points[used], rank[kept], own[0], own[1], names, labels, own[2])
+    own = points[used], rank[kept], turned, dyes
+    return TriangleMesh(*own, names, labels, sets, along)
 
 
 def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
@@ -175,7 +166,7 @@ def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
 def _problems(
     vertices: Floats,
     faces: Ints,
-    normals: Floats | None,
+    vectors: Mapping[str, Floats | None],
     colors: Floats | None,
     uv: Floats | None,
 ) -> Iterator[str]:
@@ -198,13 +189,15 @@ def _problems(
     if wrong.any():
         row = int(wrong.argmax())
         yield f"vertex {row} has a coordinate that is no number from {_range()}"
-    for name, rows in (("normals", normals), ("colors", colors), ("texture coordinates", uv)):
+    named = {f"{name}s": rows for name, rows in vectors.items()}
+    for name, rows in (named | {"colors": colors, "texture coordinates": uv}).items():
         if rows is not None and len(rows) != len(vertices):
             yield f"it has {len(rows):,} {name} for {len(vertices):,} vertices"
             return
-    if normals is not None and not np.isfinite(normals[used]).all():
-        row = int((used & ~np.isfinite(normals).all(axis=1)).argmax())
-        yield f"the normal of vertex {row} is not finite"
+    for name, rows in vectors.items():
+        if rows is not None and not np.isfinite(rows[used]).all():
+            row = int((used & ~np.isfinite(rows).all(axis=1)).argmax())
+            yield f"the {name} of vertex {row} is not finite"
     if uv is not None and not (np.abs(uv) <= LARGEST)[used].all():
         row = int((used & ~(np.abs(uv) <= LARGEST).all(axis=1)).argmax())
         yield f"the texture coordinates of vertex {row} are no numbers from {_range()}"
@@ -215,11 +208,3 @@ def _problems(
 
 def _range() -> str:
     return f"{number(-LARGEST)} to {number(LARGEST)}"
-
-
-def places(vertices: Floats) -> Ints:
-    """(v,): the number of the first vertex in the same place."""
-    rows = np.ascontiguousarray(vertices + 0.0)  # without negative zeros
-    whole = rows.view(np.dtype((np.void, rows.itemsize * 3))).ravel()
-    _, first, inverse = np.unique(whole, return_index=True, return_inverse=True)
-    return first[inverse]

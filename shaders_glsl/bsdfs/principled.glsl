@@ -13,7 +13,13 @@ const float COAT_F0 = 0.04;  // of ior 1.5
 // What a path meets of a surface that is glass in part: that, or the rest.
 Material met_part(Material material, float u) {
     precise Gloss gloss = gloss_at(material.details);
-    if (u >= gloss.transmission) return material;
+    precise float share = gloss.transmission;
+    if (HAS_TRANSMISSION_MAP) {
+        share *= clamp(material.crossed, 0.0, 1.0);
+        precise float whole = material.metallic * (1.0 - gloss.transmission);  // of all, and now of the rest
+        if (share < 1.0) material.metallic = whole / (1.0 - share);
+    }
+    if (u >= share) return material;
     precise Material glass = material_at(gloss.glass);
     glass.color = material.color;
     return glass;

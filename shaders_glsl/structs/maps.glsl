@@ -12,13 +12,13 @@ struct Map {
     vec3 v;           // the same along its height
     int width;        // texels
     int height;
-    int wrap;         // REPEAT, MIRROR or CLAMP
+    int wrap_u;       // REPEAT, MIRROR or CLAMP
     int is_sharp;     // whether its texels are not interpolated
     int channel;      // the one that counts, or ALL_CHANNELS
     int set;          // of the texture coordinates, 0 or 1
     float strength;   // of normals
-    int spare_a;      // fill the row
-    int spare_b;
+    int wrap_v;
+    int spare;        // fills the row
 };
 
 // Those of a material: numbers of maps, or NO_MAP.
@@ -30,7 +30,7 @@ struct Maps {
     int roughness;
     int coverage;
     float cutoff;   // coverage from which on the surface is there; below 0: there in part
-    int spare;      // fills the row
+    int crossed;
 };
 
 // How texture coordinates run over a flat shape, numbered from the first plane on.
@@ -47,4 +47,10 @@ struct Axes {
 struct Uv {
     vec2 first;
     vec2 second;
+};
+
+// Where u of the first ones grows there.
+struct Tangent {
+    vec3 along;  // in the frame of the mesh, or of the scene as the normal; 0: nowhere
+    int spare;   // fills the row
 };

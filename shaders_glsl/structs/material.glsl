@@ -18,7 +18,7 @@ struct Material {
     float metallic;  // share of a principled surface that is metal
     float roughness; // of it, or the factor of an image
     float coverage;  // chance that a path does not meet a hole of it
-    int spare;       // fills the row
+    float crossed;   // factor of the share of it that is glass, of an image
 };
 
 // How lamps emit that do not so evenly and to both sides.

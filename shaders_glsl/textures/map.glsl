@@ -25,8 +25,8 @@ vec4 texel_of(Map map, int column, int row) {
 vec4 map_value(int number, Coordinates at) {
     precise Map map = map_at(number);
     precise vec3 uv = vec3(map.set == 0 ? at.first : at.second, 1.0);
-    precise float across = within(dot(map.u, uv), map.wrap) * float(map.width);
-    precise float down = within(dot(map.v, uv), map.wrap) * float(map.height);
+    precise float across = within(dot(map.u, uv), map.wrap_u) * float(map.width);
+    precise float down = within(dot(map.v, uv), map.wrap_v) * float(map.height);
     if (map.is_sharp != 0) {
         int column = min(int(across), map.width - 1);
         int row = min(int(down), map.height - 1);
@@ -35,10 +35,10 @@ vec4 map_value(int number, Coordinates at) {
     precise vec2 place = vec2(across, down) - 0.5;
     precise vec2 corner = floor(place);
     precise vec2 share = place - corner;
-    int left = wrapped(int(corner.x), map.width, map.wrap);
-    int right = wrapped(int(corner.x) + 1, map.width, map.wrap);
-    int above = wrapped(int(corner.y), map.height, map.wrap);
-    int below = wrapped(int(corner.y) + 1, map.height, map.wrap);
+    int left = wrapped(int(corner.x), map.width, map.wrap_u);
+    int right = wrapped(int(corner.x) + 1, map.width, map.wrap_u);
+    int above = wrapped(int(corner.y), map.height, map.wrap_v);
+    int below = wrapped(int(corner.y) + 1, map.height, map.wrap_v);
     precise vec4 left_above = texel_of(map, left, above);
     precise vec4 left_below = texel_of(map, left, below);
     precise vec4 upper = left_above + share.x * (texel_of(map, right, above) - left_above);

@@ -22,6 +22,7 @@ Material mapped(Ray ray, Surface surface, Material material) {
     if (HAS_COLOR_MAP && maps.color != NO_MAP) found.color *= clamp(color_at(maps.color, at), 0.0, 1.0);
     if (HAS_EMISSION_MAP && maps.emission != NO_MAP) found.emission *= color_at(maps.emission, at);
     if (HAS_GLOSS_MAP) found = with_gloss(found, maps, at);
+    if (HAS_TRANSMISSION_MAP && maps.crossed != NO_MAP) found.crossed *= number_at(maps.crossed, at);
     if (HAS_COVERAGE_MAP && maps.coverage != NO_MAP) {
         found.coverage *= number_at(maps.coverage, at);
         if (maps.cutoff >= 0.0) found.coverage = found.coverage >= maps.cutoff ? 1.0 : 0.0;
@@ -68,8 +69,32 @@ Tangents triangle_tangents(int shape, int set) {
     return Tangents(along, -down);
 }
 
-Tangents tangents_of(Surface surface, int set) {
-    if (HAS_MESH && is_triangle(surface.shape)) return triangle_tangents(surface.shape, set);
+// Between those of its corners, as images of normals are made for; 0 where a corner has none.
+vec3 corner_tangent(Ray ray, int shape) {
+    ivec3 corners = triangle_of(shape).corners;
+    int instance = instance_of(shape);
+    precise vec3 a = tangent_at(corners.x).along;
+    precise vec3 b = tangent_at(corners.y).along;
+    precise vec3 c = tangent_at(corners.z).along;
+    if (a == vec3(0.0) || b == vec3(0.0) || c == vec3(0.0)) return vec3(0.0);
+    precise Corner corner = corner_at(corners.x);
+    precise vec3 shares = met_shares(ray, instance, corner, corner_at(corners.y), corner_at(corners.z));
+    precise vec3 along = a + shares.y * (b - a) + shares.z * (c - a);
+    if (instance == 0) return along;
+    precise Instance row = instance_at(instance - 1);
+    along = along.x * row.from_x + along.y * row.from_y + along.z * row.from_z;
+    return along;
+}
+
+Tangents mesh_tangents(Ray ray, int shape, int set) {
+    precise Tangents found = triangle_tangents(shape, set);
+    precise vec3 along = set == 0 ? corner_tangent(ray, shape) : vec3(0.0);
+    if (along != vec3(0.0)) found.along = along;
+    return found;
+}
+
+Tangents tangents_of(Ray ray, Surface surface, int set) {
+    if (HAS_MESH && is_triangle(surface.shape)) return mesh_tangents(ray, surface.shape, set);
     precise vec3 normal = surface.normal;
     if (HAS_SPHERE && up_to_sphere(surface.shape)) {
         return Tangents(vec3(-normal.z, 0.0, normal.x), vec3(0.0, 1.0, 0.0));
@@ -80,13 +105,25 @@ Tangents tangents_of(Surface surface, int set) {
     return Tangents(along, -axes.v);
 }
 
+// What leads along u and against v of an image, along u and against v of the surface: an image that is turned or
+// mirrored turns its normals too.
+vec2 turned_back(Map map, vec2 offset) {
+    precise float size = dot(map.u.xy, map.u.xy);
+    if (!(size > 0.0)) return offset;
+    precise vec2 across = map.u.xy / sqrt(size);
+    precise float turn = map.u.x * map.v.y - map.u.y * map.v.x;
+    precise float down = turn < 0.0 ? -offset.y : offset.y;
+    precise vec2 turned = vec2(offset.x * across.x + down * across.y, down * across.x - offset.x * across.y);
+    return turned;
+}
+
 // The normal that the image of a material gives, on the side of the surface's own.
 vec3 bent_normal(Ray ray, Surface surface) {
     precise vec3 normal = surface.normal;
     int number = maps_at(surface.material).normal;
     if (number == NO_MAP) return normal;
     precise Map map = map_at(number);
-    precise Tangents tangents = tangents_of(surface, map.set);
+    precise Tangents tangents = tangents_of(ray, surface, map.set);
     precise vec3 along = tangents.along - dot(tangents.along, normal) * normal;
     precise float size = dot(along, along);
     if (!(size > 0.0)) return normal;
@@ -94,7 +131,8 @@ vec3 bent_normal(Ray ray, Surface surface) {
     precise vec3 up = cross(normal, along);
     if (dot(up, tangents.up) < 0.0) up = -up;
     precise vec3 texel = 2.0 * map_value(number, coordinates_of(ray, surface)).xyz - 1.0;
-    precise vec3 bent = map.strength * (texel.x * along + texel.y * up) + texel.z * normal;
+    precise vec2 turned = turned_back(map, texel.xy);
+    precise vec3 bent = map.strength * (turned.x * along + turned.y * up) + texel.z * normal;
     if (!(dot(bent, normal) > 0.0)) return normal;
     precise vec3 unit = normalized(bent);
     return unit;

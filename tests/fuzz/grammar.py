@@ -62,11 +62,12 @@ SKIES: st.SearchStrategy[Table] = st.one_of(
     tables({"horizon": triples(RADIANCES)}, bottom=triples(RADIANCES), top=triples(RADIANCES)),
 )
 PAIRS = st.lists(NUMBERS, min_size=2, max_size=2)
+WRAPS = st.sampled_from(["repeat", "mirror", "clamp"])
 PLACING = {
     "scale": st.one_of(NUMBERS, PAIRS),
     "offset": PAIRS,
     "rotation": st.floats(-720, 720),
-    "wrap": st.sampled_from(["repeat", "mirror", "clamp"]),
+    "wrap": st.one_of(WRAPS, st.lists(WRAPS, min_size=2, max_size=2)),
     "factor": FRACTIONS,
 }
 

@@ -125,7 +125,7 @@ def test_all_structs_of_the_shader_file_are_read() -> None:
     shapes = "Sphere Plane Quad Disk Box Cylinder Mesh Corner Tint Triangle Instance Node Slot"
     assert (
         " ".join(STRUCTS)
-        == f"{shapes} Material Emitter Conductor Glass Gloss Albedo Map Maps Axes Uv "
+        == f"{shapes} Material Emitter Conductor Glass Gloss Albedo Map Maps Axes Uv Tangent "
         "Light Cluster Aim Camera Frame"
     )
     assert SCENE.count("struct ") == len(STRUCTS)

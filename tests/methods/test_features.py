@@ -80,6 +80,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "bumpy": {"type": "principled", "normal": {"image": "bumps.png"}},
     "torn": {"type": "principled", "alpha": _CHECKER},
     "gauze": {"type": "principled", "alpha": 0.5},
+    "label": {"type": "principled", "transmission": _CHECKER, "roughness": 0.0},
     "lamp": lamp(),
     "spot": lamp(cone={"axis": [0, 1, 0]}),
 }
@@ -134,7 +135,7 @@ def needs_with(flags: set[str]) -> Needs:
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
     made_of |= {"HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
     made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
-    made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze"}
+    made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze", "HAS_TRANSMISSION_MAP": "label"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
     objects += [body("matte")] if "HAS_SPHERE" in flags else []
     ball, flat = sphere([9, 9, 9], 1, "matte"), _flat_shape(flags)

@@ -50,6 +50,6 @@ def bitmap(texture: Texture, factor: Radiance) -> Words:
         "bitmap": mi.Bitmap(np.ascontiguousarray(pixels)),
         "raw": True,
         "filter_type": _FILTERS[texture.filter],
-        "wrap_mode": texture.wrap,
+        "wrap_mode": texture.wrap[0],
         "to_uv": mi.ScalarTransform4f(matrix.tolist()),
     }

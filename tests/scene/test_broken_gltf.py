@@ -27,7 +27,11 @@ def broken(change: str, value: Any) -> bytes:
 WRONG: dict[str, tuple[str, Any, str]] = {
     "another version": ("asset.version", "1.0", "asset.version must be 2.0, got '1.0'"),
     "a needed extension": ("extensionsRequired", ["EXT_x"], "requires the extension 'EXT_x'"),
-    "compressed": ("extensionsRequired", ["KHR_draco_mesh_compression"], "draco"),
+    "another compression": (
+        "extensionsRequired",
+        ["EXT_meshopt_compression"],
+        "requires the extension 'EXT_meshopt_compression'",
+    ),
     "a view that is not there": ("accessors.0.bufferView", 99, "names bufferViews[99]"),
     "an accessor that is not there": ("meshes.0.primitives.0.indices", 99, "accessors[99]"),
     "a mesh that is not there": ("nodes.0.mesh", -1, "names meshes[-1]"),

@@ -88,7 +88,7 @@ def test_numbers_of_materials_are_kept(name: str, tmp_path: Path) -> None:
 
 def test_textures_have_their_channels_and_factors(tmp_path: Path) -> None:
     builder = Builder()
-    image = {"index": builder.texture(COLORS, wrapS=33648, wrapT=33648)}
+    image = {"index": builder.texture(COLORS, wrapS=33648, wrapT=33071)}
     moved = {"KHR_texture_transform": {"scale": [2, 3], "offset": [0.5, 0], "rotation": math.pi}}
     material = {
         "pbrMetallicRoughness": {
@@ -108,7 +108,7 @@ def test_textures_have_their_channels_and_factors(tmp_path: Path) -> None:
     textures = found.textures
     channels = {"color": None, "alpha": "a", "metallic": "b", "roughness": "g", "normal": None}
     assert {key: texture.channel for key, texture in textures.items()} == channels
-    assert {texture.wrap for texture in textures.values()} == {"mirror"}
+    assert {texture.wrap for texture in textures.values()} == {("mirror", "clamp")}
     color = textures["color"]
     assert (color.scale, color.offset, round(color.rotation)) == ((2, 3), (0.5, 0), 180)
     assert textures["roughness"].uv == 1
@@ -116,6 +116,17 @@ def test_textures_have_their_channels_and_factors(tmp_path: Path) -> None:
     assert found.normal.strength == 2
     assert_allclose(textures["roughness"].texels, COLORS / 255, rtol=1e-3)
     assert files_of(scene) == ["thing.glb"]
+
+
+def test_glass_with_a_label(tmp_path: Path) -> None:
+    builder = Builder()
+    image = {"index": builder.texture(COLORS)}
+    keys = {"transmissionFactor": 0.5, "transmissionTexture": image}
+    material = {"name": "m", **extended("transmission", **keys)}
+    builder.shown(square(builder, material=builder.add("materials", material)))
+    found = principled(load(saved(tmp_path, builder)))
+    assert found.transmission == 0.5
+    assert found.textures["transmission"].channel == "r"
 
 
 def test_an_emission_with_an_image(tmp_path: Path) -> None:
@@ -159,7 +170,7 @@ def test_what_is_left_out_is_told_once(tmp_path: Path) -> None:
     builder.json["extensionsUsed"] = ["KHR_materials_clearcoat", "EXT_strange"]
     scene = load(saved(tmp_path, builder))
     (told,) = cautions(scene, settings_for(scene.render))
-    assert "thing.glb: EXT_strange, clearcoatTexture of the materials" in told
+    assert "of thing.glb is left out: EXT_strange, clearcoatTexture" in told
 
 
 def test_what_is_unlit_looks_the_same_in_every_light(tmp_path: Path, context: Context) -> None:

@@ -10,7 +10,7 @@ from tests.conftest import CallGlsl
 from tests.support.numerics import BELOW_ONE, ULP, Array, directions, float32, wo_at
 
 IORS = (0.5, 0.667, 1 + 1e-6, 1.33, 1.5, 2.4, 4.0)
-GLASS = "Material(vec3(1.0), DIELECTRIC, vec3(0.0), 0.0, 1.5, 0, 0, -1, 0.0, 0.0, 1.0, 0)"
+GLASS = "Material(vec3(1.0), DIELECTRIC, vec3(0.0), 0.0, 1.5, 0, 0, -1, 0.0, 0.0, 1.0, 1.0)"
 
 
 def fresnel64(cos_i: Array, eta: Array | float) -> Array:

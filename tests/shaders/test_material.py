@@ -25,7 +25,7 @@ from tests.support.numerics import (
 ALPHAS = (0.09, 0.25, 0.64, 1.0)
 COSINES = (1.0, 0.7, 0.2)  # of wo
 LOBES = [(alpha, cosine) for alpha in ALPHAS for cosine in COSINES]
-METAL = "Material(vec3(1.0), METAL, vec3(0.0), alpha, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 0)"
+METAL = "Material(vec3(1.0), METAL, vec3(0.0), alpha, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 1.0)"
 UP = "frame_around(vec3(0.0, 0.0, 1.0))"
 
 
@@ -37,7 +37,7 @@ def test_matte_light_is_spread_by_the_cosine_and_weighs_its_colour(call_glsl: Ca
     u = np.random.default_rng(2).uniform(size=(len(n), 2))
     setup = """
         Material matte =
-            Material(vec3(0.1, 0.5, 0.9), MATTE, vec3(0.0), 0.0, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 0);
+            Material(vec3(0.1, 0.5, 0.9), MATTE, vec3(0.0), 0.0, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 1.0);
         Vertex vertex = vertex_of(frame_around(n), vec3(0.0, 0.0, 1.0), matte, true);
         Scattering next = sample_matte(vertex, u);
         vec3 wi = to_local(vertex.frame, next.direction);"""
@@ -60,7 +60,7 @@ def test_a_mirror_reflects_at_the_angle_of_incidence(call_glsl: CallGlsl) -> Non
     wo = wo[wo[:, 2] > 0]
     setup = """
         Material mirror =
-            Material(vec3(0.25), METAL, vec3(0.0), 0.0, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 0);
+            Material(vec3(0.25), METAL, vec3(0.0), 0.0, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 1.0);
         Scattering next = sample_metal(vertex_of(frame_around(n), wo, mirror, true), vec2(0.3));
         vec3 wi = to_local(frame_around(n), next.direction);"""
     n = np.resize(directions(100), (len(wo), 3))
@@ -72,7 +72,7 @@ def test_a_mirror_reflects_at_the_angle_of_incidence(call_glsl: CallGlsl) -> Non
 
 def test_only_mirrors_and_glass_are_deltas(call_glsl: CallGlsl) -> None:
     kind, alpha = np.array([0, 1, 1, 2]), np.array([0.0, 0.0, 0.1, 0.0])
-    material = "Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 0)"
+    material = "Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 1.0)"
     found = call_glsl(f"is_delta({material})", "bool", kind=kind, alpha=alpha)
     assert found.tolist() == [False, True, False, True]
 

@@ -69,7 +69,7 @@ def integrals(
 
 VERTEX = """
     Material material =
-        Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 0);
+        Material(vec3(1.0), kind, vec3(0.0), alpha, 1.0, 0, 0, -1, 0.0, 0.0, 1.0, 1.0);
     Vertex vertex = vertex_of(frame_around(vec3(0.0, 0.0, 1.0)), wo, material, true);"""
 MATTE_KIND, METAL_KIND = 0, 1
 

@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from glrt.methods.contents import contents_of
+from glrt.scene import own_trees
 from glrt.scene.materials import Principled
+from glrt.scene.named_meshes import MeshFile
 from glrt.scene.scene import Scene
+from glrt.scene.textures import Texture
+from glrt.scene.triangle_meshes import checked
 from tests.conftest import CallGlsl
 from tests.support.builders import disk, plane, quad, scene_of, sphere
 from tests.support.meshes import mesh
@@ -32,11 +37,15 @@ def sampled(call_glsl: CallGlsl, scene: Scene, uv: Any) -> Any:
     )
 
 
-@pytest.mark.parametrize("wrap", ["repeat", "mirror", "clamp"])
+WRAPS = [(name, name) for name in ("repeat", "mirror", "clamp")]
+WRAPS += [("repeat", "clamp"), ("clamp", "mirror")]
+
+
+@pytest.mark.parametrize("wrap", WRAPS)
 @pytest.mark.parametrize("filtered", ["linear", "nearest"])
 @pytest.mark.parametrize("size", [(5, 3), (1, 1), (1, 4)])
 def test_an_image_is_read_between_its_pixels_and_beyond_its_edges(
-    call_glsl: CallGlsl, wrap: str, filtered: str, size: tuple[int, int]
+    call_glsl: CallGlsl, wrap: tuple[str, str], filtered: str, size: tuple[int, int]
 ) -> None:
     scene = of_texture({"wrap": wrap, "filter": filtered}, *size)
     uv = np.random.default_rng(1).uniform(-3, 4, (4000, 2)).astype(np.float32)
@@ -73,7 +82,7 @@ def test_a_transform_is_that_of_gltf(call_glsl: CallGlsl) -> None:
     u, v = (uv * [2.0, 3.0]).T
     turned = np.stack([cos * u + sin * v + 0.1, -sin * u + cos * v + 0.2], axis=1)
     found = sampled(call_glsl, of_texture(texture), uv)
-    assert_allclose(found, value64(random_image(5, 3), turned), atol=2e-5)
+    assert_allclose(found, value64(random_image(5, 3), turned, ("repeat", "repeat")), atol=2e-5)
 
 
 def test_a_checkerboard_has_its_first_color_at_the_origin(call_glsl: CallGlsl) -> None:
@@ -210,6 +219,49 @@ def test_a_sphere_bends_them_by_its_longitude(call_glsl: CallGlsl) -> None:
     scene = scene_of([sphere([0, 0, 0], 2, "m")], {"m": BUMPY})
     found = bent(call_glsl, scene, [[0, 0, -1.0], [1.0, 0, 0]], TILT)
     assert_allclose(found, [[0.6, 0, -0.8], [0.8, 0, 0.6]], atol=1e-3)
+
+
+TURNS: dict[str, dict[str, Any]] = {
+    "turned": {"rotation": 90},
+    "turned a little": {"rotation": 30, "scale": 3},
+    "mirrored along u": {"scale": (-1, 1)},
+    "mirrored along v": {"scale": (1, -2)},
+    "turned and mirrored": {"rotation": -120, "scale": (-1, 1)},
+}
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_an_image_that_is_turned_turns_its_normals(call_glsl: CallGlsl, name: str) -> None:
+    """Along where u of the image grows, and against where its v does."""
+    keys = TURNS[name]
+    scene = scene_of([plane([0, 0, -3], [0, 0, 1], "m")], {"m": BUMPY})
+    found = bent(call_glsl, scene, [[0.2, 0, -3.0]], [0.48, -0.36, 0.8], **keys)
+    u, v = Texture(image="n.png", **keys).transform[:, :2]
+    along, against = ([u[0], -u[1], 0], [-v[0], v[1], 0])  # v of the surface leads downwards
+    expected = 0.48 * unit(along) - 0.36 * unit(against) + np.array([0, 0, 0.8])
+    assert_allclose(found, [expected], atol=1e-3)
+
+
+def unit(vector: Any) -> Any:
+    return np.array(vector, float) / np.linalg.norm(vector)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_tangents_of_corners_go_before_those_of_triangles(
+    call_glsl: CallGlsl, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a file gives them: upwards here, in a mesh that is used once, or twice."""
+    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1)
+    corners = np.array([[-2.0, -2, 0], [2, -2, 0], [0, 2, 0]])
+    uv, along = np.tile(corners[:, :2] * [1, -1], 2), np.tile([0.0, 2, 0], (3, 1))
+    given = checked(corners, [[0, 1, 2]], uv=uv, tangents=along)
+    file = MeshFile(file="a.ply").read_as("0" * 64, given, None)
+    thing = {"shape": "mesh", "file": file, "material": "m", "smooth": False, "rotate": [0, 0, 90]}
+    shapes = [{**thing, "translate": [0, 0, -3.0 - far], "scale": 2} for far in range(count)]
+    scene = scene_of(shapes, {"m": BUMPY})
+    assert len(contents_of(scene).instances) == (2 if count == 2 else 0)
+    found = bent(call_glsl, scene, [[0, 0, -3.0]], TILT)
+    assert_allclose(found, [[-0.6, 0, 0.8]], atol=1e-3)
 
 
 def test_strength_inclines_and_what_faces_inwards_is_left(call_glsl: CallGlsl) -> None:

@@ -39,8 +39,8 @@ PROBES = {
     "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
     "HAS_TRANSMISSION": (
         "bsdfs/principled.glsl",
-        "u >= gloss.transmission",
-        "u >= {} * gloss.transmission",
+        "share = gloss.transmission",
+        "share = {} * gloss.transmission",
     ),
     "HAS_MAP": (
         "textures/map.glsl",
@@ -56,6 +56,7 @@ PROBES = {
     ),
     "HAS_NORMAL_MAP": ("textures/mapped.glsl", "+ texel.z * normal", "+ {} * texel.z * normal"),
     "HAS_COVERAGE_MAP": ("textures/mapped.glsl", "found.coverage *=", "found.coverage *= {} *"),
+    "HAS_TRANSMISSION_MAP": ("textures/mapped.glsl", "found.crossed *=", "found.crossed *= {} *"),
     "HAS_HOLE": ("textures/holes.glsl", ">= material.coverage", ">= {} * material.coverage"),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
     "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
@@ -107,6 +108,7 @@ NEEDED_TOO = {
     "HAS_NORMAL_MAP": {"HAS_MAP", "HAS_PRINCIPLED"},
     "HAS_HOLE": {"HAS_PRINCIPLED"},
     "HAS_COVERAGE_MAP": {"HAS_MAP", "HAS_HOLE", "HAS_PRINCIPLED"},
+    "HAS_TRANSMISSION_MAP": {"HAS_MAP", "HAS_TRANSMISSION", "HAS_PRINCIPLED", "HAS_DIELECTRIC"},
     "SAMPLE_SUN": {"HAS_SUN"},
     "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
     "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
@@ -130,11 +132,13 @@ GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION", "HAS_HOLE", "HAS_COVERAGE_MAP"}
-    | {"HAS_EMISSION_MAP", "HAS_GLOSS_MAP", "HAS_NORMAL_MAP"},
+    | {"HAS_EMISSION_MAP", "HAS_GLOSS_MAP", "HAS_NORMAL_MAP", "HAS_TRANSMISSION_MAP"},
     "HAS_MAP": {"HAS_COLOR_MAP", "HAS_EMISSION_MAP", "HAS_GLOSS_MAP"}
-    | {"HAS_NORMAL_MAP", "HAS_COVERAGE_MAP"},
+    | {"HAS_NORMAL_MAP", "HAS_COVERAGE_MAP", "HAS_TRANSMISSION_MAP"},
     "HAS_HOLE": {"HAS_COVERAGE_MAP"},
-    "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED", "HAS_TRANSMISSION"},
+    "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED", "HAS_TRANSMISSION"}
+    | {"HAS_TRANSMISSION_MAP"},
+    "HAS_TRANSMISSION": {"HAS_TRANSMISSION_MAP"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},

@@ -34,10 +34,11 @@ def with_images(scene: Scene, images: Mapping[str, Array]) -> Scene:
     return scene.model_copy(update={"materials": materials})
 
 
-def value64(image: Array, uv: Array, wrap: str = "repeat", sharp: bool = False) -> Array:
+def value64(image: Array, uv: Array, wrap: tuple[str, str], sharp: bool = False) -> Array:
     """(n, 4): the image at n places, after its transform; between the middles of pixels linear."""
     height, width, _ = image.shape
-    place = _within(uv, wrap) * [width, height]
+    inside = [_within(uv[:, axis], wrap[axis]) for axis in (0, 1)]
+    place = np.stack(inside, axis=1) * [width, height]
     if sharp:
         column, row = np.minimum(place.astype(int), [width - 1, height - 1]).T
         found: Array = image[row, column]
@@ -48,8 +49,8 @@ def value64(image: Array, uv: Array, wrap: str = "repeat", sharp: bool = False) 
     for x in (0, 1):
         for y in (0, 1):
             column, row = (corner + np.array([x, y])).astype(int).T
-            if wrap == "repeat":
-                column, row = column % width, row % height
+            column = column % width if wrap[0] == "repeat" else column
+            row = row % height if wrap[1] == "repeat" else row
             column, row = column.clip(0, width - 1), row.clip(0, height - 1)
             weight = (share[:, 0] if x else 1 - share[:, 0]) * (
                 share[:, 1] if y else 1 - share[:, 1]

@@ -107,7 +107,7 @@ def test_rays_at_the_critical_angle_stay_numbers(call_glsl: CallGlsl, ior: float
     given = {"eta": np.array([ior]), "wo": wo_at(np.maximum(cosine, 1e-9))}
     setup = """
         Material glass =
-            Material(vec3(1.0), DIELECTRIC, vec3(0.0), 0.0, 1.5, 0, 0, -1, 0.0, 0.0, 1.0, 0);
+            Material(vec3(1.0), DIELECTRIC, vec3(0.0), 0.0, 1.5, 0, 0, -1, 0.0, 0.0, 1.0, 1.0);
         Vertex vertex = Vertex(frame_around(vec3(0.6, 0.0, 0.8)), wo, glass, true, eta);
         Scattering next = sample_dielectric(vertex, u);"""
     for u in (0.0, 0.3, 0.9, BELOW_ONE):

@@ -29,6 +29,7 @@ def principled(**keys: Any) -> dict[str, Any]:
     return {"type": "principled", **keys}
 
 
+PANE = {"thin": True, "roughness": 0.0}
 PLAIN_AND_EVEN: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "matte": ({**MATTE, "color": [0.25, 0.5, 0.75]}, {**MATTE, "color": even([0.25, 0.5, 0.75])}),
     "metal": (
@@ -46,6 +47,10 @@ PLAIN_AND_EVEN: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         principled(**BLACK, emission={**even(0.5), "factor": 4.0}),
     ),
     "alpha": (principled(alpha=0.5), principled(alpha=even(0.5))),
+    "transmission": (
+        principled(**PANE, transmission=0.25, metallic=0.5),
+        principled(**PANE, transmission={**even(0.5), "factor": 0.5}, metallic=0.5),
+    ),
     "what is cut": (
         principled(alpha=0.5, alpha_cutoff=0.75),
         principled(alpha=even(0.5), alpha_cutoff=0.75),

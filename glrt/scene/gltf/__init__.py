@@ -4,6 +4,8 @@ Modules, each importing only what stands above it:
 
 - document: the parts of a file, and its buffers
 - accessors: its arrays
+- draco: the same, unpacked
+- attributes: what the primitives of its meshes have of each vertex
 - nodes: where its meshes, cameras and lights stand
 - skins: where joints lead the vertices of its meshes
 - primitives: the triangles of its meshes

@@ -14,6 +14,7 @@ from glrt.text import quoted
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
 KNOWN = {  # extensions that are read, or change nothing here
+    "KHR_draco_mesh_compression",
     "KHR_mesh_quantization",
     "KHR_materials_ior",
     "KHR_materials_unlit",

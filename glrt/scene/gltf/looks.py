@@ -10,8 +10,6 @@ from glrt.scene.values import LARGEST
 
 _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
-    "KHR_materials_transmission": ("transmissionTexture",),
-    "KHR_materials_volume": ("thicknessTexture",),
     "KHR_materials_clearcoat": (
         "clearcoatTexture",
         "clearcoatRoughnessTexture",
@@ -47,7 +45,7 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
     _metallic_roughness(document, textures, given, here, look)
     _surface(document, textures, given, here, look)
     _emission(document, textures, given, here, look)
-    _layers(document, given, here, look)
+    _layers(document, textures, given, here, look)
     if document.extension(given, "KHR_materials_unlit", here) is not None:
         _let_shine(look)
     return look
@@ -108,7 +106,9 @@ def _emission(
         look.unread.append("alphaMode of what emits")
 
 
-def _layers(document: Document, given: dict[str, Any], here: str, look: Look) -> None:
+def _layers(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
     """What extensions of materials say."""
 
     def own(name: str) -> dict[str, Any]:
@@ -125,7 +125,8 @@ def _layers(document: Document, given: dict[str, Any], here: str, look: Look) ->
     look.table["specular"] = value(specular, "specularFactor", 1)
     tint = numbers(specular.get("specularColorFactor", [1, 1, 1]), 3, f"{here}: specular", 0)
     look.table["specular_color"] = tuple(min(each, 1.0) for each in tint)
-    look.table["transmission"] = value(own("transmission"), "transmissionFactor", 0)
+    crossed = own("transmission")
+    transmission = value(crossed, "transmissionFactor", 0)
     volume = own("volume")
     look.table["thin"] = value(volume, "thicknessFactor", 0, 1e15) == 0
     distance = volume.get("attenuationDistance")
@@ -138,7 +139,10 @@ def _layers(document: Document, given: dict[str, Any], here: str, look: Look) ->
     coat = own("clearcoat")
     look.table["clearcoat"] = value(coat, "clearcoatFactor", 0)
     look.table["clearcoat_roughness"] = value(coat, "clearcoatRoughnessFactor", 0)
-    if look.table["transmission"]:
+    if transmission:
+        image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
+        factor = {**image, "channel": "r", "factor": transmission} if image else transmission
+        look.table["transmission"] = factor
         _fit_glass(look)
 
 

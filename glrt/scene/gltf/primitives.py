@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.scene.gltf.accessors import Floats, Ints, floats, indices
+from glrt.scene.gltf.accessors import Floats, Ints
+from glrt.scene.gltf.attributes import Attributes, weights_of
 from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.nodes import Matrix, Placed, placed_nodes
 from glrt.scene.gltf.skins import skin_matrices
@@ -24,6 +25,7 @@ class _Part(NamedTuple):
     normals: Floats  # (v, 3)
     colors: Floats | None
     uv: Floats | None  # (v, 4): both sets
+    tangents: Floats | None  # (v, 3)
     material: str
 
 
@@ -42,7 +44,8 @@ def mesh_of(document: Document) -> TriangleMesh:
                 raise ValueError(f"it has more than {MOST_TRIANGLES:,} triangles")
     if not parts:
         raise ValueError("it shows no triangles")
-    firsts = np.cumsum([0, *(len(part.points) for part in parts[:-1])])
+    counts = [len(part.points) for part in parts]
+    firsts = np.cumsum([0, *counts[:-1]])
     faces = [part.faces + first for part, first in zip(parts, firsts, strict=True)]
     used = list(dict.fromkeys(part.material for part in parts))
     labels = [np.full(len(part.faces), used.index(part.material)) for part in parts]
@@ -50,10 +53,11 @@ def mesh_of(document: Document) -> TriangleMesh:
         np.concatenate([part.points for part in parts]),
         np.concatenate(faces),
         np.concatenate([part.normals for part in parts]),
-        _joined([part.colors for part in parts], [len(part.points) for part in parts], 3, 1.0),
+        _joined([part.colors for part in parts], counts, 3, 1.0),
         tuple(used),
         np.concatenate(labels),
-        _joined([part.uv for part in parts], [len(part.points) for part in parts], 4, 0.0),
+        _joined([part.uv for part in parts], counts, 4, 0.0),
+        _joined([part.tangents for part in parts], counts, 3, 0.0),
     )
 
 
@@ -98,40 +102,30 @@ def _parts(
         attributes = document.table(table.get("attributes"), f"{here}.attributes")
         if table.get("mode", _TRIANGLES) in _WITHOUT_AREA or "POSITION" not in attributes:
             continue  # points, lines, and what is left to an extension
-        posed = skin_matrices(document, placed, attributes, poses, here)
+        weights = weights_of(document, placed.node, mesh)
+        rows = Attributes(document, table, here, weights)
+        posed = skin_matrices(document, placed, rows, poses, here)
         matrices = placed.matrix[None] if posed is None else posed
-        found = _part(document, table, here, matrices)
+        found = _part(rows, table.get("mode", _TRIANGLES), here, matrices)
         if found:
             yield found._replace(material=_material(document, table, names, here))
 
 
-def _part(
-    document: Document, primitive: dict[str, Any], here: str, matrices: Floats
-) -> _Part | None:
+def _part(own: Attributes, mode: Any, here: str, matrices: Floats) -> _Part | None:
     """A primitive whose vertices are moved by matrices, (1 or v, 4, 4); None without triangles."""
-    attributes = primitive["attributes"]
-    points = floats(document, attributes["POSITION"], (3,), f"{here}.attributes.POSITION")
-    mode = primitive.get("mode", _TRIANGLES)
-    faces = _faces(document, primitive, mode, len(points), here)
+    points = own.points
+    faces = _faces(own, mode, len(points), here)
     if not len(faces):
         return None
     if len(matrices) not in (1, len(points)):
         raise ValueError(f"{here} has {len(points):,} places and {len(matrices):,} of JOINTS_0")
-
-    def rows(name: str, sizes: tuple[int, ...]) -> Floats | None:
-        if name not in attributes:
-            return None
-        found = floats(document, attributes[name], sizes, f"{here}.attributes.{name}")
-        if len(found) != len(points):
-            raise ValueError(f"{here} has {len(points):,} places and {len(found):,} of {name}")
-        return found
-
-    colors, first, second = rows("COLOR_0", (3, 4)), rows("TEXCOORD_0", (2,)), rows(*_SECOND)
+    colors = own.rows("COLOR_0", (3, 4))
+    first, second = own.rows("TEXCOORD_0", (2,)), own.rows("TEXCOORD_1", (2,))
     columns = colors[:, :3].clip(0, 1) if colors is not None else None
     empty = np.zeros((len(points), 2))
     sets = (first if first is not None else empty, second if second is not None else empty)
     uv = None if first is None and second is None else np.concatenate(sets, axis=1)
-    normals = rows("NORMAL", (3,))
+    normals = own.rows("NORMAL", (3,))
     linear = matrices[:, :3, :3]
     moved = (linear @ points[:, :, None])[:, :, 0] + matrices[:, :3, 3]
     if np.linalg.det(linear[0]) < 0:
@@ -142,12 +136,13 @@ def _part(
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         facing = across.repeat(3, axis=0)
         columns, uv = (None if rows is None else rows[at] for rows in (columns, uv))
-        return _Part(moved[at], np.arange(len(at)).reshape(-1, 3), facing, columns, uv, "")
+        order = np.arange(len(at)).reshape(-1, 3)
+        return _Part(moved[at], order, facing, columns, uv, None, "")  # without tangents, by glTF
     turned = (_for_normals(linear) @ normals[:, :, None])[:, :, 0]
-    return _Part(moved, faces, turned, columns, uv, "")
-
-
-_SECOND: tuple[str, tuple[int, ...]] = ("TEXCOORD_1", (2,))
+    tangents = own.rows("TANGENT", (4,))
+    if tangents is not None:  # their sign is that of the texture coordinates
+        tangents = (linear @ tangents[:, :3, None])[:, :, 0]
+    return _Part(moved, faces, turned, columns, uv, tangents, "")
 
 
 def _for_normals(linear: Floats) -> Floats:
@@ -169,15 +164,15 @@ def _material(document: Document, primitive: dict[str, Any], names: list[str], h
     return names[index]
 
 
-def _faces(document: Document, primitive: dict[str, Any], mode: Any, count: int, here: str) -> Ints:
+def _faces(own: Attributes, mode: Any, count: int, here: str) -> Ints:
     """(n, 3) of a list, a strip or a fan of triangles."""
     if mode not in (_TRIANGLES, _STRIP, _FAN):
         raise ValueError(f"{here}.mode must be a whole number from 0 to 6, got {mode!r}"[:200])
-    order = np.arange(count)
-    if "indices" in primitive:
-        order = indices(document, primitive["indices"], f"{here}.indices")
-        if order.max() >= count:
-            raise ValueError(f"{here}.indices names vertex {order.max()}, of {count:,} from 0")
+    order = own.corners()
+    if order is None:
+        order = np.arange(count)
+    elif order.max(initial=-1) >= count:
+        raise ValueError(f"{here}.indices names vertex {order.max()}, of {count:,} from 0")
     if mode == _TRIANGLES:
         if len(order) % 3:
             raise ValueError(f"{here} has {len(order):,} corners, which is no multiple of three")

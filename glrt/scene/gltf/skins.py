@@ -1,11 +1,11 @@
 """Skins of a glTF file: where joints lead the vertices of a mesh, in the pose of the file."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from glrt.scene.gltf.accessors import Floats, floats
+from glrt.scene.gltf.attributes import Attributes
 from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.nodes import Matrix, Placed
 
@@ -13,7 +13,7 @@ from glrt.scene.gltf.nodes import Matrix, Placed
 def skin_matrices(
     document: Document,
     placed: Placed,
-    attributes: Mapping[str, Any],
+    own: Attributes,
     poses: Mapping[int, Matrix],
     here: str,
 ) -> Floats | None:
@@ -21,7 +21,8 @@ def skin_matrices(
 
     `poses` are the transforms of all nodes that the file shows. ValueError for what does not fit.
     """
-    if "skin" not in placed.node or "JOINTS_0" not in attributes:
+    joined = own.rows("JOINTS_0", (4,)) if "skin" in placed.node else None
+    if joined is None:
         return None
     index = placed.node["skin"]
     skin, name = document.item("skins", index, f"nodes[{placed.number}].skin"), f"skins[{index}]"
@@ -33,8 +34,9 @@ def skin_matrices(
             raise ValueError(f"{name} has {len(joints)} joints and {len(rows)} matrices")
         bound = rows[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
     moved = np.array([poses.get(joint, np.eye(4)) for joint in joints]).reshape(-1, 4, 4) @ bound
-    at = floats(document, attributes["JOINTS_0"], (4,), f"{here}.attributes.JOINTS_0").astype(int)
-    share = floats(document, attributes.get("WEIGHTS_0"), (4,), f"{here}.attributes.WEIGHTS_0")
+    at, share = joined.astype(int), own.rows("WEIGHTS_0", (4,))
+    if share is None:
+        raise ValueError(f"{here}.attributes has JOINTS_0 and no WEIGHTS_0")
     if len(at) != len(share) or not len(joints) or at.min() < 0 or at.max() >= len(joints):
         raise ValueError(f"{here} names joints that {name} has not")
     total = share.sum(axis=1, keepdims=True)

@@ -40,6 +40,12 @@ def camera_of(document: Document) -> tuple[dict[str, Any], float | None] | None:
     return None
 
 
+def left_out(camera: object, suns: int, document: Document) -> tuple[str, ...]:
+    """In words, what of cameras and lights no scene has."""
+    found = ["cameras without perspective"] if not camera and document.items("cameras") else []
+    return (*found, *(["directional lights but the first"] if suns > 1 else []))
+
+
 def lights_of(document: Document, size: float) -> dict[str, Any]:
     """Materials and objects of the lights, and a sun, as tables of a scene; `size`: of the model.
 

@@ -34,8 +34,8 @@ class TextureTables:
             else {}
         )
         found: dict[str, Any] = {"image": file, **self._placing(info, here)}
-        wraps = {_WRAPS.get(sampler.get(key, 10497), "repeat") for key in ("wrapS", "wrapT")}
-        found["wrap"] = wraps.pop() if len(wraps) == 1 else "repeat"
+        wraps = tuple(_WRAPS.get(sampler.get(key, 10497), "repeat") for key in ("wrapS", "wrapT"))
+        found["wrap"] = wraps
         if sampler.get("magFilter") == _NEAREST:
             found["filter"] = "nearest"
         return found

@@ -1,0 +1,86 @@
+"""Normals and tangents of vertices, as means over the triangles around them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+PORTION = 1 << 18  # triangles that are looked at at once, so that memory is bounded
+
+
+def places(rows: Floats) -> Ints:
+    """(v,): the number of the first of equal rows, as of vertices in the same place."""
+    table = np.ascontiguousarray(rows + 0.0)  # without negative zeros
+    whole = table.view(np.dtype((np.void, table.itemsize * table.shape[1]))).ravel()
+    _, first, inverse = np.unique(whole, return_index=True, return_inverse=True)
+    return first[inverse]
+
+
+def mean_normals(vertices: Floats, faces: Ints, place: Ints) -> Floats:
+    """(v, 3), of any length; vertices in the same `place` share theirs.
+
+    Triangles weigh by their angle there (Thuermer and Wuethrich, "Computing Vertex Normals from
+    Polygonal Facets", 1998).
+    """
+    mean = np.zeros((len(place), 3))
+    for some in _portions(faces):
+        along, angle = _corners(vertices[some])
+        facing = _unit(np.cross(along[:, 0], along[:, 1]))
+        mean += _sums(place[some], angle[:, :, None] * facing[:, None], len(place))
+    return mean[place]
+
+
+def mean_tangents(vertices: Floats, faces: Ints, normals: Floats, uv: Floats) -> Floats:
+    """(v, 3), unit: where u of uv, (v, 2), grows, perpendicular to unit normals, (v, 3); or zero.
+
+    As MikkTSpace has it (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, appendix A):
+    triangles weigh by their angle, and corners of equal place, normal and coordinates share theirs.
+    Zero where triangles of both orientations share one, and where u grows nowhere.
+    """
+    alike = places(np.concatenate([vertices, normals, uv], axis=1))
+    sums = {sign: np.zeros_like(vertices) for sign in (1.0, -1.0)}
+    for some in _portions(faces):
+        corners, at = vertices[some], uv[some]
+        _, angle = _corners(corners)
+        one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        u, v = np.moveaxis(at[:, 1:] - at[:, :1], 2, 0)  # (n, 2) each: of both edges
+        turn = np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+        grows = turn[:, None] * (one * v[:, 1:] - other * v[:, :1])
+        normal = normals[some]
+        flat = _unit(grows[:, None] - (grows[:, None] * normal).sum(axis=2, keepdims=True) * normal)
+        weighted = angle[:, :, None] * flat
+        for sign, total in sums.items():
+            those = turn == sign
+            total += _sums(alike[some[those]], weighted[those], len(alike))
+    is_mixed = np.all([total.any(axis=1) for total in sums.values()], axis=0)
+    total = sums[1.0] + sums[-1.0]
+    total[is_mixed] = 0
+    return _unit(total)[alike]
+
+
+def _portions(faces: Ints) -> Iterator[Ints]:
+    return (faces[first : first + PORTION] for first in range(0, len(faces), PORTION))
+
+
+def _corners(corners: Floats) -> tuple[Floats, Floats]:
+    """(n, 3, 3) unit vectors along edges and (n, 3) angles of triangles, (n, 3, 3)."""
+    along = _unit(np.roll(corners, -1, axis=1) - corners)
+    cosine = -(along * np.roll(along, 1, axis=1)).sum(axis=2)
+    return along, np.arccos(np.clip(cosine, -1, 1))
+
+
+def _unit(vectors: Floats) -> Floats:
+    """Of length 1, or zero."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    unit: Floats = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+    return unit
+
+
+def _sums(at: Ints, rows: Floats, count: int) -> Floats:
+    """(count, 3): rows, (n, 3, 3), added up by number, (n, 3)."""
+    flat, numbers = rows.reshape(-1, 3), at.ravel()
+    columns = [np.bincount(numbers, flat[:, axis], count) for axis in range(3)]
+    return np.stack(columns, axis=1)
