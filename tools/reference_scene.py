@@ -106,7 +106,7 @@ def keys(model: type[BaseModel]) -> str:
     rows = []
     for name, field in model.model_fields.items():
         if name not in schema["properties"]:
-            continue  # a texture, which is a part of another key
+            continue  # a part of another key, or one that another model has
         part = schema["properties"][name]
         start = default(name, schema, field.default)
         cells = (f"`{name}`", kind(part), start, limits(part), editable_of(field).unit)
@@ -135,7 +135,8 @@ def kind(part: dict[str, Any]) -> str:
         what = f"rows of {kind(first)}" if "prefixItems" in first else words[first["type"]]
         return f"{len(part['prefixItems'])} {what}"
     if part.get("type") == "array":
-        return f"{part['maxItems']} numbers" if "minItems" in part else "list of tables"
+        of = "" if "enum" in part.get("items", {}) else " numbers"
+        return f"{part['maxItems']}{of}" if "minItems" in part else "list of tables"
     if part.get("type") == "object" or "$ref" in part or "allOf" in part:
         return "table"
     return WORDS[str(part["type"])] if "type" in part else "number or 3 numbers"

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from glrt.errors import SceneError
 from glrt.scene.gltf.document import Document
+from glrt.scene.gltf.draco import NotInstalledError
 from glrt.scene.gltf.primitives import mesh_of
 from glrt.scene.image_files import decode_srgb
 from glrt.scene.triangle_meshes import TriangleMesh, checked
@@ -53,7 +54,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
             return _mesh(_reader(suffix)(BytesIO(content)), suffix)
     except SceneError:
         raise  # of a file beside it
-    except ImportError as error:
+    except NotInstalledError as error:
         raise SceneError(f"{where}: {quoted(path)} {error}") from None
     except MemoryError:
         problem = "it says that it is larger than the memory"

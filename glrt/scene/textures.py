@@ -115,7 +115,15 @@ class Texture(Value):
         return self.image.texels
 
 
-class NormalTexture(Texture):
+_REFUSED = ("factor", "checker")
+
+
+def _without_refused(schema: dict[str, Any]) -> None:
+    for key in _REFUSED:
+        del schema["properties"][key]
+
+
+class NormalTexture(Texture, json_schema_extra=_without_refused):
     """An image of normals in tangent space, x along u, y against v, z outwards."""
 
     strength: Annotated[float, Field(ge=0, le=100)] = Field(

@@ -68,7 +68,7 @@ PRINCIPLED = [
     ),
     Mutant(
         "a surface that is glass in part is glass as often as not",
-        edit(_FILE, "u >= gloss.transmission", "u >= 0.5"),
+        edit(_FILE, "if (u >= share)", "if (u >= 0.5)"),
         f"{_TRUTHS}::test_glass_in_part_is_a_mean_of_glass_and_the_rest",
     ),
     Mutant(

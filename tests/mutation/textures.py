@@ -13,8 +13,8 @@ TEXTURES = [
         "images stand on their heads",
         edit(
             "textures/map.glsl",
-            "within(dot(map.v, uv), map.wrap)",
-            "(1.0 - within(dot(map.v, uv), map.wrap))",
+            "within(dot(map.v, uv), map.wrap_v)",
+            "(1.0 - within(dot(map.v, uv), map.wrap_v))",
         ),
         f"{_SHADERS}::test_the_first_row_of_an_image_is_on_top",
     ),
@@ -122,6 +122,56 @@ TEXTURES = [
             "emission_weight(path.ray, hit,",
         ),
         f"{_TRUTHS}::test_a_lamp_behind_a_hole_is_weighed_from_where_the_path_scattered",
+    ),
+    Mutant(
+        "an image is wrapped along v as along u",
+        edit(
+            "textures/map.glsl",
+            "within(dot(map.v, uv), map.wrap_v)",
+            "within(dot(map.v, uv), map.wrap_u)",
+        ),
+        f"{_SHADERS}::test_an_image_is_read_between_its_pixels_and_beyond_its_edges",
+    ),
+    Mutant(
+        "an image that is turned leaves its normals as they are",
+        edit("textures/mapped.glsl", "= turned_back(map, texel.xy)", "= texel.xy"),
+        f"{_SHADERS}::test_an_image_that_is_turned_turns_its_normals",
+    ),
+    Mutant(
+        "an image that is mirrored leaves its normals as they are",
+        edit("textures/mapped.glsl", "turn < 0.0 ? -offset.y", "turn < 0.0 ? offset.y"),
+        f"{_SHADERS}::test_an_image_that_is_turned_turns_its_normals",
+    ),
+    Mutant(
+        "tangents of shared meshes stay in their frame",
+        edit("textures/mapped.glsl", "if (instance == 0) return along;", "return along;"),
+        f"{_SHADERS}::test_tangents_of_corners_go_before_those_of_triangles",
+    ),
+    Mutant(
+        "triangles of both orientations share a tangent",
+        (Edit("glrt/scene/vertex_means.py", "total[is_mixed] = 0", "total[is_mixed] *= 1"),),
+        "scene/test_vertex_means.py::test_mirrored_coordinates_share_nothing",
+    ),
+    Mutant(
+        "glass by an image is as much glass as its factor says",
+        edit("bsdfs/principled.glsl", "share *= clamp(material.crossed, 0.0, 1.0)", "share *= 1.0"),
+        f"{_TRUTHS}::test_an_even_texture_gives_the_bits_of_its_value",
+    ),
+    Mutant(
+        "metal is as rare beside glass by an image as with its factor",
+        edit("bsdfs/principled.glsl", "metallic = whole / (1.0 - share)", "metallic *= 1.0"),
+        f"{_TRUTHS}::test_an_even_texture_gives_the_bits_of_its_value",
+    ),
+    Mutant(
+        "morph targets have the weights of the mesh where a node has its own",
+        (
+            Edit(
+                "glrt/scene/gltf/attributes.py",
+                'node.get("weights", mesh.get("weights", []))',
+                'mesh.get("weights", [])',
+            ),
+        ),
+        "scene/test_gltf_shapes.py::test_morph_targets_have_the_weights_of_the_file",
     ),
     Mutant(
         "strips of triangles face both ways",

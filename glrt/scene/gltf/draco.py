@@ -12,6 +12,10 @@ from glrt.scene.triangle_meshes import MOST_TRIANGLES
 EXTENSION = "KHR_draco_mesh_compression"
 
 
+class NotInstalledError(Exception):
+    """A library that a file needs is missing."""
+
+
 class Unpacked(NamedTuple):
     """A primitive as it was before it was compressed."""
 
@@ -22,7 +26,7 @@ class Unpacked(NamedTuple):
 def unpacked(document: Document, primitive: dict[str, Any], here: str) -> Unpacked | None:
     """What a primitive holds compressed; None where it is not.
 
-    Raises ValueError for what is damaged, and ImportError where DracoPy is not installed.
+    Raises ValueError for what is damaged, and `NotInstalledError` without DracoPy.
     """
     own = document.extension(primitive, EXTENSION, here)
     if own is None:
@@ -44,7 +48,7 @@ def _decoded(content: bytes, here: str) -> Any:
     try:
         import DracoPy
     except ImportError:
-        raise ImportError(
+        raise NotInstalledError(
             "is compressed by Draco, and DracoPy, which unpacks it, is not installed. Install it "
             "by: pip install 'glrt[draco]'"
         ) from None
