@@ -29,6 +29,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - drags: whether the picture in the window follows a drag
 - studio: principled balls under a studio map of a package
 - gallery: every scene that comes with glrt, as pictures and a page of them
+- real_models: pictures of models that packages carry
 - weekend: writes scenes/weekend.toml
 
 What they share:

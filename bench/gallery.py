@@ -59,8 +59,9 @@ def render_gallery(
 ) -> list[Picture]:
     """Render scenes into FOLDER/NAME.png and write FOLDER/index.html; progress goes to stderr.
 
-    `settings` are fields of Settings that replace those of the scenes. Raises `UsageError` for a
-    folder that cannot be written or a bad setting, `SceneError` for a scene that does not exist.
+    `names` may be files too; `settings` are fields of Settings that replace those of the scenes.
+    Raises `UsageError` for a folder that cannot be written or a bad setting, `SceneError` for a
+    scene that does not exist.
     """
     files.make_folder(folder, "index.html")
     gl = context or open_context()
@@ -119,10 +120,12 @@ def _render(folder: Path, name: str, context: Context, settings: dict[str, Any])
         size = renderer.size
     finally:
         renderer.release()
-    file = folder / f"{name}.png"
+    known_as = Path(name).stem
+    file = folder / f"{known_as}.png"
     image.save(file)
-    title = scene.title or name
-    return Picture(name, title, file, size, image.samples, seconds, image.error, context.renderer)
+    title = scene.title or known_as
+    driver = context.renderer
+    return Picture(known_as, title, file, size, image.samples, seconds, image.error, driver)
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from glrt.scene.named_images import ColorImage, DataImage, NamedTexture, Texels, TextureImage
 from glrt.scene.values import LARGEST, Angle, Color, Coordinate, Number, Triple, Value
+from glrt.settings import Editable
 
 Channel = Literal["r", "g", "b", "a"]
 
@@ -53,8 +54,8 @@ class Texture(Value):
     )
     scale: Pair = Field((1.0, 1.0), description="how often it repeats within 0 to 1, along u and v")
     offset: Pair = Field((0.0, 0.0), description="what is added to u and v, after all else")
-    rotation: Angle = Field(
-        0.0, description="degrees by which the coordinates are turned, as in glTF, after scale"
+    rotation: Annotated[Angle, Editable(unit="degrees", slider=(-180, 180))] = Field(
+        0.0, description="by which the coordinates are turned, as in glTF, after scale"
     )
     wrap: Wraps = Field(
         ("repeat", "repeat"),
@@ -87,6 +88,11 @@ class Texture(Value):
         if (self.image is None) == (self.checker is None):
             raise ValueError("must have either image or checker")
         return self
+
+    @property
+    def told(self) -> str:
+        """What it is, in words."""
+        return "a checkerboard" if self.image is None else self.image.file
 
     @property
     def transform(self) -> NDArray[np.float64]:
@@ -126,7 +132,7 @@ def _without_refused(schema: dict[str, Any]) -> None:
 class NormalTexture(Texture, json_schema_extra=_without_refused):
     """An image of normals in tangent space, x along u, y against v, z outwards."""
 
-    strength: Annotated[float, Field(ge=0, le=100)] = Field(
+    strength: Annotated[float, Field(ge=0, le=100), Editable(slider=(0, 3))] = Field(
         1.0, description="factor of the inclination"
     )
 

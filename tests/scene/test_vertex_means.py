@@ -50,7 +50,8 @@ def test_mirrored_coordinates_share_nothing() -> None:
     across = np.abs(points[:, 0])
     uv = np.stack([across, 0.75 * across - points[:, 1]], axis=1)
     found = mean_tangents(points, faces, np.tile([0.0, 0, 1], (4, 1)), uv)
-    assert_allclose(found, [[-0.8, 0.6, 0], [0, 0, 0], [0.8, 0.6, 0], [0, 0, 0]], atol=1e-12)
+    expected = np.array([[-0.8, 0.6, 0], [0, 0, 0], [0.8, 0.6, 0], [0, 0, 0]])
+    assert_allclose(found, expected, atol=1e-12)
 
 
 def test_coordinates_that_do_not_grow_give_none() -> None:

@@ -153,6 +153,34 @@ def what_edits_of_an_object_cost_stands_beside_them(hand: Hand) -> None:
 
 
 @check
+def a_texture_is_turned(hand: Hand) -> None:
+    board = {**MATTE, "color": {"checker": [1.0, 0.0], "scale": 3.0}}
+    shapes = [
+        quad([-2, -2, -3], [4, 0, 0], [0, 4, 0], "board"),
+        quad([-2, 2, -3], [4, 0, 0], [0, 0, 3], "lamp"),
+    ]
+    hand.there(
+        lambda: hand.session.edit(scene_of(shapes, {"board": board, "lamp": lamp(4.0)}), **SMALL)
+    )
+    hand.settle()
+    session, ctx = hand.session, hand.ctx
+    hand.window.app.selected = 0
+    ctx.yield_(3)
+    ctx.set_ref("Controls")
+    before, plain = hand.pixels(), session.scene
+    ctx.item_input_value("rotation##color of board", 45.0)
+    hand.settle()
+    material = session.scene.materials["board"]
+    assert isinstance(material, Opaque)
+    assert material.textures["color"].rotation == 45
+    assert session.last_cost == Cost.RESTART
+    assert (hand.pixels() != before).mean() > 0.05
+    hand.there(session.undo)
+    assert session.scene == plain
+    hand.window.app.selected = None
+
+
+@check
 def a_lamp_becomes_a_spot_of_one_side_and_a_hidden_object_goes(hand: Hand) -> None:
     shapes = [
         plane([0, -1, 0], [0, 1, 0], "white"),

@@ -20,6 +20,7 @@ from glrt.view.state.controls import Control, controls_of, replaced, switch
 from glrt.view.viewport.transform import with_object
 
 _NONE = "nothing"
+_OF_TEXTURE = ("rotation", "filter", "strength")  # what a widget edits of a texture
 _MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"
 _WAYS = ("color", "preset", "ior", "k")  # in which metal may say what it reflects
 _DOWN = (0.0, -1.0, 0.0)
@@ -129,6 +130,20 @@ def _material(app: App, index: int, shape: Shape) -> None:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
     elif isinstance(material, Opaque) and material.emits:
         _cone(app, name, material.cone)
+    if isinstance(material, Opaque) and not changes:
+        _textures(app, name, material)
+
+
+def _textures(app: App, name: str, material: Opaque) -> None:
+    """How the images of a material lie on its surfaces; the values above are their factors."""
+    for key, texture in material.textures.items():
+        imgui.separator_text(f"{key}: {texture.told}")
+        names = _OF_TEXTURE if texture.image is not None else _OF_TEXTURE[:1]
+        controls = tuple(c for c in controls_of(type(texture)) if c.name in names)
+        changes = edited_fields(controls, dict(texture), f"{key} of {name}")
+        if changes:
+            edit = partial(with_texture, name=name, key=key, changes=changes)
+            app.edit_scene(f"{name} {key} {list(changes)}", edit)
 
 
 def _another_way(material: Material, name: str) -> dict[str, Any]:
@@ -193,6 +208,13 @@ def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
     """The scene with other values of a material."""
     material = replaced(scene.materials[name], **changes)
     return replaced(scene, materials={**scene.materials, name: material})
+
+
+def with_texture(scene: Scene, name: str, key: str, changes: dict[str, Any]) -> Scene:
+    """The scene with other values of a texture of a material."""
+    material = scene.materials[name]
+    field = key if key == "normal" else f"{key}_map"
+    return with_material(scene, name, **{field: replaced(getattr(material, field), **changes)})
 
 
 def with_cone(scene: Scene, name: str, changes: dict[str, Any]) -> Scene:
