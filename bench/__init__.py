@@ -16,6 +16,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - roofline: the speed of the kernel relative to the peak of the machine
 - dispatches: the longest dispatch of a render
 - aovs: what AOVs cost
+- texture_costs: what images on surfaces cost
 - aov_sheet: the picture of docs/how-to/aovs.md
 - memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
