@@ -183,7 +183,7 @@ def _unread(scene: Scene) -> Iterator[str]:
         where = ", ".join(file.libraries) or file.file
         yield (
             f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
-            "what is read. Give its object a `material` of the scene for another look."
+            "what is read; with a `material` of the scene its object has another look."
         )
 
 
