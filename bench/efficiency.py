@@ -115,8 +115,11 @@ def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer
 def scene_of(name: str) -> Scene:
     """A scene by name; `room` is `cornell` with a white sphere instead of glass: no caustic.
 
-    `mesh_K` is a displaced ball of 20 * 4^K triangles (`bench.mesh_sizes`).
+    `mesh_K` is a displaced ball of 20 * 4^K triangles, `clutter` a room of 102,400 in many meshes
+    (`bench.mesh_sizes`).
     """
+    if name == "clutter":
+        return mesh_sizes.cluttered()
     if name.startswith("mesh_"):
         return mesh_sizes.of_steps(int(name.removeprefix("mesh_")))
     if name != "room":

@@ -25,6 +25,7 @@ from glrt.rendering.pack_tree import tree_of
 from glrt.rendering.renderer import Renderer
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
+from glrt.scene.shapes import Quad
 from tests.support.meshes import icosphere, quads
 
 STEPS = (5, 6, 7, 8)  # of dividing each triangle in four: 20,480 to 1.3 million
@@ -65,6 +66,47 @@ def scene_of(mesh: Mesh) -> Scene:
 def of_steps(steps: int) -> Scene:
     """The scene of a ball of 20 * 4^steps triangles."""
     return scene_of(Mesh(*displaced(steps), material="clay"))
+
+
+CLUTTER = 20  # balls of 5,120 triangles each
+
+
+def cluttered() -> Scene:
+    """A closed room of 102,400 triangles: balls of four colours, under a lamp in the ceiling."""
+    balls = displaced(4)
+    dice = np.random.Generator(np.random.PCG64(3))
+    colors = ([0.7, 0.5, 0.4], [0.3, 0.5, 0.7], [0.6, 0.6, 0.25], [0.65, 0.65, 0.65])
+    places = [(x, y, z) for y in (-1.1, -0.2) for z in (-0.9, 0.1) for x in np.linspace(-2, 2, 5)]
+    objects = [
+        Mesh(
+            *balls,
+            material=f"clay {number % 4}",
+            translate=np.array(place) + dice.uniform(-0.08, 0.08, 3),
+            rotate=dice.uniform(-180, 180, 3),
+            scale=float(dice.uniform(0.28, 0.38)),
+        )
+        for number, place in enumerate(places[:CLUTTER])
+    ]
+    low, wide, high, deep = [-2.6, -1.5, -1.6], [5.2, 0, 0], [0, 3.0, 0], [0, 0, 6.0]
+    top, right, front = [-2.6, 1.5, -1.6], [2.6, -1.5, -1.6], [-2.6, -1.5, 4.4]
+    walls = [(low, wide, deep), (low, wide, high), (low, deep, high), (top, wide, deep)]
+    walls += [(right, deep, high), (front, wide, high)]
+    lamp = {"corner": [-0.5, 1.48, 0.0], "edge_u": [1.0, 0, 0], "edge_v": [0, 0, 1.0]}
+    clay = {f"clay {k}": {"type": "lambertian", "color": color} for k, color in enumerate(colors)}
+    return Scene.build(
+        {"position": [0.0, 0.4, 4.2], "look_at": [0, -0.5, 0], "fov": 50},
+        [
+            *objects,
+            Mesh(*quads(*walls), material="wall", smooth=False),
+            Quad(**lamp, material="lamp"),
+        ],
+        materials={
+            **clay,
+            "wall": {"type": "lambertian", "color": [0.7, 0.7, 0.7]},
+            "lamp": {"type": "light", "emission": [12.0, 12.0, 12.0]},
+        },
+        render={"bounces": 8},
+    )
 
 
 def packed(scene: Scene) -> tuple[dict[str, Array], float]:

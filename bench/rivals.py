@@ -40,7 +40,7 @@ from glrt.scene.scene import Scene
 ROUNDS_OF_STARTS = 5
 LEVEL_TURNS = 2.0  # turns' time of the picture that variances are relative to
 BACKS_UNSEEN = ("cornell", "room")  # the upper side of their lamp is not visible
-MESHES = ("mesh_5", "mesh_6", "mesh_8")  # of 20,480, 81,920 and 1.3 million triangles
+MESHES = ("mesh_5", "mesh_6", "mesh_8", "clutter")  # of 20,480 to 1.3 million, and 102,400
 
 
 @dataclass(frozen=True)

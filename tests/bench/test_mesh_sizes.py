@@ -2,7 +2,7 @@
 
 import pytest
 
-from bench.mesh_sizes import displaced, main, measure, scene_of, table
+from bench.mesh_sizes import cluttered, displaced, main, measure, scene_of, table
 from glrt.gpu.context import Context
 from glrt.methods.contents import contents_of
 from glrt.scene.meshes import Mesh
@@ -32,3 +32,9 @@ def test_the_command_prints_the_machine_and_the_table(capsys: pytest.CaptureFixt
     told = capsys.readouterr().out
     assert "8 x 8 pixels, 6 rounds" in told
     assert "peak memory" in told
+
+
+def test_the_clutter_has_its_triangles() -> None:
+    scene = cluttered()
+    of_balls = [len(mesh.triangles.faces) for mesh in scene.meshes if mesh.material != "wall"]
+    assert sum(of_balls) == 102_400

@@ -25,7 +25,10 @@ def morphed(of_mesh: Any, **node: Any) -> Builder:
     """A square with two targets: one lifts a corner, the other turns normals."""
     builder = Builder()
     lift = {"POSITION": builder.accessor([[0, 0, 0], [0, 0, 0], [0, 0, 2], [0, 0, 0]])}
-    turn = {"NORMAL": builder.accessor(np.tile([1.0, 0, 0], (4, 1)))}
+    turn = {
+        "NORMAL": builder.accessor(np.tile([1.0, 0, 0], (4, 1))),
+        "TEXCOORD_0": builder.accessor(np.tile([0.25, 0.5], (4, 1))),
+    }
     builder.shown({**square(builder), "targets": [lift, turn]}, **node)
     if of_mesh is not None:
         builder.json["meshes"][0]["weights"] = of_mesh
@@ -37,6 +40,8 @@ def test_morph_targets_have_the_weights_of_the_file() -> None:
     mesh = decoded(morphed([0.5, 1.0]))
     assert_allclose(mesh.vertices, [[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]])
     assert_allclose(mesh.shading_normals, np.tile([1, 0, 1], (4, 1)) / 2**0.5)
+    assert mesh.uv is not None
+    assert_allclose(mesh.uv[:, :2], UV + np.array([0.25, 0.5]))
     own = decoded(morphed([0.5, 1.0], weights=[-0.5], translation=[0, 0, 3]))
     assert_allclose(own.vertices[:, 2], [3, 3, 2, 3])
     assert_allclose(own.shading_normals, np.tile([0, 0, 1], (4, 1)))

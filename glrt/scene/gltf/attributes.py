@@ -42,7 +42,7 @@ class Attributes:
         """(v, one of sizes); None where the primitive has none."""
         here = f"{self._here}.attributes.{name}"
         if self._packed is not None and name in self._packed.rows:
-            found = self._packed.rows[name]
+            found = self._packed.rows[name].copy()
             if found.shape[1] not in sizes:
                 raise ValueError(f"{here} has {found.shape[1]} numbers each")
         elif name in self._named:
@@ -52,10 +52,11 @@ class Attributes:
         for weight, target, place in self._targets:
             if name in target:
                 where = f"{self._here}.targets[{place}].{name}"
-                added = floats(self._document, target[name], (3,), where)
+                widths = tuple(range(2, found.shape[1] + 1))
+                added = floats(self._document, target[name], widths, where)
                 if len(added) != len(found):
                     raise ValueError(f"{where} has {len(added):,} rows, and {here} {len(found):,}")
-                found[:, :3] += weight * added
+                found[:, : added.shape[1]] += weight * added
         if name != "POSITION" and len(found) != len(self.points):
             raise ValueError(
                 f"{self._here} has {len(self.points):,} places and {len(found):,} of {name}"

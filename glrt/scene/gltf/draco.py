@@ -55,7 +55,8 @@ def _decoded(content: bytes, here: str) -> Any:
     try:
         found = DracoPy.decode(content)
     except Exception as error:  # of its own types, and of what it calls
-        raise ValueError(f"{here} is damaged: {str(error).splitlines()[0][:100]}") from None
+        told = " ".join(str(error).split())[:100] or type(error).__name__
+        raise ValueError(f"{here} is damaged: {told}") from None
     if not hasattr(found, "faces"):
         raise ValueError(f"{here} holds points alone")
     if len(found.faces) > MOST_TRIANGLES:
