@@ -76,7 +76,7 @@ def cluttered() -> Scene:
     balls = displaced(4)
     dice = np.random.Generator(np.random.PCG64(3))
     colors = ([0.7, 0.5, 0.4], [0.3, 0.5, 0.7], [0.6, 0.6, 0.25], [0.65, 0.65, 0.65])
-    places = [(x, y, z) for y in (-1.1, -0.2) for z in (-0.9, 0.1) for x in np.linspace(-2, 2, 5)]
+    places = [(x, y, z) for y in (-1.0, -0.05) for z in (-0.9, 0.1) for x in np.linspace(-2, 2, 5)]
     objects = [
         Mesh(
             *balls,
@@ -91,15 +91,12 @@ def cluttered() -> Scene:
     top, right, front = [-2.6, 1.5, -1.6], [2.6, -1.5, -1.6], [-2.6, -1.5, 4.4]
     walls = [(low, wide, deep), (low, wide, high), (low, deep, high), (top, wide, deep)]
     walls += [(right, deep, high), (front, wide, high)]
-    lamp = {"corner": [-0.5, 1.48, 0.0], "edge_u": [1.0, 0, 0], "edge_v": [0, 0, 1.0]}
+    shell = Mesh(*quads(*walls), material="wall", smooth=False)
+    lamp = Quad(corner=(-0.5, 1.48, 0), edge_u=(1, 0, 0), edge_v=(0, 0, 1), material="lamp")
     clay = {f"clay {k}": {"type": "lambertian", "color": color} for k, color in enumerate(colors)}
     return Scene.build(
         {"position": [0.0, 0.4, 4.2], "look_at": [0, -0.5, 0], "fov": 50},
-        [
-            *objects,
-            Mesh(*quads(*walls), material="wall", smooth=False),
-            Quad(**lamp, material="lamp"),
-        ],
+        [*objects, shell, lamp],
         materials={
             **clay,
             "wall": {"type": "lambertian", "color": [0.7, 0.7, 0.7]},
