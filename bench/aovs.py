@@ -2,6 +2,7 @@
 
 import sys
 import time
+from collections.abc import Mapping
 from typing import get_args
 
 from bench.program import exit_code_of, machine, parser_of
@@ -30,7 +31,12 @@ def times_of(scene: Scene, context: Context, rounds: int) -> dict[str, list[floa
         )
         for name, aov in choices.items()
     }
-    times: dict[str, list[float]] = {name: [] for name in choices}
+    return seconds_in_turns(renderers, rounds)
+
+
+def seconds_in_turns(renderers: Mapping[str, Renderer], rounds: int) -> dict[str, list[float]]:
+    """Seconds of each round of renders by renderers in turns, which are released."""
+    times: dict[str, list[float]] = {name: [] for name in renderers}
     for turn in range(rounds + 1):  # the first one warms up
         for name, renderer in renderers.items():
             renderer.restart()

@@ -5,13 +5,13 @@ Images are of 1024 x 1024 random pixels, whose means are the numbers that they s
 
 import sys
 import tempfile
-import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image
 
+from bench.aovs import seconds_in_turns
 from bench.program import exit_code_of, machine, parser_of
 from bench.ratios import ratio_of
 from glrt.gpu.context import Context, open_context
@@ -89,17 +89,7 @@ def times_of(context: Context, rounds: int) -> dict[str, list[float]]:
             name: Renderer(scene, context=context, width=SIZE, height=SIZE, samples=SAMPLES)
             for name, scene in scenes(Path(folder)).items()
         }
-    times: dict[str, list[float]] = {name: [] for name in renderers}
-    for turn in range(rounds + 1):  # the first one warms up
-        for name, renderer in renderers.items():
-            renderer.restart()
-            start = time.perf_counter()
-            renderer.render().image()
-            if turn:
-                times[name].append(time.perf_counter() - start)
-    for renderer in renderers.values():
-        renderer.release()
-    return times
+    return seconds_in_turns(renderers, rounds)
 
 
 def main(arguments: list[str] | None = None) -> int:

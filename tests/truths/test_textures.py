@@ -163,9 +163,8 @@ def test_layers_let_light_through_one_by_one(
     below = [plane([0, 0, 0], [0, 1, 0], "lamp"), *sheets(count)]
     eye = {"position": [0, 3, 0], "look_at": [0, 0, -1e-3], "fov": 20}
     seen = scene_of(below, {"m": black, "lamp": lamp(1.0)}, eye)
-    samples, within = (2048, 0.02) if count < 100 else (512, 0.05)  # those take long
-    image = rendered(seen, context, samples, method=method, bounces=0)
-    assert_mean(whole(image), (1 - alpha) ** count, within=within)
+    image = rendered(seen, context, 2048, method=method, bounces=0)
+    assert_mean(whole(image), (1 - alpha) ** count, within=0.02)
 
 
 @pytest.mark.parametrize("method", ["nee", "mis"])
