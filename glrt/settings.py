@@ -14,6 +14,7 @@ from glrt.errors import UsageError
 
 Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
 Sampler = Literal["sobol", "independent"]
+Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 Aov = Literal["albedo", "normal", "depth", "position", "object"]
 
@@ -92,6 +93,21 @@ class Settings(RenderSettings):
         True,
         description="end dim paths at random (Russian roulette): faster, with the same mean",
     )
+    caustics: Annotated[Caustics, Editable(Cost.RECOMPILE)] = Field(
+        "off",
+        description="on: particles from spheres and quads that shine, too, linked to the camera at "
+        "matte surfaces and weighted with the paths from the camera: less noise where light comes "
+        "through glass or by mirrors",
+    )
+    particles: Annotated[float, Editable(Cost.RESTART, "a sample", (0.02, 2))] = Field(
+        0.25, description="particles from lamps for each sample of a pixel", ge=0.01, le=16
+    )
+    aimed: Annotated[float, Editable(Cost.RESTART, "", (0, 0.98))] = Field(
+        0.5,
+        description="the share of the particles that is aimed at spheres of smooth glass or metal",
+        ge=0,
+        le=0.98,
+    )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF
     )
@@ -143,6 +159,9 @@ class FrameOptions(TypedDict, total=False):
     crop: tuple[int, int, int, int] | None
     sampler: Sampler
     roulette: bool
+    caustics: Caustics
+    particles: float
+    aimed: float
     seed: int
     exposure: float
     tonemap: ToneMap

@@ -1,4 +1,4 @@
-// A film weighed: the sum of its layers, or its mean, each by a factor. Film row 0 is on top.
+// A film weighed: the sum of its layers, or its mean, each by a factor, and what particles bring. Film row 0 is on top.
 
 #include "film/most_layers.glsl"
 
@@ -6,6 +6,8 @@ uniform sampler2D mean;
 uniform sampler2D layers;       // side by side: over one half of the observations, below over the other
 uniform int layer_count;        // 0: the mean alone is weighed
 uniform vec3 weights[MOST_LAYERS];
+uniform sampler2D particles;    // what they bring, as large as the mean
+uniform bool has_particles;
 
 in vec2 place;
 out vec4 color;
@@ -24,5 +26,6 @@ void main() {
     precise vec3 sum = vec3(0.0);
     for (int i = 0; i < layer_count; i += 1) sum += weights[i] * layer_mean(texel, i);
     if (layer_count == 0) sum = weights[0] * texelFetch(mean, min(texel, size - 1), 0).rgb;
+    if (has_particles) sum += texelFetch(particles, min(texel, size - 1), 0).rgb;
     color = vec4(sum, 1.0);
 }

@@ -85,7 +85,8 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
     expression; `returns` is the GLSL type of the result ("float", "vec3", "uint", "bool").
     `setup` are statements that stand before the expression; `functions` go in front of main.
     All files of the path text are included, with every feature compiled in, or with those of
-    `scene` and its blocks, by the independent sampler; `constants` override the prelude.
+    `scene` and its blocks, by the independent sampler; `constants` override the prelude, and
+    `options` are settings beside those that the scene wishes.
     """
 
     def call(
@@ -95,13 +96,16 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
         functions: str = "",
         scene: Scene | None = None,
         constants: dict[str, bool | int] | None = None,
+        options: dict[str, Any] | None = None,
         **inputs: Any,
     ) -> Array:
         prelude: dict[str, bool | int] = {}
+        settings = None
         if scene:
-            settings = settings_for(scene.render, sampler="independent")
+            settings = settings_for(scene.render, sampler="independent", **(options or {}))
             prelude = needs_of(scene, settings).constants()
         prelude |= constants or {}
-        return evaluate(ctx, expression, inputs, returns, setup, functions, scene, prelude)
+        ways = returns, setup, functions, scene, prelude
+        return evaluate(ctx, expression, inputs, *ways, settings=settings)
 
     return call

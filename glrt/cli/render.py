@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from glrt import signals
 from glrt.cli.autosave import Autosave
-from glrt.cli.doubts import doubt
+from glrt.cli.doubts import clipped, doubt
 from glrt.cli.options import (
     AUTO,
     SCENE,
@@ -266,8 +266,9 @@ def _tell(arguments: argparse.Namespace, done: Done) -> None:
                 "loop limit. If there are many, the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
-    if not arguments.quiet and (caution := doubt(done.image)):
-        print(f"glrt: caution: {caution}", file=sys.stderr)
+    doubts = [] if arguments.quiet else [clipped(renderer.clipped()), doubt(done.image)]
+    for text in filter(None, doubts):
+        print(f"glrt: caution: {text}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
         print(left_out(renderer.settings, missing), file=sys.stderr)
 

@@ -189,7 +189,8 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
     """By the settings of the picture. What would give other samples is refused."""
     image = Image.load(arguments.resume)
     found = image.recipe
-    check(ways_wanted(arguments, found.settings if found else Settings(), found))
+    asked = settings_for(found.settings if found else Settings(), **settings_given(arguments))
+    check(ways_wanted(arguments, asked, found))
     with _going_on(arguments.resume):
         recipe = recipe_to_resume(image)
         source = arguments.scene

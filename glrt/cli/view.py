@@ -1,6 +1,7 @@
 """`glrt view`: open the window, or say what is missing for it."""
 
 import argparse
+import sys
 
 from glrt.cli.options import (
     SCENE,
@@ -44,6 +45,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Show the window until it is closed; exit code 3 where none can be opened."""
     scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
+    if settings.caustics == "on" and "caustics" not in arguments:
+        settings = settings_for(settings, caustics="off")
+        print("glrt: the window follows no particles: --caustics off.", file=sys.stderr)
     scene = with_lights(scene, dict(arguments.lights))
     try:
         with handled(leave_at_once):

@@ -11,7 +11,9 @@ from itertools import combinations
 
 from glrt.errors import UsageError
 from glrt.methods.light_layers import Layering
+from glrt.methods.particles import refusal
 from glrt.methods.table import METHODS
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 
@@ -27,6 +29,7 @@ class Way(StrEnum):
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
     CLASSIC = "a classic lighting model"
+    PARTICLES = "--caustics on"
     AUTO = "--method auto"
     TIME = "--time"
     ERROR = "--error"
@@ -42,6 +45,7 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
+    Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.AUTO: "`--method auto`: the cheapest that reaches `--error`",
     Way.TIME: "`--time`: end after some seconds",
     Way.ERROR: "`--error`: end at an error",
@@ -63,17 +67,19 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         Way.INDEPENDENT,
     ),
+    Way.PARTICLES: (Way.CROP, Way.AOV, Way.INDEPENDENT),
     Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.AUTO),
+        *(Way.CLASSIC, Way.PARTICLES, Way.AUTO),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.AUTO, Way.TIME),
+        *(Way.CLASSIC, Way.PARTICLES, Way.AUTO, Way.TIME),
     ),
 }
 
+_TWO_FILMS = "the picture is the sum of two films, and its file holds the sum alone"
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
 _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
@@ -81,6 +87,13 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
     frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
     frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
+    frozenset({Way.PARTICLES, Way.RESUME}): _TWO_FILMS,
+    frozenset({Way.PARTICLES, Way.PART}): _TWO_FILMS,
+    frozenset({Way.PARTICLES, Way.MERGED}): _TWO_FILMS,
+    frozenset({Way.PARTICLES, Way.LAYERS}): "what particles bring is not kept by layers",
+    frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
+    frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
+    frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
     frozenset({Way.AUTO, Way.RESUME}): "the picture has its method: leave out --method auto",
     frozenset({Way.AUTO, Way.PART}): "each part might choose another method: name one",
     frozenset({Way.AUTO, Way.MERGED}): "its parts have their method: leave out --method auto",
@@ -117,6 +130,17 @@ def check(ways: Collection[Way]) -> None:
             raise UsageError(f"{first} and {other} do not go together: {reason(one, other)}.")
 
 
+def check_render(
+    scene: Scene, settings: Settings, layering: Layering, is_part: bool, is_fragment: bool
+) -> None:
+    """UsageError where a renderer cannot render so."""
+    ways = ways_of(settings, layering)
+    ways |= {Way.PART} if is_part else set()
+    check(ways | ({Way.FRAGMENT} if is_fragment else set()))
+    if reason := refusal(scene, settings):
+        raise UsageError(f"--caustics on does not fit here: {reason}. Leave it out.")
+
+
 def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
     """The ways that settings and layers of light ask for."""
     found = {
@@ -125,5 +149,6 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.LAYERS: layering != "none",
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.CLASSIC: METHODS[settings.method].model != 0,
+        Way.PARTICLES: settings.caustics == "on",
     }
     return {way for way, is_asked in found.items() if is_asked}

@@ -98,6 +98,13 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("lamps in clusters", needs.many_lights, f"{lamps}; from {MOST_NEAR + 1} on"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
         Feature("lighting model", needs.model > 0, _model(settings)),
+        *_by_settings(needs, settings),
+    ]
+
+
+def _by_settings(needs: Needs, settings: Settings) -> list[Feature]:
+    return [
+        Feature("particles", needs.has_particles, f"caustics {settings.caustics}"),
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]

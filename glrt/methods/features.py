@@ -9,6 +9,7 @@ from glrt.methods.contents import (
     Contents,
     contents_of,
 )
+from glrt.methods.particles import casters_of
 from glrt.methods.table import METHODS
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
@@ -72,6 +73,8 @@ class Needs:
     sample_lights: bool
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
+    has_particles: bool  # from lamps, linked to the camera
+    casters: int  # smooth spheres at which some of them are aimed
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
@@ -97,7 +100,7 @@ def everything() -> dict[str, bool | int]:
     """
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
-    numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0}
+    numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0, "casters": 0}
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
@@ -112,10 +115,10 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     traits = METHODS[settings.method]
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
+    follows_particles = settings.caustics == "on" and is_lit and traits.weights_both
     metals = [m for m in found.materials.values() if m.type == "metal"]
     types = {m.type for m in found.materials.values() if not m.is_transparent}
-    if traits.follows and found.solid_glasses:
-        types.add("dielectric")
+    types |= {"dielectric"} if traits.follows and found.solid_glasses else set()
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
         materials=frozenset(types),
@@ -156,6 +159,8 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         sample_lights=is_lit and traits.samples_lights,
         weight_both=(is_lit or is_pictured or has_sun) and traits.weights_both,
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
+        has_particles=follows_particles,
+        casters=len(casters_of(scene)) if follows_particles and settings.aimed else 0,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,

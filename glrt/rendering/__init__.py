@@ -27,6 +27,7 @@ Modules, each importing only what stands above it:
 - pass_film: what a pass adds samples to
 - film: running mean and variance in textures
 - aov_tracer: gathers AOVs as the picture grows
+- particle_tracer: gathers what particles from lamps bring
 - tracer: adds samples to a film, a dispatch at a time
 - weighting: a film's layers under weights
 - display: the display pass

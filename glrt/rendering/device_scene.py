@@ -138,14 +138,18 @@ class DeviceScene:
         plan: Plan,
         part: DispatchRange,
         tiles: int,
+        own: Mapping[str, Resource] = {},
     ) -> None:
-        """Let a kernel add a part's samples to a film, a picture of `tiles`."""
+        """Let a kernel add a part's samples to a film, a picture of `tiles`.
+
+        `own` are blocks of the kernel beside those of the scene.
+        """
         numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
         density = self._sky_table.density if self._sky_table else 0.0
         around = self._tree, self._glass, density
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, *around))
         self._write_tree()
-        resources = self._resources
+        resources = {**self._resources, **own}
         if self._sky:
             resources = {**resources, ENVIRONMENT: self._sky.resource}
         if self._sky_table:

@@ -23,7 +23,7 @@ from glrt.rendering.texel_texture import texture_of as texels_of
 from glrt.scene.glasses import around_camera
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
-from glrt.settings import settings_for
+from glrt.settings import Settings, settings_for
 
 Array = np.ndarray[Any, Any]
 
@@ -38,11 +38,13 @@ def evaluate(
     scene: Scene | None = None,
     constants: Mapping[str, bool | int] | None = None,
     apart: Apart = "repeated",
+    settings: Settings | None = None,
 ) -> Array:
     """An expression of the functions that trace paths (`Probe` says more), of a scene or of none.
 
     Every feature is compiled in, and lamps are chosen as in the scene, unless `constants` say
-    otherwise; `apart` are meshes with trees of their own. The context must be current.
+    otherwise; `apart` are meshes with trees of their own; the frame is of `settings`, or of what
+    the scene wishes. The context must be current.
     """
     contents = contents_of(scene, apart) if scene else None
     tree = tree_of(scene, contents) if scene and contents else None
@@ -56,7 +58,7 @@ def evaluate(
     arrays = pack_scene(scene, contents, tree=tree) if scene else no_rows()
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
-    resources = resources_of(gl, scene, arrays, tree)
+    resources = resources_of(gl, scene, arrays, tree, settings)
     try:
         return probe.run(gl, inputs, resources)
     finally:
@@ -65,7 +67,11 @@ def evaluate(
 
 
 def resources_of(
-    gl: moderngl.Context, scene: Scene | None, arrays: Arrays, tree: SceneTree | None = None
+    gl: moderngl.Context,
+    scene: Scene | None,
+    arrays: Arrays,
+    tree: SceneTree | None = None,
+    settings: Settings | None = None,
 ) -> dict[str, Resource]:
     """The buffers and textures that the functions read; a frame of zeros without a scene."""
     frame = bytes(STRUCTS["Frame"].itemsize)
@@ -77,7 +83,8 @@ def resources_of(
         glass = around_camera(scene, scene.finishes)
         density = sampling.density if sampling else 0.0
         around: Any = {"tree": tree, "glass": glass, "sky_density": density}
-        frame = pack_frame(scene, settings_for(scene.render), counts, 0, 1, **around)
+        settings = settings or settings_for(scene.render)
+        frame = pack_frame(scene, settings, counts, 0, 1, **around)
     sky: dict[str, Resource] = {}
     if pixels is not None and sampling:
         sky = {ENVIRONMENT: texture_of(gl, pixels), SKY_TREE: tree_texture(gl, sampling.tree)}

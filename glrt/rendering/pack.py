@@ -10,6 +10,7 @@ from glrt.accel.sphere_nodes import pack_nodes
 from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
+from glrt.methods.particles import emitters_of, particles_a_sample
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_details import pack_conductors, pack_facets
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
@@ -25,6 +26,8 @@ from glrt.scene.values import BLACK
 from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
+
+UNIT_BITS = 40  # of the radiance of the brightest lamp, in units of what particles add to pixels
 
 
 def pack_scene(
@@ -62,6 +65,19 @@ def pack_scene(
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
         "Aim": pack_aims(lamps, eye, STRUCTS["Aim"]),
+    }
+
+
+def _particle_fields(scene: Scene, settings: Settings) -> dict[str, float]:
+    """The fields of the frame that particles read: as far below the brightest lamp as floats go."""
+    if settings.caustics == "off":
+        return {"particles": 0.0, "aimed": 0.0, "splat_unit": 0.0}
+    brightest = max(max(scene.emission_of(lamp)) for lamp in emitters_of(scene))
+    unit = 2.0 ** (math.frexp(brightest)[1] - UNIT_BITS) if brightest else 1.0
+    return {
+        "particles": particles_a_sample(settings),
+        "aimed": settings.aimed,
+        "splat_unit": unit,
     }
 
 
@@ -111,7 +127,7 @@ def pack_frame(
         "sun_direction": scene.sun.towards if scene.sun else (0.0, 1.0, 0.0),
         "sun_versine": scene.sun.versine if scene.sun else 0.0,
         "sun_radiance": scene.sun_radiance,
-        "spare": 0.0,
+        **_particle_fields(scene, settings),
         "camera_absorption": glass.absorption,
         "camera_counts": glass.counts,
         "sky_density": sky_density,

@@ -32,6 +32,8 @@ RADIANCE = RenderPass(
     {"compute": ("trace.comp",), "fragment": ("trace.vert", "trace.frag")},
     ("mean", "variance", "block", "layers"),  # the last two only where a film keeps them
 )
+PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
+SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 

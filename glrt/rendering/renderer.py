@@ -17,20 +17,18 @@ from glrt.image.image import Image
 from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
-from glrt.methods.combinations import Way, check, ways_of
-from glrt.methods.light_layers import ONE, Layering, Weights, are_trivial, plan_for
+from glrt.methods.combinations import check_render
+from glrt.methods.light_layers import ONE, Layering, Weights, plan_for
 from glrt.rendering.display import displayed
 from glrt.rendering.film import Film
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
-from glrt.rendering.schedule import HEADLESS, INTERACTIVE, DispatchPolicy
+from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
 from glrt.rendering.weighting import Mixer, mixed
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, Cost, SettingOptions, Settings, settings_for
 from glrt.version import VERSION
-
-ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
 
 
 class Renderer:
@@ -53,9 +51,8 @@ class Renderer:
         """Open OpenGL, compile the kernel, allocate the film.
 
         `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
-        "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles.
-        The pipeline is compute, or fragment for drivers without compute shaders (OpenGL 4.1);
-        a `variant` of the kernel serves experiments.
+        "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles. The
+        pipeline is compute, or fragment for OpenGL 4.1; a `variant` of the kernel is an experiment.
         `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
         A `part` (k, n) renders the k-th of n parts of the settings' samples, k from 1.
         `apart` are meshes with trees of their own: moved without building one, slower to trace.
@@ -68,15 +65,15 @@ class Renderer:
         self.settings = settings_for(settings or scene.render, **overrides)
         self._decisions = decisions, self.settings
         self._part: Partition | None = one_part(*part, self.settings) if part else None
-        ways = ways_of(self.settings, layering) | ({Way.PART} if part else set())
-        check(ways | ({Way.FRAGMENT} if pipeline == "fragment" else set()))
+        wanted = scene, self.settings, layering, part is not None
+        check_render(*wanted, pipeline == "fragment")
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
         with ExitStack() as refused:
             if self._owns_context:
                 refused.callback(self.context.gl.release)
             self.pipeline = resolve(pipeline, self.context)
-            check(ways | ({Way.FRAGMENT} if self.pipeline == "fragment" else set()))
+            check_render(*wanted, self.pipeline == "fragment")
             self.plan = plan_for(scene, self.settings, layering, self._samples.start, apart)
             with self.context.gl:
                 options = KernelOptions(self.pipeline, tier, variant)
@@ -160,7 +157,7 @@ class Renderer:
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
-        return self.film.mean if are_trivial(weights) else self._mixer.draw(self.film, weights)
+        return self._mixer.draw(self.film, weights, self._tracer.shown_particles)
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
@@ -172,14 +169,12 @@ class Renderer:
         layering: Layering | None = None,
         **changes: Unpack[SettingOptions],
     ) -> Cost | None:
-        """Go on with another scene or other settings; returns what that cost, None for nothing.
-
-        The one place where accumulation starts again. What is refused changes nothing.
-        """
+        """Go on with another scene or other settings; returns what that cost, None for nothing."""
         layering = layering or self.plan.layering
         after = scene or self.scene, settings_for(self.settings, **changes)
         if (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
+        check_render(*after, layering, self._part is not None, self.pipeline == "fragment")
         wanted = wanted_range(self._part, after[1])
         is_other_part = self._part is not None and wanted != self._samples
         relit = None if is_other_part else self.plan.relit(*after, layering)
@@ -198,8 +193,8 @@ class Renderer:
     def bake(self) -> bool:
         """Go on, to the same bits, by a faster kernel that has the shapes written into it.
 
-        When a shape changes, or the place of the camera, the kernel from before goes on at once.
-        False where there is none: this one has them, or they are too many.
+        When one changes, or the place of the camera, the kernel from before goes on at once. False
+        where there is none: this one has them, or they are too many.
         """
         with self.context.gl:
             return self._tracer.bake()
@@ -220,8 +215,7 @@ class Renderer:
     def advance(self, seconds: float, samples: int | None = None) -> bool:
         """Work for about `seconds`, up to `samples` samples a pixel (default: the settings').
 
-        Returns whether the picture changed: a frame, one sample of each pixel or more, may take
-        several calls. Until it is complete the picture stays as it was.
+        Returns whether the picture changed: a frame of it may take several calls.
         """
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
@@ -234,10 +228,9 @@ class Renderer:
     def render(
         self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
     ) -> "Renderer":
-        """Step until each pixel has `samples` in all, or `goes_on` says no.
+        """Step until each pixel has `samples` in all (default: the settings').
 
-        By default, those of the settings; where there are as many already, nothing is done.
-        `goes_on` is asked after each dispatch, of which a frame may need several.
+        Or until `goes_on`, which is asked after each dispatch, says no.
         """
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
@@ -251,8 +244,8 @@ class Renderer:
         """The picture so far, with its standard error and its recipe; `weights` show it so."""
         weights = weights or self.plan.weights
         with self.context.gl:
-            radiance, stderr, film_state = mixed(self.film, weights)
             aovs = self._tracer.aov_images()
+            radiance, stderr, film_state = self._tracer.with_particles(mixed(self.film, weights))
         return Image(radiance, stderr, self.samples, self._recipe(weights), film_state, aovs)
 
     def resume(self, image: Image) -> "Renderer":
@@ -268,9 +261,14 @@ class Renderer:
             return displayed(self.context.gl, self.weighed(self.plan.weights), self.settings)
 
     def nonfinite(self) -> int:
-        """How many samples were dropped because they were not finite."""
+        """How many samples and particles were dropped because they were not finite."""
         with self.context.gl:
-            return self.film.dropped()
+            return self.film.dropped() + self._tracer.lost_particles.refused
+
+    def clipped(self) -> int:
+        """How many particles brought more light than a pixel's sum takes at once."""
+        with self.context.gl:
+            return self._tracer.lost_particles.clipped
 
     def release(self) -> None:
         """Free what the driver holds, the context too unless it was given."""

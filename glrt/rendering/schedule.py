@@ -30,6 +30,7 @@ MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/results/d
 _EXPONENT = read_constants(read("integrators/classic.glsl"))["MOST_EXPONENT"]
 HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)
 MOST_PASSED = 8
+ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
 _GOLDEN = 0.618
 
 

@@ -5,6 +5,8 @@ import time
 from contextlib import ExitStack
 from dataclasses import replace
 
+import moderngl
+
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
@@ -15,6 +17,7 @@ from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
+from glrt.rendering.particle_tracer import Losses, ParticleTracer
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import (
@@ -27,6 +30,8 @@ from glrt.rendering.schedule import (
     whole_frame,
 )
 from glrt.settings import Cost, Settings
+
+Picture = tuple[Array, Array, FilmState | None]  # radiance, its standard error, what a film kept
 
 
 class Tracer:
@@ -62,6 +67,10 @@ class Tracer:
                     before.switch.schedule.drop()  # the first dispatch writes to its frame
                 self.switch = self._compiled()
                 refused.callback(self.switch.release)
+            self.particles: ParticleTracer | None = None
+            if plan.settings.caustics == "on":
+                self.particles = ParticleTracer(context, plan, self.device_scene)
+                refused.callback(self.particles.release)
             self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
         if not before:
@@ -75,6 +84,8 @@ class Tracer:
         """
         after = Tracer(self._context, plan, self._options, self)
         self.device_scene.release()
+        if self.particles:
+            self.particles.release()
         if after.film is not self.film:
             self.film.release()
         if after.aovs is not self.aovs:
@@ -108,6 +119,8 @@ class Tracer:
         """Begin to accumulate anew."""
         self.switch.schedule.drop()
         self.film.restart(self._plan.first_sample)
+        if self.particles:
+            self.particles.restart(self._plan.first_sample)
         self.aovs.restart(self._plan)
         self._tiers.clear()
 
@@ -126,14 +139,38 @@ class Tracer:
 
     @property
     def is_behind(self) -> bool:
-        """Whether AOVs have fewer samples than the picture."""
-        return self.aovs.is_behind(self.film.samples)
+        """Whether particles or AOVs have fewer samples than the picture."""
+        return self._lacks_particles or self.aovs.is_behind(self.film.samples)
+
+    def catch_up(self) -> None:
+        """Gather the particles and the AOVs of all samples."""
+        while self.is_behind:
+            self._work_behind(HEADLESS, math.inf)
 
     def aov_images(self) -> AovImages:
         """The AOVs of all samples."""
-        while self.is_behind:
-            self._work_on_aovs(HEADLESS, math.inf)
+        self.catch_up()
         return self.aovs.read(self._plan.scene)
+
+    def with_particles(self, picture: Picture) -> Picture:
+        """A picture of the film, with what particles bring to it."""
+        if not self.particles:
+            return picture
+        self.catch_up()
+        return *self.particles.added_to(*picture[:2]), None
+
+    @property
+    def shown_particles(self) -> moderngl.Texture | None:
+        """What particles bring to the film; they gather as many samples as it has."""
+        if not self.particles:
+            return None
+        self.catch_up()
+        return self.particles.film.sources["mean"]
+
+    @property
+    def lost_particles(self) -> Losses:
+        """Of the particles that were linked to the camera."""
+        return self.particles.losses if self.particles else Losses(0, 0)
 
     def resume(self, samples: int, mean: Array, film_state: FilmState) -> None:
         """Take up what another film has read, by a kernel of the same tier."""
@@ -157,12 +194,12 @@ class Tracer:
             self._at_once(min(self.most_samples, target - self.film.samples))
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
-        """One dispatch: of AOVs that are behind, else one that the schedule of the picture plans.
+        """One dispatch: of what is behind, else one that the schedule of the picture plans.
 
         All dispatches of a frame read the same source.
         """
         if self.is_behind:
-            self._work_on_aovs(policy, seconds)
+            self._work_behind(policy, seconds)
         else:
             self._work_on_picture(remaining, policy, seconds)
 
@@ -178,8 +215,9 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for part in (self.film, self.aovs, self.switch, self.device_scene):
-            part.release()
+        for part in (self.film, self.particles, self.aovs, self.switch, self.device_scene):
+            if part:
+                part.release()
 
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
         """What gathers the AOVs of settings: that of `before` where it does."""
@@ -192,8 +230,15 @@ class Tracer:
         known = before.aovs if before else None
         return AovTracer(self._context, plan, self.device_scene, known)
 
-    def _work_on_aovs(self, policy: DispatchPolicy, seconds: float) -> None:
-        self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)
+    @property
+    def _lacks_particles(self) -> bool:
+        return self.particles is not None and self.particles.is_behind(self.film.samples)
+
+    def _work_behind(self, policy: DispatchPolicy, seconds: float) -> None:
+        if self.particles and self._lacks_particles:
+            self.particles.work_on(policy, seconds)
+        else:
+            self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)
 
     def _compiled(self) -> KernelSwitch:
         schedule = Schedule(self._tiles, self.most_samples)

@@ -1,4 +1,4 @@
-"""A film weighed: the picture that other intensities of its lamps give."""
+"""A film weighed: the picture that other intensities of its lamps give, or particles beside it."""
 
 import moderngl
 import numpy as np
@@ -61,8 +61,15 @@ class Mixer:
         self._program: moderngl.Program | None = None
         self._texture: moderngl.Texture | None = None
 
-    def draw(self, film: Film, weights: Weights) -> moderngl.Texture:
-        """A texture like the film's mean; it is valid until the next call."""
+    def draw(
+        self, film: Film, weights: Weights, particles: moderngl.Texture | None = None
+    ) -> moderngl.Texture:
+        """The film's mean, or a texture like it, valid until the next call.
+
+        To it `particles` are added, if there are any.
+        """
+        if are_trivial(weights) and not particles:
+            return film.mean
         program = self._program or self._compile()
         texture = self._texture
         if texture is None or texture.size != film.size:
@@ -72,6 +79,10 @@ class Mixer:
         if film.layers:
             film.layers.use(1)
             program["layers"] = 1
+        program["has_particles"] = particles is not None
+        if particles:
+            particles.use(2)
+            program["particles"] = 2
         program["layer_count"] = film.extent.layers
         program["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
         with self._gl.scope(self._target):

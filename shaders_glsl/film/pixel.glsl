@@ -16,6 +16,11 @@ Pixel empty_pixel() {
     return Pixel(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0);
 }
 
+// As it is kept between dispatches, where no observation lasts from one to the next.
+Pixel pixel_of(vec4 mean, vec4 variance) {
+    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
+}
+
 // By its bits: drivers may assume that no NaN exists and fold isnan away.
 bool is_finite(vec3 x) {
     uvec3 exponent = floatBitsToUint(x) & uvec3(0x7F800000u);

@@ -38,11 +38,6 @@ Pixel object_of(ivec2 place) {
     return pixel;
 }
 
-// As it is kept between dispatches.
-Pixel pixel_of(vec4 mean, vec4 variance) {
-    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
-}
-
 void add_aov(precise inout Pixel pixel, int aov, Ray ray, Hit hit, int index) {
     if (aov == NO_AOV || aov == OBJECT) return;
     add_sample(pixel, loop_was_cut ? nothing_met() : aov_of(aov, ray, hit), index);

@@ -12,6 +12,12 @@ float power_heuristic(float p_a, float p_b) {
     return weight;
 }
 
+// Of light sampled on a lamp; `scattered`: the density with which scattering would have met it.
+float weight_of_sample(LightSample light, float scattered, float rho) {
+    if (HAS_PARTICLES && rho > 0.0) return sample_beside_particles(light, scattered, rho);
+    return power_heuristic(light.pdf, scattered);
+}
+
 // The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if it
 // comes from the camera or a delta.
 float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
@@ -21,15 +27,15 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
 }
 
-// Direct light from one sampled point, scattered towards wo.
-vec3 direct_light(Vertex vertex, LightSample light) {
+// Direct light from one sampled point, scattered towards wo; `rho` as Path has it.
+vec3 direct_light(Vertex vertex, LightSample light, float rho) {
     if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
     precise vec3 wi = to_local(vertex.frame, light.ray.direction);
     bool crosses = is_rough_glass(vertex.material) && wi.z < 0.0;
     if (wi.z <= 0.0 && !crosses) return vec3(0.0);
     if (crosses) light.ray.inward = !light.ray.inward;
     precise vec3 weight = eval_material(vertex, wi) / light.pdf;
-    if (WEIGHT_BOTH) weight *= power_heuristic(light.pdf, pdf_material(vertex, wi));
+    if (WEIGHT_BOTH) weight *= weight_of_sample(light, pdf_material(vertex, wi), rho);
     if (occluded(light.ray, light.distance, light.shape)) return vec3(0.0);
     precise vec3 radiance = weight * light.radiance;
     return radiance;
@@ -62,13 +68,14 @@ struct Path {
     uint holes;       // that this segment has passed
     Ray start;        // it, where it left the vertex, if it has
     float way;        // from there to the last hole
+    float rho;        // what particles are weighed against (integrators/particle_weights.glsl); 0: they do not come
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
 Path start_path(Ray ray) {
     precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, NO_LAYERS);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, NO_LAYERS);
 }
 
 // Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
@@ -87,7 +94,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
     if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT)) return;
     if (MODEL == COOK) {
         precise LightSample light = sample_light(from, total_weight(from), rng);
-        precise vec3 direct = weight * direct_light(vertex, light);
+        precise vec3 direct = weight * direct_light(vertex, light, 0.0);
         gather(path, direct, light.layer, path.depth + 1);
         return;
     }
@@ -151,6 +158,11 @@ bool passes_hole(precise inout Path path, Surface surface, Material material, fl
 
 // `emission_weight` of what a segment meets, which may have passed holes.
 float weight_of_emission(Path path, Hit hit, int light) {
+    if (HAS_PARTICLES && path.rho > 0.0 && light != NO_LIGHT) {
+        precise float kappa = 0.0;
+        if (path.pdf > 0.0) kappa = pdf_light(light, path.ray, hit.distance, path.lamps) / path.pdf;
+        return emission_beside_particles(path.ray, hit, light, kappa, path.rho);
+    }
     if (!HAS_HOLE) return emission_weight(path.ray, hit, light, path.pdf, path.lamps);
     precise Hit met = Hit(path.way + hit.distance, hit.shape);
     return emission_weight(path.start, met, light, path.pdf, path.lamps);
@@ -162,9 +174,20 @@ void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, v
     precise float height = dot(light.ray.direction, facing);
     precise float along = dot(light.ray.direction, vertex.frame[2]);
     if ((HAS_SMOOTH || HAS_NORMAL_MAP) && height * along <= 0.0) light.pdf = 0.0;
-    precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light);
+    precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light, path.rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
     gather(path, direct, light.layer, path.depth + 1);
+}
+
+// What particles that are linked to the camera at the path's first vertex are weighed against: none are, or
+// come so far, at a surface that they do not scatter at.
+float rho_beyond(Path path, Vertex vertex, Surface surface) {
+    if (!carries_particles(vertex.material)) return 0.0;
+    if (path.depth > 0) return path.rho;
+    if (is_delta(vertex.material)) return 0.0;
+    precise float distance = length(surface.position - path.ray.origin);
+    precise float rho = pdf_film(path.ray.direction, vertex.wo.z, distance) / frame.particles;
+    return rho;
 }
 
 // The share of the sky's light that scattering may count.
@@ -206,6 +229,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     }
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(path, material, side > 0.0) : vec3(0.0);
     precise float lamps = total_weight(ray);
+    if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
         gather_sampled(path, vertex, light, facing, behind);

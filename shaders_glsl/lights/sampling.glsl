@@ -12,6 +12,7 @@ struct LightSample {
     vec3 radiance;
     int shape;
     int layer;      // of its light group
+    int light;      // its number, or NO_LIGHT
 };
 
 // 1 - cos of the cone that a sphere fills, without the cancellation of 1 - sqrt(1 - s2);
@@ -114,7 +115,7 @@ bool is_dark(LightSample light) {
 }
 
 LightSample no_light_sample(Ray ray) {
-    return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0);
+    return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0, NO_LIGHT);
 }
 
 // What a lamp shows of itself at the origin of a ray.
@@ -189,7 +190,7 @@ LightSample sample_lamp(Ray ray, int index, vec2 u, float lamps) {
     precise Material lamp = material_at(point.material);
     precise float pdf = pdf_light(index, ray, point.distance, lamps);
     precise vec3 radiance = emitted(lamp, -point.direction, point.facing);
-    return LightSample(ray, point.distance, pdf, radiance, light.shape, lamp.layer);
+    return LightSample(ray, point.distance, pdf, radiance, light.shape, lamp.layer, index);
 }
 
 // From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.

@@ -102,5 +102,5 @@ LightSample sample_sky(Ray ray, precise inout Sampler rng) {
     ray.direction = normalized(vec3(sine * sin(azimuth), cos(PI * place.y), -sine * cos(azimuth)));
     precise vec3 radiance = frame.background_top * radiance_between(around, share);
     precise float pdf = sky_density(corners_between(corners, vec2(x, y)), sine);
-    return LightSample(ray, FAR, pdf, radiance, NO_SHAPE, BACKGROUND_LAYER);
+    return LightSample(ray, FAR, pdf, radiance, NO_SHAPE, BACKGROUND_LAYER, NO_LIGHT);
 }

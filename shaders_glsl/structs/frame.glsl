@@ -39,9 +39,11 @@ struct Frame {
     vec3 sun_direction;      // unit, towards it; where HAS_SUN
     float sun_versine;       // 1 - cos of half its angle
     vec3 sun_radiance;
-    float spare;             // fills the row
+    float splat_unit;        // radiance of one unit of what particles add to pixels (particles.comp)
     vec3 camera_absorption;  // of the glass around the camera, per unit length
     uint camera_counts;      // of the glasses with a priority around it (integrators/media.glsl)
     float background_turn;  // of its image about +y, in turns from 0 to 1
     float sky_density;      // of its samples per solid angle: lights/sky_sampling.glsl
+    float particles;        // that leave lamps, for each sample of a pixel; where HAS_PARTICLES
+    float aimed;            // their share that is aimed at smooth spheres
 };

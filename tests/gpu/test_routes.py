@@ -34,6 +34,7 @@ pictures = {
     for method in METHODS
     for seed in (0, 1)
 }
+pictures["particles"] = rendered(load("cornell"), opened, 16, caustics="on", width=24).radiance
 np.savez(file, is_software=opened.is_software, **pictures)
 assert opened.route == route
 """

@@ -169,7 +169,12 @@ def needs_with(flags: set[str]) -> Needs:
     )
     samples = bool(flags & {"SAMPLE_LIGHTS", "SAMPLE_SUN"})
     method = "mis" if "WEIGHT_BOTH" in flags else "nee" if samples else "naive"
-    settings = settings_for(scene.render, method=method, roulette="ROULETTE" in flags)
+    settings = settings_for(
+        scene.render,
+        method=method,
+        roulette="ROULETTE" in flags,
+        caustics="on" if "HAS_PARTICLES" in flags else "off",
+    )
     return needs_of(scene, settings)
 
 

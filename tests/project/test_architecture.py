@@ -26,6 +26,8 @@ ENTRIES = {
     "display.vert",
     "aov.comp",
     "aov.frag",
+    "particles.comp",
+    "splats.comp",
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag"}
 NOT_OF_A_PATH = {
     *ENTRIES,

@@ -92,6 +92,11 @@ PROBES = {
     "WEIGHT_BOTH": ("integrators/path.glsl", "p_b / p_a", "{} * p_b / p_a"),
     "QUADS_BY_AREA": ("lights/sampling.glsl", "quad.width * quad.height", "{} * quad.width"),
     "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
+    "HAS_PARTICLES": (
+        "integrators/particle_weights.glsl",
+        "1.0 / (4.0 * frame",
+        "{} / (4.0 * frame",
+    ),
     "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
 }
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
@@ -124,6 +129,7 @@ NEEDED_TOO = {
     "HAS_DISK_LIGHT": {"HAS_DISK", "SAMPLE_LIGHTS"},
     "WEIGHT_BOTH": {"SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD"},
+    "HAS_PARTICLES": {"WEIGHT_BOTH", "SAMPLE_LIGHTS", "HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_SPHERE"},
     "MANY_LIGHTS": {"SAMPLE_LIGHTS", "HAS_QUAD_LIGHT", "HAS_QUAD", "HAS_TREE"},
 }
@@ -143,10 +149,10 @@ GONE_TOO = {
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},
     "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH", "HAS_VERTEX_COLOR", "HAS_INSTANCE"},
-    "WEIGHT_BOTH": {"QUADS_BY_AREA"},
-    "QUADS_BY_AREA": {"WEIGHT_BOTH"},
+    "WEIGHT_BOTH": {"QUADS_BY_AREA", "HAS_PARTICLES"},
+    "QUADS_BY_AREA": {"WEIGHT_BOTH", "HAS_PARTICLES"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
-    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT", "SAMPLE_SUN"},
+    | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT", "SAMPLE_SUN", "HAS_PARTICLES"},
     "HAS_SUN": {"SAMPLE_SUN"},
 }
 GONE_TOO["SAMPLE_SUN"] = GONE_TOO["SAMPLE_LIGHTS"] - {"SAMPLE_SUN"} | {"SAMPLE_LIGHTS"}

@@ -23,6 +23,7 @@ OPTIONS: dict[Way, Options] = {
     Way.FRAGMENT: ["--pipeline", "fragment"],
     Way.INDEPENDENT: ["--sampler", "independent"],
     Way.CLASSIC: ["--method", "phong"],
+    Way.PARTICLES: ["--caustics", "on"],
     Way.AUTO: ["--method", "auto", "--error", str(ASKED)],
     Way.TIME: ["--time", "0.1"],
     Way.ERROR: ["--error", str(ASKED)],
@@ -145,6 +146,14 @@ def classic_law(render: Render) -> None:
     assert np.isfinite(image.radiance).all()
 
 
+def particles_law(render: Render) -> None:
+    """Another noise, the same light."""
+    many = ["--samples", "2048"]
+    one, other = render(many), render([*many, *OPTIONS[Way.PARTICLES]])
+    assert not same(one, other)
+    assert_agree(one, other, within=0.4)
+
+
 def auto_law(render: Render) -> None:
     image = render(OPTIONS[Way.AUTO])
     assert image.recipe
@@ -171,6 +180,7 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.FRAGMENT: fragment_law,
     Way.INDEPENDENT: independent_law,
     Way.CLASSIC: classic_law,
+    Way.PARTICLES: particles_law,
     Way.AUTO: auto_law,
     Way.TIME: limit_law(Way.TIME),
     Way.ERROR: limit_law(Way.ERROR),

@@ -1,0 +1,81 @@
+"""Particles from lamps: which they leave, what they are aimed at, and where they cannot go."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from glrt.methods.contents import Contents, contents_of, is_sampled
+from glrt.methods.table import METHODS
+from glrt.scene.glasses import glasses_of, holds
+from glrt.scene.materials import Dielectric, Material, Metal
+from glrt.scene.objects import Object
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Quad, Sphere
+from glrt.settings import Settings
+
+GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
+
+
+def particle_groups(settings: Settings) -> int:
+    """How many work groups follow the particles of one sample of each pixel of the frame."""
+    return max(1, round(settings.particles * settings.width * settings.height / GROUP))
+
+
+def particles_a_sample(settings: Settings) -> float:
+    """How many particles there are for each sample of a pixel: whole work groups of them."""
+    return particle_groups(settings) * GROUP / (settings.width * settings.height)
+
+
+def emitters_of(scene: Scene) -> list[Object]:
+    """The lamps that particles leave."""
+    flat = (thing for thing in scene.visible if isinstance(thing, Sphere | Quad))
+    return [thing for thing in flat if is_sampled(scene.materials[thing.material])]
+
+
+def casters_of(scene: Scene) -> list[Sphere]:
+    """The spheres of smooth glass or metal, at which particles can be aimed."""
+    spheres = (thing for thing in scene.visible if isinstance(thing, Sphere))
+    return [sphere for sphere in spheres if _is_smooth(scene.materials[sphere.material])]
+
+
+def _is_smooth(material: Material) -> bool:
+    if isinstance(material, Dielectric):
+        return material.thin or material.alpha == 0
+    return isinstance(material, Metal) and material.alpha == 0
+
+
+def refusal(scene: Scene, settings: Settings) -> str | None:
+    """Why particles that are asked for cannot be followed; None if they can, or if none are."""
+    return next(_refusals(scene, settings), None) if settings.caustics == "on" else None
+
+
+def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
+    found = contents_of(scene)
+    if not METHODS[settings.method].weights_both:
+        yield f"particles are weighed by the method mis alone, not by {settings.method}"
+    if not emitters_of(scene):
+        yield "no sphere and no quad shines: particles leave these alone"
+    if found.has_many_lights:
+        yield f"of {found.sampled_lamps} lamps, too many to choose among for each particle"
+    for what, there in _beyond(found).items():
+        if there:
+            yield f"{what}, which particles do not follow yet"
+    if _shines_in_tinted_glass(scene):
+        yield "a lamp lies in tinted glass, where particles do not know what they lose"
+
+
+def _beyond(found: Contents) -> dict[str, bool]:
+    return {
+        "there are meshes with smooth normals": found.is_smooth,
+        "there are normal maps": "normal" in found.mapped,
+        "some surfaces have holes": bool(found.holed),
+        "some glasses overlap by priority": bool(found.media),
+    }
+
+
+def _shines_in_tinted_glass(scene: Scene) -> bool:
+    glasses = glasses_of(scene, scene.finishes)
+    names = {name for name, glass in glasses.items() if any(glass.absorption)}
+    tinted = [thing for thing in scene.visible if thing.material in names]
+    centers = [np.array(lamp.middle, np.float64) for lamp in emitters_of(scene)]
+    return any(holds(glass, center) for glass in tinted for center in centers)

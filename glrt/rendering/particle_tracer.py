@@ -1,0 +1,174 @@
+"""Particles on the driver: a film of what they bring, gathered as the picture grows.
+
+For each observation of the picture there is one of particles: work groups of them, added up in
+fixed point, and then put onto the film as one value of each pixel.
+"""
+
+import time
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import moderngl
+import numpy as np
+
+from glrt.errors import RenderError
+from glrt.gpu.context import Context
+from glrt.gpu.driver_checks import usable_rounds
+from glrt.gpu.program import tile_count
+from glrt.image.film_state import error_of_mean
+from glrt.methods.light_layers import Plan
+from glrt.methods.particles import particle_groups
+from glrt.rendering.device_scene import DeviceScene
+from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.pass_film import Array, PassFilm
+from glrt.rendering.passes import PARTICLES, SPLATS
+from glrt.rendering.schedule import (
+    DispatchPolicy,
+    DispatchRange,
+    Schedule,
+    iterations_per_sample,
+    whole_frame,
+)
+
+HEAD = 8  # bytes of the block before its words: two counts
+PIXEL = 24  # bytes of a pixel: two words of each channel
+
+
+class Losses(NamedTuple):
+    """Particles whose light is not on the film, or not all of it."""
+
+    clipped: int  # brought a pixel more than its sum takes at once
+    refused: int  # brought what is not finite
+
+
+@dataclass
+class _Numbered:
+    """The film of particles, as a dispatch of them sees it: with their numbers."""
+
+    film: PassFilm
+    next_sample: int
+    samples: int = 1  # whatever the film holds, particles do not read it
+
+    def images(self) -> dict[str, moderngl.Texture]:
+        return self.film.images()
+
+
+class ParticleTracer:
+    """Gathers what particles bring to the picture of a plan."""
+
+    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
+        """Allocate a film and a sum, and compile.
+
+        RenderError if the driver has no room for them.
+        """
+        self._context, self._plan, self._scene = context, plan, scene
+        self._block, size = plan.settings.block, plan.settings.size
+        self._groups, self._tiles = particle_groups(plan.settings), tile_count(*size)
+        self._rounds, most = _limits(context, plan)
+        self._schedule = Schedule(self._groups, most)
+        self._begun = 0  # samples of the observation that is not complete
+        self._is_cleared = False  # whether the sums hold this observation alone
+        start = time.perf_counter()
+        with ExitStack() as refused:
+            what = f"the particles of {size[0]} x {size[1]} pixels"
+            self.film = PassFilm(context.gl, what, dict.fromkeys(PARTICLES.outputs, size))
+            refused.callback(self.film.release)
+            self._sums = _block_of_sums(context, what, HEAD + PIXEL * size[0] * size[1])
+            refused.callback(self._sums.release)
+            self._kernel = ready(context, scene.shaders_of(PARTICLES), self._dispatch)
+            refused.callback(self._kernel.release)
+            self._fold = ready(context, scene.shaders_of(SPLATS), self._dispatch_fold)
+            refused.pop_all()
+        self.compile_seconds = time.perf_counter() - start
+        self.restart(plan.first_sample)
+
+    def restart(self, first_sample: int) -> None:
+        """Forget everything."""
+        self.film.restart(first_sample)
+        self._begin()
+
+    def is_behind(self, samples: int) -> bool:
+        """Whether a picture of so many samples lacks an observation of particles."""
+        return self.film.samples * self._block < samples
+
+    def work_on(self, policy: DispatchPolicy, seconds: float) -> None:
+        """One dispatch of the observation that has begun, in about `seconds`."""
+        if not self._is_cleared:
+            self._sums.clear()
+            self._is_cleared = True
+        missing = self._block - self._begun
+        part = self._schedule.next_dispatch(missing, min(seconds, policy.limit / 2), self._begun)
+        start = time.perf_counter()
+        self._dispatch(self._kernel, part)
+        self._context.finish()
+        taken = time.perf_counter() - start
+        if self._rounds is not None and self._scene.lost_any() and part.samples > 1:
+            self._begin(part.samples // 2)
+        elif self._schedule.record(part, taken):
+            self._begun += part.samples
+        if self._begun == self._block:
+            self._end()
+
+    def added_to(self, radiance: Array, stderr: Array) -> tuple[Array, Array]:
+        """A picture and its standard error, (H, W, 3) float32 each, with what particles bring.
+
+        The two are independent, so that their variances add.
+        """
+        height = radiance.shape[0]
+        mean, variance = (self.film.read_output(name, 0, height) for name in PARTICLES.outputs)
+        none = np.zeros_like(mean[..., :3]), np.zeros_like(mean[..., 3])
+        own = error_of_mean(mean[..., :3], variance[..., :3], variance[..., 3], *none)
+        return radiance + mean[..., :3], np.hypot(stderr, own)
+
+    @property
+    def losses(self) -> Losses:
+        """Of all that were linked to the camera since the beginning."""
+        clipped, refused = np.frombuffer(self._sums.read(HEAD), np.uint32)
+        return Losses(int(clipped), int(refused))
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for part in (self.film, self._sums, self._kernel, self._fold):
+            part.release()
+
+    def _begin(self, most_samples: int | None = None) -> None:
+        """Begin an observation anew."""
+        self._begun, self._is_cleared = 0, False
+        self._schedule.drop() if most_samples is None else self._schedule.limit(most_samples)
+
+    def _end(self) -> None:
+        """An observation is complete."""
+        for part in whole_frame(self._block, self._tiles):
+            self._dispatch_fold(self._fold, part)
+        self.film.advance(1)
+        self._begun = 0
+
+    def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
+        film = self.film
+        first = film.first_sample + film.samples * self._block + self._begun
+        groups, own = self._groups, {"Splats": self._sums}
+        self._scene.dispatch(kernel, _Numbered(film, first), self._plan, part, groups, own)
+
+    def _dispatch_fold(self, kernel: AnyKernel, part: DispatchRange) -> None:
+        own = {"Splats": self._sums}
+        self._scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
+
+
+def _block_of_sums(context: Context, what: str, size: int) -> moderngl.Buffer:
+    most = int(context.gl.info["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"])
+    if size > most:
+        raise RenderError(
+            f"no room for {what}: they take {size >> 20} MiB in one block, and this driver grants "
+            f"{most >> 20}. Render a smaller picture or a crop, or use --caustics off."
+        )
+    with context.checked(what):
+        return context.gl.buffer(reserve=size)
+
+
+def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
+    """How many rounds of loops a dispatch may take, None: any; and how many particles a lane."""
+    iterations = iterations_per_sample(plan.scene, plan.settings)
+    rounds = usable_rounds(context, iterations)
+    block = plan.settings.block
+    return rounds, block if rounds is None else max(1, min(block, rounds // iterations))

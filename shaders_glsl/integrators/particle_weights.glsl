@@ -1,0 +1,56 @@
+// Three ways to the same light: scattering from the camera that meets a lamp, a point sampled on a lamp, and a
+// particle from a lamp that is linked to the camera. The power heuristic weighs them (Veach 1997, section 9.2), by
+// densities of whole paths: P0 of scattering, P1 of sampling, PL of particles.
+//
+// Matte surfaces and chains of smooth ones scatter as likely one way as the other, per projected solid angle. So
+// between the lamp and the first surface that the camera sees, P0 and PL agree, and one number a path says it all:
+//     P0 / PL = rho / pdf_emission,   rho = pdf_film / frame.particles
+//     P1 / P0 = kappa: of the density of sampling the lamp, over that of scattering to it, at the last vertex; 0
+//               where that is smooth
+// Roulette is in neither, on both sides alike.
+
+// What particles scatter at; at other surfaces they end.
+bool carries_particles(Material material) {
+    return is_delta(material) ? !is_medium(material) : material.kind == MATTE;
+}
+
+// Density per solid angle of rays from the camera, over the whole frame, at their place on the lens.
+float pdf_camera(vec3 direction) {
+    precise float cosine = dot(direction, frame.camera.forward);
+    if (cosine <= 0.0) return 0.0;
+    precise float pdf = 1.0 / (4.0 * frame.camera.tan_x * frame.camera.tan_y * cosine * cosine * cosine);
+    return pdf;
+}
+
+// The same per area of a surface that a ray meets, whose normal has this cosine.
+float pdf_film(vec3 direction, float cosine, float distance) {
+    precise float pdf = pdf_camera(direction) * cosine / (distance * distance);
+    return pdf;
+}
+
+// Of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
+float sample_beside_particles(LightSample light, float scattered, float rho) {
+    precise vec3 point = light.ray.origin + light.distance * light.ray.direction;
+    precise float ratio = scattered / light.pdf;
+    precise float over = 0.0;
+    if (light.light != NO_LIGHT) {
+        over = ratio * pdf_emission(light.light, point, -light.ray.direction, NOT_AIMED) / rho;
+    }
+    precise float weight = 1.0 / (1.0 + ratio * ratio + over * over);
+    return weight;
+}
+
+// Of emission that scattering met, with the density `pdf`, 0 where it was smooth: P0^2 over the sum of squares.
+// `kappa`: P1 / P0.
+float emission_beside_particles(Ray ray, Hit hit, int light, float kappa, float rho) {
+    precise vec3 point = ray.origin + hit.distance * ray.direction;
+    precise float over = pdf_emission(light, point, -ray.direction, NOT_AIMED) / rho;
+    precise float weight = 1.0 / (1.0 + kappa * kappa + over * over);
+    return weight;
+}
+
+// Of a particle linked to the camera: PL^2 over the sum of squares. `over`: P0 / PL.
+float particle_weight(float over, float kappa) {
+    precise float weight = 1.0 / (1.0 + over * over * (1.0 + kappa * kappa));
+    return weight;
+}

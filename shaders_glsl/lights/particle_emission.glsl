@@ -1,0 +1,98 @@
+// Particles leave lamps that are spheres or quads, where HAS_PARTICLES. A lamp is chosen by its share of the
+// flux, a point evenly over its area, a direction by the cosine; or, of a share `frame.aimed` of the particles,
+// a direction evenly over the cone that a smooth sphere fills: these make caustics. CASTERS: how many there are.
+
+const int NOT_AIMED = -1;
+
+bool emits_particles(Light light) {
+    return !is_of_triangle(light) && !is_of_disk(light);
+}
+
+// Of the flux of all lamps that particles leave.
+float flux_of_particles() {
+    if (!HAS_DISK_LIGHT && !HAS_MESH_LIGHT) return 1.0;
+    precise float sum = 0.0;
+    for (int i = 0; i < CLUSTERS; ++i) {
+        if (emits_particles(light_at(i))) sum += cluster_at(i).probability;
+    }
+    return sum;
+}
+
+int choose_emitter(float u) {
+    precise float target = u * flux_of_particles();
+    precise float sum = 0.0;
+    int chosen = NO_LIGHT;
+    for (int i = 0; i < CLUSTERS; ++i) {
+        if (!emits_particles(light_at(i))) continue;
+        if (chosen == NO_LIGHT || sum <= target) chosen = i;
+        sum += cluster_at(i).probability;
+    }
+    return chosen;
+}
+
+bool is_caster(Sphere sphere) {
+    return is_delta(material_at(sphere.material));
+}
+
+// Whether a ray from a point is aimed at a sphere; `drop`: 1 - cos of the cone that this fills from there.
+bool is_aimed_at(vec3 away, vec3 direction, float drop) {
+    precise vec3 aside = direction - normalized(away);
+    return 0.5 * dot(aside, aside) <= drop;
+}
+
+// Density per solid angle of directions aimed at smooth spheres from p; `certain`: the sphere that one was aimed
+// at, which rounding may have taken past its rim.
+float pdf_aimed(vec3 p, vec3 direction, int certain) {
+    precise float sum = 0.0;
+    for (int i = 0; i < sphere_count(); ++i) {
+        precise Sphere sphere = sphere_at(i);
+        if (!is_caster(sphere)) continue;
+        precise vec3 away = sphere.center - p;
+        precise float drop = cone_of_sphere(away, sphere.radius);
+        if (drop > 0.0 && (i == certain || is_aimed_at(away, direction, drop))) sum += 0.5 / (PI * drop);
+    }
+    precise float pdf = sum / float(CASTERS);
+    return pdf;
+}
+
+// The number of the n-th smooth sphere.
+int caster(int n) {
+    int left = n;
+    for (int i = 0; i < sphere_count(); ++i) {
+        if (!is_caster(sphere_at(i))) continue;
+        if (left == 0) return i;
+        left -= 1;
+    }
+    return NOT_AIMED;
+}
+
+// What the density of aimed directions is per, in place of solid angle: the least cosine keeps it finite.
+const float LEAST_COSINE = 9.5367431640625e-7;
+
+// PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
+// does. `certain` as pdf_aimed has it.
+float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
+    precise Light light = light_at(index);
+    if (!emits_particles(light)) return 0.0;
+    precise float area = 0.0;
+    precise float cosine = 0.0;
+    bool has_two_sides = false;
+    if (is_of_sphere(light)) {
+        precise Sphere sphere = sphere_at(light.shape);
+        area = 4.0 * PI * sphere.radius * sphere.radius;
+        cosine = dot(p - sphere.center, direction) / sphere.radius;
+        if (cosine <= 0.0) return 0.0;  // light from inside a lamp is found by scattering alone
+    } else {
+        precise Quad quad = quad_of(light);
+        area = quad.width * quad.height;
+        cosine = abs(dot(quad.normal, direction));
+        has_two_sides = true;
+    }
+    precise float by_angle = has_two_sides ? 0.5 : 1.0;
+    if (CASTERS > 0) {
+        precise float aimed = frame.aimed * PI * pdf_aimed(p, direction, certain);
+        by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(cosine, LEAST_COSINE);
+    }
+    precise float pdf = cluster_at(index).probability / flux_of_particles() * by_angle / area;
+    return pdf;
+}

@@ -1,0 +1,47 @@
+// Adds one observation to the film of particles: what they have added to each pixel, which begins again at 0.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "structs/scene.glsl"
+#include "scene_arrays.glsl"
+#include "sampling/unit_float.glsl"
+#include "film/pixel.glsl"
+#include "passes/tiles.glsl"
+
+layout(rgba32f) uniform readonly image2D source_mean;      // a: observations
+layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
+layout(rgba32f) uniform writeonly image2D target_mean;
+layout(rgba32f) uniform writeonly image2D target_variance;
+
+layout(std430) buffer Splats {  // as in particles.comp
+    uint clipped;
+    uint refused;
+    uint words[];
+};
+
+const float HIGH = 4294967296.0;  // 2^32
+
+// Of a word and the one above it.
+float take_sum(int at) {
+    precise float sum = float(words[at + 1]) * HIGH + float(words[at]);
+    words[at] = 0u;
+    words[at + 1] = 0u;
+    return sum;
+}
+
+void main() {
+    ivec2 picture = imageSize(target_mean);
+    ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
+    ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
+    if (any(greaterThanEqual(texel, picture))) return;
+    precise Pixel pixel = empty_pixel();
+    if (frame.is_empty == 0) pixel = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
+    int at = 6 * (texel.y * picture.x + texel.x);
+    precise float red = take_sum(at);
+    precise float green = take_sum(at + 2);
+    precise float blue = take_sum(at + 4);
+    precise vec3 radiance = vec3(red, green, blue) * (frame.splat_unit / (frame.particles * float(frame.sample_count)));
+    add_sample(pixel, radiance, 0);
+    imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
+    imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
+}

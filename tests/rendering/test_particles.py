@@ -1,0 +1,293 @@
+"""Particles from lamps: the same light as without them, the same bits every time, known errors."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.cli.main import main
+from glrt.errors import UsageError
+from glrt.gpu.context import Context
+from glrt.image.image import Image
+from glrt.image.sources import load
+from glrt.image.tonemap import expose_and_encode
+from glrt.rendering import pack, particle_tracer
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import HEADLESS, Schedule
+from glrt.scene.scene import Scene
+from tests.support.builders import box_of_quads, disk, glass, lamp, quad, scene_of, sphere
+from tests.support.images import same_bits
+from tests.support.renders import assert_agree, rendered, rendering, same
+
+ON: dict[str, Any] = {"caustics": "on"}
+CAMERA = {"position": [0, 0, 0.9], "look_at": [0, -0.3, -1], "fov": 80}
+MATERIALS: dict[str, dict[str, Any]] = {
+    "matte": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},
+    "glass": glass(),
+    "tinted": glass(attenuation_color=[0.2, 0.5, 0.9], attenuation_distance=0.3),
+    "pane": glass(thin=True),
+    "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7], "roughness": 0},
+    "gold": {"type": "metal", "preset": "gold", "roughness": 0.3},
+    "plastic": {"type": "principled", "color": [0.2, 0.5, 0.8]},
+    "lamp": lamp(12.0),
+    "spot": lamp(60.0, cone={"axis": [0.2, -1, 0], "inner": 20, "outer": 50}),
+}
+BALL = sphere([0.35, -0.6, -0.3], 0.35, "glass")
+LAMP = quad([-0.25, 0.9, -0.4], [0.5, 0, 0], [0, 0, 0.4], "lamp")
+
+
+def room(*things: dict[str, Any], **camera: Any) -> Scene:
+    """A closed matte room."""
+    return scene_of([*box_of_quads("matte"), *things], MATERIALS, {**CAMERA, **camera})
+
+
+ROOMS = {
+    "a ball of glass": room(LAMP, BALL),
+    "a round lamp and a mirror": room(
+        sphere([0, 0.6, -0.2], 0.15, "lamp"), sphere([0.3, -0.5, 0], 0.4, "mirror")
+    ),
+    "a lens": room(LAMP, BALL, defocus_angle=4, focus_distance=1.2),
+    "tinted glass": room(LAMP, {**BALL, "material": "tinted"}),
+    "a lamp in glass": room(sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "glass")),
+    "lamps of several kinds": room(
+        quad([-0.9, 0.2, -0.9], [0.3, 0, 0], [0, 0.4, 0.1], "spot"),
+        disk([0.5, 0.95, -0.5], [0, -1, 0], 0.1, "lamp"),
+        sphere([-0.5, 0.6, 0.3], 0.05, "lamp"),
+        BALL,
+    ),
+    "what particles end at": room(
+        LAMP,
+        BALL,
+        sphere([-0.5, -0.7, -0.2], 0.3, "gold"),
+        sphere([-0.1, -0.8, 0.2], 0.15, "plastic"),
+        quad([-0.6, -0.2, -0.6], [0.8, 0, 0], [0, 0, 0.8], "pane"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ROOMS)
+def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
+    size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 6}
+    without = rendered(ROOMS[name], context, 4096, seed=1, **size)
+    image = rendered(ROOMS[name], context, 1024, **size, **ON, particles=0.5)
+    assert_agree(image, without, within=0.05)
+
+
+@pytest.mark.parametrize(("particles", "aimed"), [(0.05, 0.98), (4.0, 0.0), (1.0, 0.5)])
+@pytest.mark.parametrize("sampler", ["sobol", "independent"])
+def test_however_many_there_are(
+    context: Context, particles: float, aimed: float, sampler: str
+) -> None:
+    scene, more = ROOMS["a ball of glass"], {"particles": particles, "aimed": aimed}
+    size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 4}
+    without = rendered(scene, context, 4096, seed=1, **size)
+    image = rendered(scene, context, 512, **size, **ON, **more, sampler=sampler)
+    assert_agree(image, without, within=0.05)
+
+
+def test_the_error_falls_where_light_comes_through_glass(context: Context) -> None:
+    """Over the floor under the ball, by a factor of 2.2."""
+    scene = ROOMS["a ball of glass"]
+    size: dict[str, Any] = {"width": 48, "height": 48, "sampler": "sobol", "particles": 1.0}
+    errors = [
+        float(np.square(rendered(scene, context, 256, **size, **way).stderr[38:]).mean()) ** 0.5
+        for way in ({}, ON)
+    ]
+    assert errors[1] < errors[0] / 1.8
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["a ball of glass", "lamps of several kinds"])
+def test_the_error_is_the_spread_of_renders(context: Context, name: str) -> None:
+    """Over 64 of them, within 10 %: the root of the mean of the variances of pixels."""
+    size: dict[str, Any] = {"width": 24, "height": 24, "sampler": "sobol", "particles": 1.0}
+    images = [rendered(ROOMS[name], context, 512, seed=seed, **size, **ON) for seed in range(64)]
+    spread = np.var([image.radiance for image in images], axis=0, ddof=1).mean()
+    told = np.mean([np.square(image.stderr) for image in images])
+    assert 0.9 < (told / spread) ** 0.5 < 1.1
+
+
+# --- bits ------------------------------------------------------------------------------------
+
+
+def picture(context: Context, samples: int = 40, **more: Any) -> Image:
+    options: dict[str, Any] = {"sampler": "sobol", "bounces": 4, **more}
+    return rendered(ROOMS["a lens"], context, samples, **ON, **options)
+
+
+def test_the_same_bits_every_time(context: Context) -> None:
+    assert same(picture(context), picture(context))
+    assert not same(picture(context), picture(context, seed=1))
+
+
+def test_a_crop_is_that_part_of_the_frame(context: Context) -> None:
+    part = picture(context, crop=(3, 5, 9, 7))
+    whole = picture(context)
+    assert same_bits(part.radiance, whole.radiance[5:12, 3:12])
+    assert same_bits(part.stderr, whole.stderr[5:12, 3:12])
+
+
+def test_dispatches_may_be_of_any_size(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = picture(context)
+    plain = Schedule.next_dispatch
+
+    def small(self: Any, remaining: int, *rest: Any) -> Any:
+        return plain(self, min(remaining, 3), *rest)._replace(tiles=1)
+
+    monkeypatch.setattr(Schedule, "next_dispatch", small)
+    assert same(picture(context), expected)
+
+
+def test_shapes_written_into_the_kernel_change_nothing(context: Context) -> None:
+    images = []
+    for tier in ("generic", "baked"):
+        renderer = Renderer(
+            ROOMS["a lens"], None, context, tier, width=16, height=16, samples=32, **ON
+        )
+        images.append(renderer.render().image())
+        renderer.release()
+    assert same(*images)
+
+
+def test_light_twice_as_bright_gives_twice_the_radiance(context: Context) -> None:
+    """Bit for bit: what particles add is rounded to a unit that grows with the lamps."""
+    bright = {**MATERIALS, "lamp": lamp(24.0)}
+    scenes = [
+        scene_of([*box_of_quads("matte"), LAMP, BALL], kinds, CAMERA)
+        for kinds in (MATERIALS, bright)
+    ]
+    once, twice = (rendered(scene, context, 32, **ON) for scene in scenes)
+    assert same_bits(2 * once.radiance, twice.radiance)
+
+
+def test_sums_need_both_of_their_words(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With units of which a word holds all, or of which a splat takes thousands of words."""
+    found = {}
+    for bits in (20, 40, 50):
+        monkeypatch.setattr(pack, "UNIT_BITS", bits)
+        found[bits] = picture(context, particles=4.0).radiance.astype(np.float64)
+    np.testing.assert_allclose(found[40], found[50], rtol=1e-6)
+    np.testing.assert_allclose(found[20], found[50], rtol=2e-4)
+
+
+def test_light_beyond_a_sum_is_cut_and_told(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    expected = picture(context)
+    monkeypatch.setattr(pack, "UNIT_BITS", 70)
+    with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
+        image = renderer.render(40).image()
+        assert renderer.clipped() > 10
+    assert image.radiance.mean() < expected.radiance.mean()
+    assert np.isfinite(image.radiance).all()
+
+
+def test_a_cut_is_told_by_the_command(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Any
+) -> None:
+    monkeypatch.setattr(pack, "UNIT_BITS", 66)
+    words = ["--caustics", "on", "--width", "24", "--height", "24", "--samples", "16"]
+    assert main(["render", "cornell", *words, "-o", str(tmp_path / "a.png")]) == 0
+    assert "brought more light than a pixel takes at once" in capsys.readouterr().err
+
+
+def test_the_display_pass_shows_them(context: Context) -> None:
+    with rendering(ROOMS["a ball of glass"], context, **ON, particles=4.0) as renderer:
+        shown = renderer.render(32).display()
+        expected = expose_and_encode(renderer.image().radiance, 0.0, "neutral")
+    assert np.abs(shown.astype(int) - expected.astype(int)).max() <= 1
+
+
+def test_a_picture_that_goes_on_has_all_its_particles(context: Context) -> None:
+    """Whether it was looked at before or not, and after a restart."""
+    with rendering(ROOMS["a lens"], context, sampler="sobol", **ON) as renderer:
+        renderer.render(5).image()
+        image = renderer.render(40).image()
+        renderer.restart()
+        again = renderer.render(40).image()
+    assert same(image, picture(context, bounces=10))
+    assert same(image, again)
+
+
+def test_a_change_of_the_scene_leaves_nothing_behind(context: Context) -> None:
+    first, second = ROOMS["a lens"], ROOMS["tinted glass"]
+    expected = rendered(second, context, 20, **ON)
+    with rendering(first, context, **ON) as renderer:
+        renderer.render(7)
+        renderer.update(second)
+        assert same(renderer.render(20).image(), expected)
+
+
+def test_rays_lost_to_the_loop_limit_are_followed_again(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In smaller parts, to the same bits."""
+    expected = picture(context)
+    with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
+        tracer = renderer._tracer.particles
+        assert tracer
+        lost = iter([True, True])
+        monkeypatch.setattr(tracer, "_rounds", 1 << 16)
+        scene = renderer._tracer.device_scene
+        monkeypatch.setattr(type(scene), "lost_any", lambda _: next(lost, False))
+        renderer.render(16)
+        with context.gl:
+            while tracer.is_behind(renderer.samples):
+                tracer.work_on(HEADLESS, 1.0)
+        assert same(renderer.render(40).image(), expected)
+
+
+# --- refusals --------------------------------------------------------------------------------
+
+
+MANY = [sphere([0.1 * k, 0.5, -3], 0.02, "lamp") for k in range(40)]
+REFUSED: dict[str, tuple[Scene, dict[str, Any]]] = {
+    "method mis alone, not by nee": (ROOMS["a lens"], {"method": "nee"}),
+    "no sphere and no quad shines": (
+        room(disk([0, 0.9, 0], [0, -1, 0], 0.2, "lamp"), BALL),
+        {},
+    ),
+    "of 40 lamps, too many": (room(*MANY), {}),
+    "some surfaces have holes": (
+        scene_of([LAMP, BALL], {**MATERIALS, "glass": {"type": "principled", "alpha": 0.5}}),
+        {},
+    ),
+    "some glasses overlap by priority": (
+        scene_of([LAMP, BALL], {**MATERIALS, "glass": glass(priority=1)}),
+        {},
+    ),
+    "a lamp lies in tinted glass": (
+        room(sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "tinted")),
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize("reason", REFUSED)
+def test_what_particles_cannot_do_is_refused_by_name(context: Context, reason: str) -> None:
+    scene, settings = REFUSED[reason]
+    with pytest.raises(UsageError, match=reason):
+        Renderer(scene, context=context, **settings, **ON)
+
+
+def test_an_update_is_refused_likewise_and_changes_nothing(context: Context) -> None:
+    with rendering(ROOMS["a lens"], context, **ON) as renderer:
+        renderer.render(3)
+        with pytest.raises(UsageError, match="not by naive"):
+            renderer.update(method="naive")
+        assert (renderer.samples, renderer.settings.method) == (3, "mis")
+
+
+def test_a_picture_too_large_for_the_driver_is_refused(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(particle_tracer, "PIXEL", 1 << 30)
+    with pytest.raises(Exception, match="no room for the particles of 16 x 16 pixels"):
+        rendered(ROOMS["a lens"], context, 1, **ON)
+
+
+def test_cornell_keeps_its_light(context: Context) -> None:
+    size: dict[str, Any] = {"width": 32, "height": 32, "sampler": "sobol"}
+    one = rendered(load("cornell"), context, 2048, seed=1, **size)
+    other = rendered(load("cornell"), context, 512, **size, **ON)
+    assert_agree(other, one, within=0.02)

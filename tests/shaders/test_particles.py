@@ -1,0 +1,184 @@
+"""Where particles leave lamps, where they arrive on the film, and how they are weighed."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from glrt.gpu.glsl import read
+from glrt.scene.scene import Scene
+from tests.conftest import CallGlsl
+from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
+from tests.support.numerics import Array, directions
+
+ON: dict[str, Any] = {"caustics": "on"}
+MATERIALS = {"glass": glass(), "lamp": lamp(2.0), "matte": MATTE}
+FLAT = quad([-0.5, 1, -3.5], [1, 0, 0], [0, 0, 0.8], "lamp")
+ROUND = sphere([0.2, 1, -3], 0.3, "lamp")
+BALL = sphere([0.1, -0.5, -3.2], 0.4, "glass")
+FAR_BALL = sphere([-0.6, 0.1, -2.6], 0.2, "glass")
+PLACE = {"quad": [0.1, 1.0, -3.1], "sphere": [0.2, 0.7, -3.0]}
+
+
+@pytest.fixture
+def particle_files() -> str:
+    """What follows particles, without a film."""
+    return "void splat(vec2 place, vec3 radiance) {}\n" + read("integrators/particles.glsl")
+
+
+def scene(kind: str, *more: dict[str, Any]) -> Scene:
+    lamps = {"quad": FLAT, "sphere": ROUND}
+    return scene_of([lamps[kind], sphere([0, 0, -9], 1, "matte"), *more], MATERIALS)
+
+
+@pytest.mark.parametrize("kind", PLACE)
+@pytest.mark.parametrize("aimed", [0.0, 0.9])
+def test_directions_from_a_lamp_have_a_density(
+    call_glsl: CallGlsl, kind: str, aimed: float
+) -> None:
+    """Its integral over directions, with their cosine, and over the area is 1."""
+    towards = directions(400_000)
+    found = call_glsl(
+        "pdf_emission(0, p, direction, NOT_AIMED)",
+        scene=scene(kind, BALL, FAR_BALL),
+        options={**ON, "aimed": aimed},
+        direction=towards,
+        p=np.array([PLACE[kind]]),
+    ).astype(np.float64)
+    out = np.array([0, -1.0, 0]) if kind == "sphere" else np.array([0, 1.0, 0])
+    cosine = towards @ out
+    cosine = np.maximum(cosine, 0) if kind == "sphere" else np.abs(cosine)
+    area = 4 * np.pi * 0.3**2 if kind == "sphere" else 0.8
+    total = 4 * np.pi * area * found * cosine / np.pi
+    assert abs(total.mean() - 1) < 5 * total.std() / np.sqrt(total.size)
+    assert total.std() / np.sqrt(total.size) < 0.02
+
+
+def test_no_particle_leaves_a_ball_inwards(call_glsl: CallGlsl) -> None:
+    towards = directions(1000)
+    found = call_glsl(
+        "pdf_emission(0, p, direction, NOT_AIMED)",
+        scene=scene("sphere", BALL),
+        options=ON,
+        direction=towards,
+        p=np.array([PLACE["sphere"]]),
+    )
+    assert ((found > 0) == (towards[:, 1] < 0)).all()
+
+
+def test_lamps_are_chosen_as_their_density_says(call_glsl: CallGlsl) -> None:
+    """A quad and a ball share what particles leave; a disk, ten times as bright, has none."""
+    disk = {"shape": "disk", "center": [0, 2, -3], "normal": [0, -1, 0], "radius": 5}
+    place = scene_of([ROUND, FLAT, disk | {"material": "lamp"}, BALL], MATERIALS)
+    u = (np.arange(4096) + 0.5) / 4096
+    chosen = call_glsl("choose_emitter(u)", returns="int", scene=place, options=ON, u=u)
+    assert set(chosen.tolist()) == {0, 1}
+    points = {0: PLACE["sphere"], 1: PLACE["quad"]}
+    areas = {0: 4 * np.pi * 0.3**2, 1: 2 * 0.8}
+    for number, point in points.items():
+        told = call_glsl(
+            "pdf_emission(n, p, vec3(0.0, -1.0, 0.0), NOT_AIMED)",
+            scene=place,
+            options={**ON, "aimed": 0.0},
+            n=np.array([number], np.int32),
+            p=np.array([point]),
+        )
+        assert abs((chosen == number).mean() - told[0] * areas[number]) < 1e-3
+
+
+def test_rays_from_the_camera_have_a_density(call_glsl: CallGlsl) -> None:
+    """Over the solid angle of the film its integral is 1."""
+    towards = directions(400_000)
+    place = scene("quad")
+    density = call_glsl("pdf_camera(d)", scene=place, options=ON, d=towards).astype(np.float64)
+    tan_y = np.tan(np.radians(place.camera.fov) / 2)
+    inside = (towards[:, 2] < 0) & (np.abs(towards[:, :2]).max(axis=1) < -tan_y * towards[:, 2])
+    total = 4 * np.pi * density * inside
+    assert abs(total.mean() - 1) < 5 * total.std() / np.sqrt(total.size)
+    assert total.std() / np.sqrt(total.size) < 0.01
+
+
+@pytest.mark.parametrize("angle", [0.0, 7.0])
+def test_a_particle_arrives_where_the_camera_looks(
+    call_glsl: CallGlsl, particle_files: str, angle: float
+) -> None:
+    """The place on the film of a ray from the camera, met the other way round."""
+    place = scene_of([FLAT, BALL], MATERIALS, {"defocus_angle": angle, "focus_distance": 2.5})
+    pixels = np.random.default_rng(3).integers(0, 64, (2000, 2)).astype(np.float64)
+    found = call_glsl(
+        "place_on_film(ray.direction, lens)",
+        returns="vec2",
+        functions=particle_files,
+        scene=place,
+        options={**ON, "width": 64, "height": 64},
+        setup="""
+    precise Sampler rng = make_sampler(uint(i) * 9781u);
+    precise Sampler again = rng;
+    precise Ray ray = camera_ray(frame.camera, vec2(frame.size), pixel, rng);
+    precise vec2 jitter = next_2d(again);
+    precise vec2 lens = vec2(0.0);
+    if (HAS_LENS) lens = sample_disk(next_2d(again));""",
+        pixel=pixels,
+    )
+    inside = (found >= pixels - 1e-3) & (found <= pixels + 1 + 1e-3)
+    assert inside.all()
+
+
+def test_the_three_ways_share_all_light(call_glsl: CallGlsl) -> None:
+    """Their weights add up to 1, whatever their densities are to each other."""
+    random = np.random.default_rng(8)
+    kappa, rho, scattered = (10.0 ** random.uniform(-3, 3, 5000) for _ in range(3))
+    weights = [
+        "emission_beside_particles(ray, Hit(1.5, 0), 0, kappa, rho)",
+        "sample_beside_particles(light, scattered, rho)",
+        "particle_weight(rho / pdf_emission(0, p, -ray.direction, NOT_AIMED), kappa)",
+    ]
+    setup = """
+    precise vec3 p = vec3(0.1, 1.0, -3.1);
+    precise vec3 towards = normalized(vec3(0.1, 1.0, 0.2));
+    precise Ray ray = Ray(p - 1.5 * towards, towards, NO_SHAPE, false);
+    LightSample light = LightSample(ray, 1.5, kappa * scattered, vec3(0.0), 0, 0, 0);"""
+    inputs = {"kappa": kappa, "rho": rho, "scattered": scattered}
+    shares = [
+        call_glsl(weight, scene=scene("quad", BALL), options=ON, setup=setup, **inputs)
+        for weight in weights
+    ]
+    assert_allclose(np.sum(shares, axis=0), 1, rtol=2e-6)
+    assert all((share > 0.5).sum() > 100 for share in shares)
+
+
+def starts(call_glsl: CallGlsl, files: str, place: Scene, what: str, kind: str) -> Array:
+    return call_glsl(
+        what,
+        returns=kind,
+        functions=files,
+        scene=place,
+        options={**ON, "aimed": 0.5},
+        setup="""
+    precise Sampler rng = make_sampler(uint(i) * 9781u + 7u);
+    precise Particle particle = start_particle(rng);""",
+        n=np.zeros(200_000),
+    )
+
+
+@pytest.mark.parametrize("kind", PLACE)
+def test_particles_carry_the_flux_of_their_lamp(
+    call_glsl: CallGlsl, particle_files: str, kind: str
+) -> None:
+    """The mean of what they weigh, where only half of them follow the cosine: pi L A a side."""
+    place = scene(kind, BALL, FAR_BALL)
+    power = starts(call_glsl, particle_files, place, "particle.power.x + 0.0 * n", "float")
+    area = 4 * np.pi * 0.3**2 if kind == "sphere" else 2 * 0.8
+    flux = np.pi * 2.0 * area
+    assert abs(power.mean() - flux) < 5 * power.std() / np.sqrt(power.size)
+    assert power.std() / np.sqrt(power.size) < 0.02 * flux
+
+
+def test_half_of_the_particles_are_aimed(call_glsl: CallGlsl, particle_files: str) -> None:
+    """At either ball a quarter, beside those that go there by the cosine."""
+    place = scene("quad", BALL, FAR_BALL)
+    hit = "float(closest_hit(particle.path.ray).shape) + 0.0 * n"
+    shapes = starts(call_glsl, particle_files, place, hit, "float")
+    for number in (1, 2):
+        assert (shapes == number).mean() > 0.24
