@@ -20,6 +20,7 @@ from bench.shader_edits import Edit, edited
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
+from glrt.methods.particles import refusal
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -38,6 +39,9 @@ SWITCHES = {
     "no roulette": Way({"roulette": False}),
     "nee": Way({"method": "nee"}),
     "naive": Way({"method": "naive"}),
+    "particles": Way({"caustics": "on"}),
+    "few particles": Way({"caustics": "on", "particles": 0.1, "aimed": 0.98}),
+    "many particles": Way({"caustics": "on", "particles": 1.0, "aimed": 0.2}),
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
 SAMPLES = 32  # per pixel of a run: two blocks of Sobol' points
@@ -95,8 +99,12 @@ def measure(
 def measure_scene(
     context: Context, name: str, scene: Scene, size: int, rounds: int, ways: Mapping[str, Way]
 ) -> list[Row]:
-    """The same for any scene; `name` is its name in the rows."""
-    runs = {label: Runs(renderer_of(scene, way, size, context)) for label, way in ways.items()}
+    """The same for any scene; `name` is its name in the rows. Refused variants are left out."""
+    runs = {
+        label: Runs(renderer_of(scene, way, size, context))
+        for label, way in ways.items()
+        if not refusal(scene, settings_for(scene.render, **way.settings))
+    }
     for number in range(rounds + 1):  # the first one is warm-up
         for place, one in enumerate(runs.values()):
             one.add(seed=1 + number * len(runs) + place)

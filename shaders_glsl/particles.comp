@@ -25,19 +25,23 @@ void add_words(int at, float units) {
     if (more > 0u) atomicAdd(words[at + 1], more);
 }
 
-// Adds radiance to the pixel at a place of the frame, in pixels.
-void splat(vec2 place, vec3 radiance) {
-    ivec2 crop = imageSize(source_mean);
-    ivec2 pixel = ivec2(floor(place)) - frame.origin;
-    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, crop))) return;
+// Adds radiance to a pixel of the crop.
+void add_to_pixel(ivec2 pixel, vec3 radiance) {
     precise vec3 units = radiance / frame.splat_unit;
     if (!is_finite(units)) {
         atomicAdd(refused, 1u);
         return;
     }
     if (any(greaterThan(units, vec3(MOST)))) atomicAdd(clipped, 1u);
-    int at = 6 * (pixel.y * crop.x + pixel.x);
+    int at = 6 * (pixel.y * imageSize(source_mean).x + pixel.x);
     for (int i = 0; i < 3; i += 1) add_words(at + 2 * i, min(floor(units[i] + 0.5), MOST));
+}
+
+// Adds radiance to the pixel at a place of the frame, in pixels.
+void splat(vec2 place, vec3 radiance) {
+    ivec2 pixel = ivec2(floor(place)) - frame.origin;
+    bool is_outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, imageSize(source_mean)));
+    if (!is_outside && !COUNT_RAYS) add_to_pixel(pixel, radiance);
 }
 
 #include "integrators/particles.glsl"
@@ -45,5 +49,6 @@ void splat(vec2 place, vec3 radiance) {
 void main() {
     int group = frame.first_tile + int(gl_WorkGroupID.x);
     int lost = add_particles(64 * group + int(gl_LocalInvocationIndex));
+    if (COUNT_RAYS) add_to_pixel(ivec2(0), vec3(rays_so_far * frame.particles));  // a mean over the frame
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
 }

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.methods.features import needs_of
+from glrt.methods.particles import casters_of, refusal
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
@@ -32,6 +33,7 @@ def variants_of(
     named = [(method, {"method": method}) for method in methods]
     if leads:
         named += _variants_of_lead(settings)
+        named += _with_particles(scene, settings)
     found: dict[Any, Variant] = {}
     for name, changes in named:
         wanted = settings_for(settings, **changes)
@@ -41,6 +43,13 @@ def variants_of(
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
+    """A variant with particles, where there is smooth glass or metal to aim them at."""
+    changes: dict[str, Any] = {"method": LEAD, "caustics": "on"}
+    if casters_of(scene) and not refusal(scene, settings_for(settings, **changes)):
+        yield f"{LEAD}, particles", changes
 
 
 def _variants_of_lead(settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:

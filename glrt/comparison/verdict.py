@@ -28,6 +28,7 @@ Flags = NDArray[np.bool_]
 LEAST = 1e-9  # of alpha and bias
 HEAVY = 0.5  # of the noise in pixels that met rare light: a picture's errors are not believed
 SLACK = 1.1  # the standard errors of another renderer may be a tenth off: the spread allows it
+ITS_NOISE = ("method", "roulette", "sampler", "caustics", "particles", "aimed")  # settings of a way
 
 
 def compare(
@@ -112,7 +113,7 @@ def _same_method(image: Image, reference: Image) -> bool:
     if not (image.recipe and reference.recipe):
         return False
     a, b = image.recipe.settings, reference.recipe.settings
-    return (a.method, a.roulette, a.sampler) == (b.method, b.roulette, b.sampler)
+    return all(getattr(a, name) == getattr(b, name) for name in ITS_NOISE)
 
 
 def _compared(

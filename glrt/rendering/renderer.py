@@ -107,7 +107,7 @@ class Renderer:
             raise UsageError(f"Part {self._part} has {self.wanted_samples} samples, not {samples}.")
 
     def lacks(self, samples: int) -> bool:
-        """Whether the picture has fewer samples, or an AOV fewer than the picture."""
+        """Whether the picture has fewer samples, or particles or an AOV fewer than the picture."""
         return self.samples < samples or self._tracer.is_behind
 
     @property
@@ -234,7 +234,7 @@ class Renderer:
         """
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
-        while self.samples < target:
+        while self.lacks(target):
             self._work(target - self.samples, HEADLESS)
             if goes_on and not goes_on(self):
                 break

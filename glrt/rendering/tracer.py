@@ -192,6 +192,8 @@ class Tracer:
         target = self.film.samples + samples
         while self.film.samples < target:
             self._at_once(min(self.most_samples, target - self.film.samples))
+        while self._lacks_particles:
+            self._work_behind(HEADLESS, math.inf)
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
         """One dispatch: of what is behind, else one that the schedule of the picture plans.

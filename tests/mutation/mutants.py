@@ -13,6 +13,7 @@ from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
+from tests.mutation.particles import PARTICLES
 from tests.mutation.principled import PRINCIPLED
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
@@ -23,6 +24,7 @@ from tests.mutation.transport import TRANSPORT
 MUTANTS = [
     *TRANSPORT,
     *PRINCIPLED,
+    *PARTICLES,
     *SHAPES,
     *MESHES,
     *INSTANCES,

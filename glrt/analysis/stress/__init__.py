@@ -10,6 +10,7 @@ Modules, each importing only what stands above it:
 - lamps: small lamps, many lamps, a lamp below a ceiling
 - spots: edges of cones, one spot among many
 - glass: refraction and caustics
+- particles: a caustic of a lamp of any size
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass keeps, a lamp inside it
 - plastic: the light that white plastic keeps

@@ -3,6 +3,7 @@
 from glrt.analysis.stress import (
     glass,
     lamps,
+    particles,
     plastic,
     rays,
     rough_glass,
@@ -32,6 +33,7 @@ _ALL = (
     Case("ceiling", "A lamp just below a ceiling", lamps.ceiling),
     Case("bulb", "A small lamp inside a glass sphere", glass.bulb),
     Case("caustic", "A glass sphere and a small lamp", glass.caustic),
+    Case("focus", "A caustic of a lamp of any size", particles.focused),
     Case("fireflies", "The brightest samples of a caustic", glass.fireflies),
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),

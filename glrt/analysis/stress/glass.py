@@ -123,16 +123,21 @@ def bulb_light(radius: float, in_glass: bool) -> float:
     return 2 * WALL / INDEX**2 * integral
 
 
+METHODS = ("mis", "nee", "naive")
+
+
 def caustic(lab: Lab) -> Sweep:
     """Error of a caustic against a render of many samples, by number of samples."""
     x = [4**power for power in range(1, 7) if 4**power <= lab.count(4096, 256)]
     scene = CASES["caustic"].scene
     size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": CASES["caustic"].bounces}
     reference = lab.render(scene, 4 * x[-1], method="mis", seed=1, **size)
-    errors: dict[str, list[float]] = {"mis": [], "nee": [], "naive": []}
+    ways: dict[str, dict[str, Any]] = {method: {"method": method} for method in METHODS}
+    ways["mis, particles"] = {"method": "mis", "caustics": "on"}
+    errors: dict[str, list[float]] = {name: [] for name in ways}
     estimates, wrong = [], []
-    for method, found in errors.items():
-        with lab.rendering(scene, method=method, **size) as renderer:
+    for (method, way), found in zip(ways.items(), errors.values(), strict=True):
+        with lab.rendering(scene, **way, **size) as renderer:
             for samples in x:
                 image = renderer.render(samples).image()
                 difference = image.radiance - reference.radiance
