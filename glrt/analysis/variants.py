@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.methods.features import needs_of
-from glrt.methods.particles import casters_of, refusal
+from glrt.methods.particles import caster_bits, refusal
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
@@ -48,7 +48,7 @@ def variants_of(
 def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
     """A variant with particles, where there is smooth glass or metal to aim them at."""
     changes: dict[str, Any] = {"method": LEAD, "caustics": "on"}
-    if casters_of(scene) and not refusal(scene, settings_for(settings, **changes)):
+    if caster_bits(scene) and not refusal(scene, settings_for(settings, **changes)):
         yield f"{LEAD}, particles", changes
 
 

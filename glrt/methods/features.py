@@ -9,7 +9,7 @@ from glrt.methods.contents import (
     Contents,
     contents_of,
 )
-from glrt.methods.particles import casters_of
+from glrt.methods.particles import caster_bits
 from glrt.methods.table import METHODS
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
@@ -74,7 +74,7 @@ class Needs:
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
     has_particles: bool  # from lamps, linked to the camera
-    casters: int  # smooth spheres at which some of them are aimed
+    casters: int  # smooth spheres at which some of them are aimed: a bit for each
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
@@ -160,7 +160,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         weight_both=(is_lit or is_pictured or has_sun) and traits.weights_both,
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
         has_particles=follows_particles,
-        casters=len(casters_of(scene)) if follows_particles and settings.aimed else 0,
+        casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,

@@ -13,6 +13,7 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import Quad, Sphere
 from glrt.settings import Settings
 
+BITS = 31  # of a number in the shaders that stand for spheres
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 
@@ -32,10 +33,15 @@ def emitters_of(scene: Scene) -> list[Object]:
     return [thing for thing in flat if is_sampled(scene.materials[thing.material])]
 
 
-def casters_of(scene: Scene) -> list[Sphere]:
-    """The spheres of smooth glass or metal, at which particles can be aimed."""
-    spheres = (thing for thing in scene.visible if isinstance(thing, Sphere))
-    return [sphere for sphere in spheres if _is_smooth(scene.materials[sphere.material])]
+def caster_bits(scene: Scene) -> int:
+    """The spheres of smooth glass or metal, at which particles can be aimed: a bit for each.
+
+    By its number among the spheres. Those beyond bit 30 are left out, and all where there are so
+    many that rays find them by a tree.
+    """
+    spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
+    known = [] if contents_of(scene).has_sphere_tree else spheres[:BITS]
+    return sum(1 << n for n, it in enumerate(known) if _is_smooth(scene.materials[it.material]))
 
 
 def _is_smooth(material: Material) -> bool:

@@ -50,10 +50,11 @@ Particle start_particle(precise inout Sampler rng) {
     precise vec3 direction = normalized(frame_around(leaving.normal) * sample_cosine_hemisphere(v));
     bool is_front = leaving.is_front;
     int aim = NOT_AIMED;
-    if (CASTERS > 0) {
+    if (CASTERS != 0) {
+        int casters = bitCount(CASTERS);
         precise vec2 pick = next_2d(rng);
         if (pick.x < frame.aimed) {
-            aim = caster(min(int(pick.y * float(CASTERS)), CASTERS - 1));
+            aim = caster(min(int(pick.y * float(casters)), casters - 1));
             direction = direction_to(sphere_at(aim), leaving.position, v);
             if (!is_of_sphere(light)) is_front = dot(direction, quad_of(light).normal) > 0.0;
         }
@@ -69,11 +70,11 @@ Particle start_particle(precise inout Sampler rng) {
 
 // The place on the film, in pixels of the frame, of a ray that reaches the camera at a place on the lens.
 vec2 place_on_film(vec3 direction, vec2 lens) {
-    Camera camera = frame.camera;
-    precise vec3 d = direction / dot(direction, camera.forward);
-    precise float x = dot(d, camera.right) + camera.tan_lens * lens.x;
-    precise float y = dot(d, camera.up) + camera.tan_lens * lens.y;
-    precise vec2 place = 0.5 * vec2(x / camera.tan_x + 1.0, 1.0 - y / camera.tan_y) * vec2(frame.size);
+    precise vec3 d = direction / dot(direction, frame.camera.forward);
+    precise float x = dot(d, frame.camera.right) + frame.camera.tan_lens * lens.x;
+    precise float y = dot(d, frame.camera.up) + frame.camera.tan_lens * lens.y;
+    precise vec2 share = vec2(x / frame.camera.tan_x + 1.0, 1.0 - y / frame.camera.tan_y);
+    precise vec2 place = 0.5 * share * vec2(frame.size);
     return place;
 }
 

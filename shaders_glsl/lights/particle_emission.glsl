@@ -1,6 +1,7 @@
 // Particles leave lamps that are spheres or quads, where HAS_PARTICLES. A lamp is chosen by its share of the
 // flux, a point evenly over its area, a direction by the cosine; or, of a share `frame.aimed` of the particles,
-// a direction evenly over the cone that a smooth sphere fills: these make caustics. CASTERS: how many there are.
+// a direction evenly over the cone that a smooth sphere fills: these make caustics. CASTERS: a bit for each of
+// those spheres, by its number.
 
 const int NOT_AIMED = -1;
 
@@ -30,28 +31,25 @@ int choose_emitter(float u) {
     return chosen;
 }
 
-bool is_caster(Sphere sphere) {
-    return is_delta(material_at(sphere.material));
-}
-
-// Whether a ray from a point is aimed at a sphere; `drop`: 1 - cos of the cone that this fills from there.
-bool is_aimed_at(vec3 away, vec3 direction, float drop) {
-    precise vec3 aside = direction - normalized(away);
-    return 0.5 * dot(aside, aside) <= drop;
-}
+bool is_caster(int sphere) { return (CASTERS >> sphere & 1) != 0; }
 
 // Density per solid angle of directions aimed at smooth spheres from p; `certain`: the sphere that one was aimed
-// at, which rounding may have taken past its rim.
+// at, which rounding may have taken past its rim. Over a cone it is 1 / (2 PI (1 - cos)), written without the
+// difference.
 float pdf_aimed(vec3 p, vec3 direction, int certain) {
     precise float sum = 0.0;
     for (int i = 0; i < sphere_count(); ++i) {
+        if (!is_caster(i)) continue;
         precise Sphere sphere = sphere_at(i);
-        if (!is_caster(sphere)) continue;
         precise vec3 away = sphere.center - p;
-        precise float drop = cone_of_sphere(away, sphere.radius);
-        if (drop > 0.0 && (i == certain || is_aimed_at(away, direction, drop))) sum += 0.5 / (PI * drop);
+        precise float along = dot(away, direction);
+        precise vec3 beside = away - along * direction;
+        precise float d2 = dot(away, away);
+        precise float r2 = sphere.radius * sphere.radius;
+        bool meets = i == certain || along > 0.0 && dot(beside, beside) < r2;
+        if (meets && d2 > r2) sum += (d2 + sqrt(d2 * (d2 - r2))) / r2;
     }
-    precise float pdf = sum / float(CASTERS);
+    precise float pdf = sum * (0.5 / (PI * float(bitCount(CASTERS))));
     return pdf;
 }
 
@@ -59,7 +57,7 @@ float pdf_aimed(vec3 p, vec3 direction, int certain) {
 int caster(int n) {
     int left = n;
     for (int i = 0; i < sphere_count(); ++i) {
-        if (!is_caster(sphere_at(i))) continue;
+        if (!is_caster(i)) continue;
         if (left == 0) return i;
         left -= 1;
     }
@@ -89,7 +87,7 @@ float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
         has_two_sides = true;
     }
     precise float by_angle = has_two_sides ? 0.5 : 1.0;
-    if (CASTERS > 0) {
+    if (CASTERS != 0) {
         precise float aimed = frame.aimed * PI * pdf_aimed(p, direction, certain);
         by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(cosine, LEAST_COSINE);
     }

@@ -13,7 +13,7 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, files_anew, read, shader_files
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.rendering.passes import aov_pass
+from glrt.rendering.passes import PARTICLES, SPLATS, RenderPass, aov_pass
 from glrt.rendering.pipelines import sources
 from glrt.resources import folder
 from glrt.settings import Aov
@@ -180,6 +180,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
         "integrators/aov_numbers.glsl",
         *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag"),
+        *("particles.comp", "splats.comp", "integrators/particles.glsl"),
         "trace.comp",
         "passes/tiles.glsl",
         "passes/tonemap.glsl",
@@ -233,6 +234,19 @@ def test_aovs_compile_without_a_warning(
     assert warnings((COMPUTE, compute.text)) == []
     vertex, fragment = sources("fragment", constants, WRITTEN, aov_pass(aovs))
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
+
+
+@pytest.mark.parametrize("render_pass", [PARTICLES, SPLATS], ids=["followed", "added"])
+@pytest.mark.parametrize("features", ["everything", "nothing"])
+def test_particles_compile_without_a_warning(
+    ctx: moderngl.Context, features: str, render_pass: RenderPass
+) -> None:
+    assert ctx.version_code >= 430
+    constants = {**FEATURE_SETS[features], "CASTERS": 5}
+    (compute,) = sources("compute", constants, WRITTEN, render_pass)
+    assert imprecise(compute.text) == []
+    assert computed_returns(compute.text) == []
+    assert warnings((COMPUTE, compute.text)) == []
 
 
 def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:

@@ -14,7 +14,7 @@ PARTICLES = [
     Mutant(
         "the cosine of the splat is missing",
         edit(_WEIGHTS, "pdf_camera(direction) * cosine / (", "pdf_camera(direction) / ("),
-        f"{_LIGHT}[a ball of glass]",
+        _LIGHT,
     ),
     Mutant(
         "the density of the film forgets a cosine",
@@ -58,36 +58,40 @@ PARTICLES = [
     Mutant(
         "a path that particles bring is counted by the camera, too",
         edit(_PATH, "if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface);", ""),
-        f"{_LIGHT}[a ball of glass]",
+        _LIGHT,
     ),
     Mutant(
         "the camera leaves to particles what they do not scatter at",
         edit(_PATH, "    if (!carries_particles(vertex.material)) return 0.0;\n", ""),
-        f"{_LIGHT}[what particles end at]",
+        _LIGHT,
     ),
     Mutant(
         "the camera leaves to particles what it sees in a mirror",
         edit(_PATH, "    if (is_delta(vertex.material)) return 0.0;\n", ""),
-        f"{_LIGHT}[a round lamp and a mirror]",
+        _LIGHT,
     ),
     Mutant(
         "the colour of the surface that is linked is missing",
         edit(_PARTICLES, "flux * (vertex.material.color / PI)", "flux * (vec3(0.5) / PI)"),
-        f"{_LIGHT}[a ball of glass]",
+        _LIGHT,
     ),
     Mutant(
         "light to the camera is not absorbed by glass on the way",
         edit(_PARTICLES, "absorb(self.path, material, side < 0.0, hit.distance);", ";"),
-        f"{_LIGHT}[tinted glass]",
+        _LIGHT,
     ),
     Mutant(
         "particles pass what stands before the camera",
         edit(_PARTICLES, "|| occluded(ray, distance, NO_SHAPE)", ""),
-        f"{_LIGHT}[a ball of glass]",
+        _LIGHT,
     ),
     Mutant(
         "particles are put onto the film without regard to the lens",
-        edit(_PARTICLES, "dot(d, camera.right) + camera.tan_lens * lens.x", "dot(d, camera.right)"),
+        edit(
+            _PARTICLES,
+            "dot(d, frame.camera.right) + frame.camera.tan_lens * lens.x",
+            "dot(d, frame.camera.right)",
+        ),
         f"{_SHADERS}::test_a_particle_arrives_where_the_camera_looks",
     ),
     Mutant(

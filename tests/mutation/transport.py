@@ -141,8 +141,8 @@ TRANSPORT = [
         "sampled light is weighed by the density of scattering",
         edit(
             "integrators/path.glsl",
-            "power_heuristic(light.pdf, pdf_material(vertex, wi))",
-            "power_heuristic(pdf_material(vertex, wi), light.pdf)",
+            "return power_heuristic(light.pdf, scattered);",
+            "return power_heuristic(scattered, light.pdf);",
         ),
         "truths/test_furnace.py::test_both_weighted_count_a_box_of_lamps_once",
     ),

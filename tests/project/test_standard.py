@@ -10,7 +10,7 @@ import pytest
 
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.struct_arrays import MOST_UNIFORM_BYTES
-from glrt.rendering.passes import Resolved, aov_pass
+from glrt.rendering.passes import PARTICLES, SPLATS, Resolved, aov_pass
 from glrt.rendering.pipelines import Tier, sources
 from glrt.settings import Aov
 from tests.support.builders import EVERYTHING, FEATURE_SETS
@@ -82,6 +82,13 @@ def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
         for shader in sources(pipeline, EVERYTHING, written_for(), aov_pass(aovs))
     ]
     assert [line for shader in shaders for line in objections(shader)] == []
+
+
+def test_particles_are() -> None:
+    constants = {**EVERYTHING, "CASTERS": 5}
+    for render_pass in (PARTICLES, SPLATS):
+        (shader,) = sources("compute", constants, written_for(), render_pass)
+        assert list(objections(shader)) == []
 
 
 @pytest.mark.parametrize("pipeline", PIPELINES)

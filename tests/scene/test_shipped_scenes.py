@@ -102,10 +102,10 @@ def test_the_weekend_has_some_480_small_balls_and_three_large_ones() -> None:
 METHOD_SCENES = sorted((folder("scenes") / "methods").glob("*.toml"))
 
 
-def test_eleven_scenes_separate_the_methods_before_one_camera() -> None:
+def test_twelve_scenes_separate_the_methods_before_one_camera() -> None:
     scenes = [load(f"methods/{file.stem}") for file in METHOD_SCENES]
-    assert len(scenes) == 11
-    assert len({scene.title for scene in scenes} - {None}) == 11
+    assert len(scenes) == 12
+    assert len({scene.title for scene in scenes} - {None}) == 12
     assert len({scene.camera for scene in scenes}) == 1
     assert not {file.stem for file in METHOD_SCENES} & set(scene_names()), "out of the gallery"
     for scene in scenes:
