@@ -99,7 +99,7 @@ class Settings(RenderSettings):
         "matte surfaces and weighted with the paths from the camera: less noise where light comes "
         "through glass or by mirrors",
     )
-    particles: Annotated[float, Editable(Cost.RESTART, "a sample", (0.02, 2))] = Field(
+    particles: Annotated[float, Editable(Cost.RESTART, "", (0.02, 2))] = Field(
         0.25, description="particles from lamps for each sample of a pixel", ge=0.01, le=16
     )
     aimed: Annotated[float, Editable(Cost.RESTART, "", (0, 0.98))] = Field(

@@ -242,7 +242,9 @@ class Done(NamedTuple):
     def dropped(self) -> int:
         """Samples that were not finite."""
         state = self.image.film_state
-        return int(state.dropped.sum(dtype=float)) if state else self.renderer.nonfinite()
+        if state is None:
+            return self.renderer.nonfinite()
+        return int(state.dropped.sum(dtype=float)) + self.renderer.lost_particles.refused
 
 
 def _tell(arguments: argparse.Namespace, done: Done) -> None:
@@ -266,7 +268,9 @@ def _tell(arguments: argparse.Namespace, done: Done) -> None:
                 "loop limit. If there are many, the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
-    doubts = [] if arguments.quiet else [clipped(renderer.clipped()), doubt(done.image)]
+    doubts = (
+        [] if arguments.quiet else [clipped(renderer.lost_particles.clipped), doubt(done.image)]
+    )
     for text in filter(None, doubts):
         print(f"glrt: caution: {text}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):

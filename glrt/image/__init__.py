@@ -5,6 +5,7 @@ Modules, each importing only what stands above it:
 - tonemap: from radiance to the colours of a screen
 - aovs: AOVs of a picture, in channels of a file
 - film_state: what a film holds beside its mean, in channels of a file
+- particle_film: a picture as the sum of two films, in channels of a file
 - partition: a render in parts
 - recipe: what made a picture, as JSON
 - image: a picture and its files: EXR, PNG, NPY

@@ -13,9 +13,10 @@ from glrt import files
 from glrt.error.estimate import relative_error
 from glrt.error.reliability import is_doubtful
 from glrt.errors import SceneError, UsageError
-from glrt.image import aovs
+from glrt.image import aovs, particle_film
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels
+from glrt.image.particle_film import ParticleFilm
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
 from glrt.settings import Aov, Settings, ToneMap
@@ -37,9 +38,9 @@ class Image:
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
-    recipe. `film_state` is what a render needs to continue from it, if that is known. `aovs` are
-    those that the settings asked for, by name. Raises ValueError for arrays of another shape or
-    type.
+    recipe. `film_state` is what a render needs to continue from it, if that is known; `particles`
+    are the two films of which a picture with particles is the sum. `aovs` are those that the
+    settings asked for, by name. Raises ValueError for arrays of another shape or type.
     """
 
     radiance: Pixels
@@ -48,6 +49,7 @@ class Image:
     recipe: Recipe | None = None
     film_state: FilmState | None = None
     aovs: AovImages = field(default_factory=dict)
+    particles: ParticleFilm | None = None
 
     def __post_init__(self) -> None:
         for pixels in (self.radiance, self.stderr):
@@ -122,7 +124,8 @@ class Image:
             return cls(radiance, stderr, 0)
         film = from_channels(channels, stderr, recipe.samples, recipe.settings.block)
         found = aovs.from_channels(channels, recipe.settings.aov)
-        return cls(radiance, stderr, recipe.samples, recipe, film, found)
+        two = particle_film.from_channels(channels, radiance.shape[:2])
+        return cls(radiance, stderr, recipe.samples, recipe, film, found, two)
 
     def _write_exr(self, path: Path) -> None:
         import OpenEXR  # type: ignore[import-not-found]
@@ -134,6 +137,8 @@ class Image:
         if self.recipe and self.film_state:
             block = self.recipe.settings.block
             channels |= to_channels(self.film_state, self.stderr, self.samples, block)
+        if self.particles:
+            channels |= particle_film.to_channels(self.particles)
         channels |= aovs.to_channels(self.aovs)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}

@@ -20,6 +20,7 @@ from glrt.image.differences import (
 from glrt.image.film_state import FilmState, error_of_mean
 from glrt.image.image import Image
 from glrt.image.moments import Moments, merged
+from glrt.image.particle_film import ParticleFilm, observations_of, summed
 from glrt.image.partition import Partition
 from glrt.image.recipe import Recipe
 from glrt.settings import Settings
@@ -29,6 +30,7 @@ Recipes = Mapping[str, Recipe]  # by the names that messages call pictures
 
 _DRIVERS = ("renderer", "tier", "pipeline")  # by these, the last bits of samples may differ
 _RADIANCE = "radiance"
+_PARTICLES = "particles"
 _NOTHING = np.zeros((1, 1, 1))
 
 
@@ -65,6 +67,8 @@ def merged_image(
 
     recipe = _recipe_of([parts[name] for name in order])
     image = _image(whole(_RADIANCE), recipe)
+    if recipe.settings.caustics == "on":
+        image = _with_particles(image, whole(_PARTICLES), recipe)
     objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(_NOTHING)
     found = {a: objects if a == "object" else _aov_image(a, whole(a)) for a in aovs}
     return replace(image, aovs=found)
@@ -153,6 +157,9 @@ def _moments(name: str, image: Image, film: str) -> Moments:
     aovs = {str(aov): found for aov, found in image.aovs.items()}
     if film in aovs:
         return _aov_moments(aovs[film])
+    if film == _PARTICLES and image.particles and image.recipe:
+        count = observations_of(image.samples, image.recipe.settings.block)
+        return _particle_moments(image.particles, count)
     if film != _RADIANCE or image.film_state is None:
         raise _incomplete(name)
     return _radiance_moments(image, image.film_state)
@@ -177,12 +184,28 @@ def _radiance_moments(image: Image, state: FilmState) -> Moments:
         begun, part = _counts(state.begun), state.part.astype(np.float64)
     return Moments(
         _counts(image.samples - state.dropped),
-        image.radiance.astype(np.float64),
+        (image.particles.camera if image.particles else image.radiance).astype(np.float64),
         _counts(state.observations),
         state.variance.astype(np.float64),
         begun,
         part,
     )
+
+
+def _particle_moments(film: ParticleFilm, observations: int) -> Moments:
+    """Of what particles bring: a sample is an observation."""
+    mean, variance = film.mean.astype(np.float64), film.variance.astype(np.float64)
+    count = np.full((*mean.shape[:2], 1), observations, np.float64)
+    return Moments(count, mean, count, variance, _NOTHING, _NOTHING)
+
+
+def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
+    """The picture of the camera's film, and what particles bring to it."""
+    mean, variance = moments.mean.astype(np.float32), moments.variance.astype(np.float32)
+    film = ParticleFilm(image.radiance, mean, variance)
+    observations = observations_of(recipe.samples, recipe.settings.block)
+    radiance, stderr = summed(film, image.stderr, observations)
+    return replace(image, radiance=radiance, stderr=stderr, particles=film)
 
 
 def _aov_moments(aov: AovImage) -> Moments:

@@ -32,7 +32,8 @@ def recipe_to_resume(image: Image) -> Recipe:
         )
     if image.recipe.partition and len(image.recipe.partition.numbers) > 1:
         raise UsageError("it was merged: a plain render adds its samples in another order")
-    if image.film_state is None:
+    lacks_particles = image.recipe.settings.caustics == "on" and image.particles is None
+    if image.film_state is None or lacks_particles:
         raise UsageError(
             "it has no film state: another renderer or an older glrt wrote it, or another program "
             "saved it again"

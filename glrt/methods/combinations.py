@@ -67,7 +67,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         Way.INDEPENDENT,
     ),
-    Way.PARTICLES: (Way.CROP, Way.AOV, Way.INDEPENDENT),
+    Way.PARTICLES: (*(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.INDEPENDENT),),
     Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
@@ -79,7 +79,6 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     ),
 }
 
-_TWO_FILMS = "the picture is the sum of two films, and its file holds the sum alone"
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
 _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
@@ -87,9 +86,6 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
     frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
     frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
-    frozenset({Way.PARTICLES, Way.RESUME}): _TWO_FILMS,
-    frozenset({Way.PARTICLES, Way.PART}): _TWO_FILMS,
-    frozenset({Way.PARTICLES, Way.MERGED}): _TWO_FILMS,
     frozenset({Way.PARTICLES, Way.LAYERS}): "what particles bring is not kept by layers",
     frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",

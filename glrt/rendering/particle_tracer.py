@@ -16,7 +16,7 @@ from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
-from glrt.image.film_state import error_of_mean
+from glrt.image.particle_film import ParticleFilm, observations_of, summed
 from glrt.methods.light_layers import Plan
 from glrt.methods.particles import particle_groups
 from glrt.rendering.device_scene import DeviceScene
@@ -69,6 +69,7 @@ class ParticleTracer:
         self._schedule = Schedule(self._groups, most)
         self._begun = 0  # samples of the observation that is not complete
         self._is_cleared = False  # whether the sums hold this observation alone
+        self._lost = Losses(0, 0)
         start = time.perf_counter()
         with ExitStack() as refused:
             what = f"the particles of {size[0]} x {size[1]} pixels"
@@ -86,11 +87,12 @@ class ParticleTracer:
     def restart(self, first_sample: int) -> None:
         """Forget everything."""
         self.film.restart(first_sample)
+        self._lost = Losses(0, 0)
         self._begin()
 
     def is_behind(self, samples: int) -> bool:
         """Whether a picture of so many samples lacks an observation of particles."""
-        return self.film.samples * self._block < samples
+        return self.film.samples < observations_of(samples, self._block)
 
     def work_on(self, policy: DispatchPolicy, seconds: float) -> None:
         """One dispatch of the observation that has begun, in about `seconds`."""
@@ -110,22 +112,29 @@ class ParticleTracer:
         if self._begun == self._block:
             self._end()
 
-    def added_to(self, radiance: Array, stderr: Array) -> tuple[Array, Array]:
+    def added_to(self, radiance: Array, stderr: Array) -> tuple[Array, Array, ParticleFilm]:
         """A picture and its standard error, (H, W, 3) float32 each, with what particles bring.
 
-        The two are independent, so that their variances add.
+        And the two films apart.
         """
         height = radiance.shape[0]
-        mean, variance = (self.film.read_output(name, 0, height) for name in PARTICLES.outputs)
-        none = np.zeros_like(mean[..., :3]), np.zeros_like(mean[..., 3])
-        own = error_of_mean(mean[..., :3], variance[..., :3], variance[..., 3], *none)
-        return radiance + mean[..., :3], np.hypot(stderr, own)
+        read = (self.film.read_output(name, 0, height) for name in PARTICLES.outputs)
+        film = ParticleFilm(radiance, *(rows[..., :3].copy() for rows in read))
+        return *summed(film, stderr, self.film.samples), film
+
+    def resume(self, samples: int, film: ParticleFilm) -> None:
+        """Take up what another film has read, of a picture with so many samples."""
+        self._begin()
+        self.film.samples = observations_of(samples, self._block)
+        count = np.full((*film.mean.shape[:2], 1), self.film.samples, np.float32)
+        for name, rows in zip(PARTICLES.outputs, (film.mean, film.variance), strict=True):
+            texels = np.concatenate([rows, count], axis=2)
+            self.film.sources[name].write(np.ascontiguousarray(texels, np.float32))
 
     @property
     def losses(self) -> Losses:
         """Of all that were linked to the camera since the beginning."""
-        clipped, refused = np.frombuffer(self._sums.read(HEAD), np.uint32)
-        return Losses(int(clipped), int(refused))
+        return self._lost
 
     def release(self) -> None:
         """Free what the driver holds."""
@@ -143,6 +152,9 @@ class ParticleTracer:
             self._dispatch_fold(self._fold, part)
         self.film.advance(1)
         self._begun = 0
+        counts = np.frombuffer(self._sums.read(HEAD), np.uint32)
+        self._sums.write(bytes(HEAD))
+        self._lost = Losses(*(old + int(new) for old, new in zip(self._lost, counts, strict=True)))
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
         film = self.film

@@ -21,6 +21,7 @@ from glrt.methods.combinations import check_render
 from glrt.methods.light_layers import ONE, Layering, Weights, plan_for
 from glrt.rendering.display import displayed
 from glrt.rendering.film import Film
+from glrt.rendering.particle_tracer import Losses
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
@@ -245,14 +246,15 @@ class Renderer:
         weights = weights or self.plan.weights
         with self.context.gl:
             aovs = self._tracer.aov_images()
-            radiance, stderr, film_state = self._tracer.with_particles(mixed(self.film, weights))
-        return Image(radiance, stderr, self.samples, self._recipe(weights), film_state, aovs)
+            mean, noise, state = mixed(self.film, weights)
+            radiance, stderr, films = self._tracer.with_particles(mean, noise)
+        return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)
 
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
         film_state = fitting(image, self._recipe((ONE,)))
         with self.context.gl:
-            self._tracer.resume(image.samples, image.radiance, film_state)
+            self._tracer.resume(image.samples, image.radiance, film_state, image.particles)
         return self
 
     def display(self) -> np.ndarray[Any, Any]:
@@ -265,10 +267,10 @@ class Renderer:
         with self.context.gl:
             return self.film.dropped() + self._tracer.lost_particles.refused
 
-    def clipped(self) -> int:
-        """How many particles brought more light than a pixel's sum takes at once."""
-        with self.context.gl:
-            return self._tracer.lost_particles.clipped
+    @property
+    def lost_particles(self) -> Losses:
+        """Of the particles that were linked to the camera."""
+        return self._tracer.lost_particles
 
     def release(self) -> None:
         """Free what the driver holds, the context too unless it was given."""

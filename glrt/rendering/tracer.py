@@ -12,6 +12,7 @@ from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
+from glrt.image.particle_film import ParticleFilm
 from glrt.methods.light_layers import Plan
 from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
@@ -30,8 +31,6 @@ from glrt.rendering.schedule import (
     whole_frame,
 )
 from glrt.settings import Cost, Settings
-
-Picture = tuple[Array, Array, FilmState | None]  # radiance, its standard error, what a film kept
 
 
 class Tracer:
@@ -152,12 +151,14 @@ class Tracer:
         self.catch_up()
         return self.aovs.read(self._plan.scene)
 
-    def with_particles(self, picture: Picture) -> Picture:
-        """A picture of the film, with what particles bring to it."""
+    def with_particles(
+        self, radiance: Array, stderr: Array
+    ) -> tuple[Array, Array, ParticleFilm | None]:
+        """A picture of the film, with what particles bring to it; and the two films apart."""
         if not self.particles:
-            return picture
+            return radiance, stderr, None
         self.catch_up()
-        return *self.particles.added_to(*picture[:2]), None
+        return self.particles.added_to(radiance, stderr)
 
     @property
     def shown_particles(self) -> moderngl.Texture | None:
@@ -172,10 +173,14 @@ class Tracer:
         """Of the particles that were linked to the camera."""
         return self.particles.losses if self.particles else Losses(0, 0)
 
-    def resume(self, samples: int, mean: Array, film_state: FilmState) -> None:
+    def resume(
+        self, samples: int, mean: Array, film_state: FilmState, particles: ParticleFilm | None
+    ) -> None:
         """Take up what another film has read, by a kernel of the same tier."""
         self.switch.schedule.drop()
-        self.film.write(samples, mean, film_state)
+        self.film.write(samples, particles.camera if particles else mean, film_state)
+        if self.particles and particles:
+            self.particles.resume(samples, particles)
         self.aovs.restart(self._plan)
         self._tiers = {self.device_scene.tier}
 

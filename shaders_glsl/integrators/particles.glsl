@@ -64,7 +64,7 @@ Particle start_particle(precise inout Sampler rng) {
     path.counts = 0u;
     precise float emission = pdf_emission(index, leaving.position, direction, aim);
     precise vec3 power = vec3(0.0);
-    if (emission > 0.0) power = emitted(material_at(leaving.material), direction, is_front) * (PI / emission);
+    if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material_at(leaving.material), direction, is_front) * (PI / emission);
     return Particle(path, power, emission, 0.0, index);
 }
 

@@ -13,7 +13,7 @@ import pytest
 import glrt
 from bench.false_alarms import without_errors
 from glrt.comparison.regions import blocks
-from glrt.comparison.verdict import compare
+from glrt.comparison.verdict import _same_method, compare
 from glrt.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
@@ -273,3 +273,23 @@ def test_unknown_errors_cost_no_more_than_half_of_the_sharpness(samples: tuple[i
         unknown = compare(*pair).differences
         for a, b in zip(known, unknown, strict=True):
             assert 0.9 < (b.high - b.low) / (a.high - a.low) < 2
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"method": "nee"},
+        {"roulette": False},
+        {"sampler": "independent"},
+        {"caustics": "on"},
+        {"particles": 1.0},
+        {"aimed": 0.9},
+    ],
+    ids=str,
+)
+def test_pictures_of_other_noise_are_not_taken_as_alike(change: dict[str, Any]) -> None:
+    """So that neither's standard errors are held against the spread of the other."""
+    plain = replace(noisy("smooth", 64, 1), recipe=recipe())
+    other = replace(noisy("smooth", 64, 2), recipe=recipe(**change))
+    assert _same_method(plain, plain)
+    assert not _same_method(plain, other)

@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 
 from glrt.cli.main import main
-from glrt.errors import UsageError
+from glrt.errors import RenderError, UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering import pack, particle_tracer
+from glrt.rendering.device_scene import DeviceScene
+from glrt.rendering.particle_tracer import ParticleTracer
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.schedule import HEADLESS, Schedule
+from glrt.rendering.schedule import DispatchRange, Schedule
 from glrt.scene.scene import Scene
 from tests.support.builders import box_of_quads, disk, glass, lamp, quad, scene_of, sphere
 from tests.support.images import same_bits
@@ -177,7 +179,7 @@ def test_light_beyond_a_sum_is_cut_and_told(
     monkeypatch.setattr(pack, "UNIT_BITS", 70)
     with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
         image = renderer.render(40).image()
-        assert renderer.clipped() > 10
+        assert renderer.lost_particles.clipped > 10
     assert image.radiance.mean() < expected.radiance.mean()
     assert np.isfinite(image.radiance).all()
 
@@ -226,15 +228,19 @@ def test_rays_lost_to_the_loop_limit_are_followed_again(
     with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
         tracer = renderer._tracer.particles
         assert tracer
-        lost = iter([True, True])
+        sizes = [0]
+        plain = ParticleTracer._dispatch
+
+        def dispatch(self: ParticleTracer, kernel: Any, part: DispatchRange) -> None:
+            sizes.append(part.samples)
+            plain(self, kernel, part)
+
+        lost = iter([True, True])  # of two dispatches that can be made smaller
+        monkeypatch.setattr(ParticleTracer, "_dispatch", dispatch)
         monkeypatch.setattr(tracer, "_rounds", 1 << 16)
-        scene = renderer._tracer.device_scene
-        monkeypatch.setattr(type(scene), "lost_any", lambda _: next(lost, False))
-        renderer.render(16)
-        with context.gl:
-            while tracer.is_behind(renderer.samples):
-                tracer.work_on(HEADLESS, 1.0)
+        monkeypatch.setattr(DeviceScene, "lost_any", lambda _: sizes[-1] > 1 and next(lost, False))
         assert same(renderer.render(40).image(), expected)
+        assert next(lost, None) is None
 
 
 # --- refusals --------------------------------------------------------------------------------
@@ -282,7 +288,7 @@ def test_a_picture_too_large_for_the_driver_is_refused(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(particle_tracer, "PIXEL", 1 << 30)
-    with pytest.raises(Exception, match="no room for the particles of 16 x 16 pixels"):
+    with pytest.raises(RenderError, match="no room for the particles of 16 x 16 pixels"):
         rendered(ROOMS["a lens"], context, 1, **ON)
 
 

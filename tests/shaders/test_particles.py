@@ -175,6 +175,18 @@ def test_particles_carry_the_flux_of_their_lamp(
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
 
 
+def test_a_lamp_inside_a_ball_aims_none_at_it(call_glsl: CallGlsl, particle_files: str) -> None:
+    """From in there it fills no cone: those that were to be aimed carry nothing."""
+    place = scene("quad", sphere([0, 1, -3.1], 1.5, "glass"))
+    sizes = "length(particle.path.ray.direction) * float(particle.power.x > 0.0) + 0.0 * n"
+    lengths = starts(call_glsl, particle_files, place, sizes, "float")
+    carries = lengths > 0
+    assert abs(carries.mean() - 0.5) < 0.01
+    assert_allclose(lengths[carries], 1, rtol=1e-6)
+    power = starts(call_glsl, particle_files, place, "particle.power.x + 0.0 * n", "float")
+    assert_allclose(power[carries], 2 * np.pi * 2.0 * 2 * 0.8, rtol=1e-5)
+
+
 def test_half_of_the_particles_are_aimed(call_glsl: CallGlsl, particle_files: str) -> None:
     """At either ball a quarter, beside those that go there by the cosine."""
     place = scene("quad", BALL, FAR_BALL)
