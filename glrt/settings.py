@@ -108,6 +108,13 @@ class Settings(RenderSettings):
         ge=0,
         le=0.98,
     )
+    linked: Annotated[float, Editable(Cost.RESTART, "", (0, 1))] = Field(
+        0.0,
+        description="the share of the particles that is linked to the camera through single "
+        "spheres of smooth glass or metal, too; 0: none",
+        ge=0,
+        le=1,
+    )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF
     )
@@ -162,6 +169,7 @@ class FrameOptions(TypedDict, total=False):
     caustics: Caustics
     particles: float
     aimed: float
+    linked: float
     seed: int
     exposure: float
     tonemap: ToneMap

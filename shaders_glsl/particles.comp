@@ -44,11 +44,13 @@ void splat(vec2 place, vec3 radiance) {
     if (!is_outside && !COUNT_RAYS) add_to_pixel(pixel, radiance);
 }
 
+#include "integrators/particle_start.glsl"
+#include "integrators/camera_links.glsl"
 #include "integrators/particles.glsl"
 
 void main() {
     int group = frame.first_tile + int(gl_WorkGroupID.x);
-    int lost = add_particles(64 * group + int(gl_LocalInvocationIndex));
+    int lost = add_particles(64 * group + int(gl_LocalInvocationIndex), group < frame.linked_groups);
     if (COUNT_RAYS) add_to_pixel(ivec2(0), vec3(rays_so_far * frame.particles));  // a mean over the frame
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
 }

@@ -37,6 +37,7 @@
 #include "integrators/classic.glsl"
 #include "integrators/media.glsl"
 #include "integrators/particle_weights.glsl"
+#include "integrators/sphere_links.glsl"
 #include "integrators/path.glsl"
 #include "film/pixel.glsl"
 #include "film/halves.glsl"

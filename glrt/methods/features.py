@@ -9,7 +9,7 @@ from glrt.methods.contents import (
     Contents,
     contents_of,
 )
-from glrt.methods.particles import caster_bits
+from glrt.methods.particles import caster_bits, link_bits
 from glrt.methods.table import METHODS
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
@@ -75,6 +75,7 @@ class Needs:
     quads_by_area: bool  # points on lamps even in area, not in solid angle
     has_particles: bool  # from lamps, linked to the camera
     casters: int  # smooth spheres at which some of them are aimed: a bit for each
+    linked: int  # smooth spheres through which some of them are linked: a bit for each
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
@@ -101,6 +102,7 @@ def everything() -> dict[str, bool | int]:
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
     numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0, "casters": 0}
+    numbers["linked"] = 0
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
@@ -161,6 +163,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
         has_particles=follows_particles,
         casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
+        linked=link_bits(scene) if follows_particles and settings.linked else 0,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,

@@ -10,10 +10,11 @@ from glrt.scene.glasses import glasses_of, holds
 from glrt.scene.materials import Dielectric, Material, Metal
 from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad, Sphere
+from glrt.scene.shapes import Plane, Quad, Sphere
 from glrt.settings import Settings
 
 BITS = 31  # of a number in the shaders that stand for spheres
+TOUCHING = 1e-6  # of a radius: what reaches no deeper into a sphere touches it
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 
@@ -25,6 +26,13 @@ def particle_groups(settings: Settings) -> int:
 def particles_a_sample(settings: Settings) -> float:
     """How many particles there are for each sample of a pixel: whole work groups of them."""
     return particle_groups(settings) * GROUP / (settings.width * settings.height)
+
+
+def linked_groups(settings: Settings) -> int:
+    """How many of the work groups link their particles through spheres, too."""
+    if not settings.linked:
+        return 0
+    return max(1, round(settings.linked * particle_groups(settings)))
 
 
 def emitters_of(scene: Scene) -> list[Object]:
@@ -42,6 +50,38 @@ def caster_bits(scene: Scene) -> int:
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     known = [] if contents_of(scene).has_sphere_tree else spheres[:BITS]
     return sum(1 << n for n, it in enumerate(known) if _is_smooth(scene.materials[it.material]))
+
+
+def link_bits(scene: Scene) -> int:
+    """The spheres through which particles can be linked to the camera: a bit for each.
+
+    Of those that particles are aimed at, but not of thin glass, of glass that lies in denser one,
+    and of those within which something lies.
+    """
+    spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
+    bits = caster_bits(scene)
+    return sum(bits & 1 << n for n, it in enumerate(spheres[:BITS]) if _has_links(scene, it))
+
+
+def _has_links(scene: Scene, sphere: Sphere) -> bool:
+    material = scene.materials[sphere.material]
+    if isinstance(material, Dielectric) and (material.thin or material.ior < 1):
+        return False
+    return not any(_reaches_into(other, sphere) for other in scene.visible if other is not sphere)
+
+
+def _reaches_into(thing: Object, sphere: Sphere) -> bool:
+    """Whether something may lie within a sphere: it, or the box around it, comes that near."""
+    center = np.array(sphere.center, np.float64)
+    if isinstance(thing, Plane):
+        normal = np.array(thing.normal, np.float64)
+        apart = abs(float((center - thing.point) @ normal)) / float(np.linalg.norm(normal))
+    elif isinstance(thing, Sphere):
+        apart = float(np.linalg.norm(center - thing.center)) - thing.radius
+    else:
+        low, high = (corner[0] for corner in type(thing).bounds(np.array([thing.row], np.float64)))
+        apart = float(np.linalg.norm(center - np.clip(center, low, high)))
+    return apart < sphere.radius * (1 - TOUCHING)
 
 
 def _is_smooth(material: Material) -> bool:

@@ -10,7 +10,7 @@ from glrt.accel.sphere_nodes import pack_nodes
 from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
-from glrt.methods.particles import emitters_of, particles_a_sample
+from glrt.methods.particles import emitters_of, linked_groups, particle_groups, particles_a_sample
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_details import pack_conductors, pack_facets
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
@@ -71,13 +71,15 @@ def pack_scene(
 def _particle_fields(scene: Scene, settings: Settings) -> dict[str, float]:
     """The fields of the frame that particles read: as far below the brightest lamp as floats go."""
     if settings.caustics == "off":
-        return {"particles": 0.0, "aimed": 0.0, "splat_unit": 0.0}
+        return dict.fromkeys(("particles", "aimed", "splat_unit", "linked", "linked_groups"), 0)
     brightest = max(max(scene.emission_of(lamp)) for lamp in emitters_of(scene))
     unit = 2.0 ** (math.frexp(brightest)[1] - UNIT_BITS) if brightest else 1.0
     return {
         "particles": particles_a_sample(settings),
         "aimed": settings.aimed,
         "splat_unit": unit,
+        "linked": linked_groups(settings) / particle_groups(settings),
+        "linked_groups": linked_groups(settings),
     }
 
 

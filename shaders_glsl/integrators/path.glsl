@@ -69,13 +69,15 @@ struct Path {
     Ray start;        // it, where it left the vertex, if it has
     float way;        // from there to the last hole
     float rho;        // what particles are weighed against (integrators/particle_weights.glsl); 0: they do not come
+    Chain chain;      // of what it met first
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
 Path start_path(Ray ray) {
     precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, NO_LAYERS);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, start_chain(ray),
+                NO_LAYERS);
 }
 
 // Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
@@ -183,8 +185,9 @@ void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, v
 // come so far, at a surface that they do not scatter at.
 float rho_beyond(Path path, Vertex vertex, Surface surface) {
     if (!carries_particles(vertex.material)) return 0.0;
-    if (path.depth > 0) return path.rho;
+    if (path.depth > 0 && (LINKED == 0 || path.chain.state == BROKEN)) return path.rho;
     if (is_delta(vertex.material)) return 0.0;
+    if (path.depth > 0) return rho_of_link(path.chain, surface.position, vertex.wo.z);
     precise float distance = length(surface.position - path.ray.origin);
     precise float rho = pdf_film(path.ray.direction, vertex.wo.z, distance) / frame.particles;
     return rho;
@@ -243,6 +246,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
         gather_sampled(path, vertex, light, facing, behind);
     }
     precise Scattering next = sample_material(vertex, rng);
+    if (LINKED != 0) follow_chain(path.chain, surface.shape, vertex, next.crosses);
     if ((HAS_SMOOTH || HAS_NORMAL_MAP) && (dot(next.direction, facing) < 0.0) != next.crosses) return false;
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return false;

@@ -53,11 +53,11 @@ float pdf_aimed(vec3 p, vec3 direction, int certain) {
     return pdf;
 }
 
-// The number of the n-th smooth sphere.
-int caster(int n) {
+// The number of the n-th sphere of which a bit is set.
+int sphere_of(int bits, int n) {
     int left = n;
     for (int i = 0; i < sphere_count(); ++i) {
-        if (!is_caster(i)) continue;
+        if ((bits >> i & 1) == 0) continue;
         if (left == 0) return i;
         left -= 1;
     }

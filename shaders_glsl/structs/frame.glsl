@@ -46,4 +46,6 @@ struct Frame {
     float sky_density;      // of its samples per solid angle: lights/sky_sampling.glsl
     float particles;        // that leave lamps, for each sample of a pixel; where HAS_PARTICLES
     float aimed;            // their share that is aimed at smooth spheres
+    float linked;           // their share that is linked to the camera through spheres, too, where LINKED is not 0
+    int linked_groups;      // the work groups of them
 };

@@ -1,0 +1,123 @@
+// Links of particles to the camera, from a matte vertex: straight, or through one sphere. What they bring is handed
+// to `splat`.
+
+// The place on the film, in pixels of the frame, of a ray that reaches the camera at a place on the lens.
+vec2 place_on_film(vec3 direction, vec2 lens) {
+    precise vec3 d = direction / dot(direction, frame.camera.forward);
+    precise float x = dot(d, frame.camera.right) + frame.camera.tan_lens * lens.x;
+    precise float y = dot(d, frame.camera.up) + frame.camera.tan_lens * lens.y;
+    precise vec2 share = vec2(x / frame.camera.tan_x + 1.0, 1.0 - y / frame.camera.tan_y);
+    precise vec2 place = 0.5 * share * vec2(frame.size);
+    return place;
+}
+
+bool is_on_film(vec2 place) {
+    return all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(frame.size)));
+}
+
+// A point of the lens.
+struct Eye {
+    vec2 lens;  // its place on the unit disk
+    vec3 position;
+};
+
+Eye sample_eye(precise inout Sampler rng) {
+    if (!HAS_LENS) return Eye(vec2(0.0), vec3(0.0));
+    precise vec2 lens = sample_disk(next_2d(rng));
+    precise vec3 position = frame.camera.lens_radius * (lens.x * frame.camera.right + lens.y * frame.camera.up);
+    return Eye(lens, position);
+}
+
+// Brings the eye what a particle scatters straight to it; `ray` leaves the vertex.
+void link_straight(Particle self, Vertex vertex, Ray ray, Eye eye) {
+    precise vec3 away = eye.position - ray.origin;
+    precise float distance = length(away);
+    ray.direction = away / distance;
+    precise vec3 wi = to_local(vertex.frame, ray.direction);
+    if (wi.z <= 0.0 || dot(ray.direction, frame.camera.forward) >= 0.0) return;
+    precise vec2 place = place_on_film(-ray.direction, eye.lens);
+    if (!is_on_film(place)) return;
+    precise float pdf = pdf_film(-ray.direction, wi.z, distance);
+    precise float weight = particle_weight(pdf / (frame.particles * self.emission), self.kappa);
+    precise vec3 flux = self.power * self.path.throughput;
+    if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance);
+    precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight);
+    if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
+    splat(place, value);
+}
+
+// A way through a sphere: where it meets it on the side of the eye and on that of the vertex.
+struct Way {
+    vec3 near;
+    vec3 far;
+    vec3 direction;  // unit, from the eye
+};
+
+Way way_of(Arc arc, vec3 center, Incidence at, float sense) {
+    precise vec3 cosines = cosines_along(arc, at.sine);
+    precise vec2 sines = arc.ratios.xy * at.sine;
+    precise vec2 cos_turn = at.cosine * cosines.xy + at.sine * sines;  // about the centre, from eye and from vertex
+    precise vec2 sin_turn = at.sine * cosines.xy - at.cosine * sines;
+    precise vec3 from_eye = sense * (arc.to_vertex - arc.cosine * arc.to_eye) / arc.sine;  // unit, across to_eye
+    precise vec3 from_vertex = sense * (arc.to_eye - arc.cosine * arc.to_vertex) / arc.sine;
+    precise vec3 near = center + arc.radius * (cos_turn.x * arc.to_eye + sin_turn.x * from_eye);
+    precise vec3 far = center + arc.radius * (cos_turn.y * arc.to_vertex + sin_turn.y * from_vertex);
+    precise vec3 direction = normalized(sines.x * from_eye - cosines.x * arc.to_eye);
+    return Way(near, far, direction);
+}
+
+// Brings the eye what a particle scatters to it by one way through a sphere.
+void link_by_way(Particle self, Vertex vertex, Ray ray, Eye eye, int index, Arc arc, Incidence at, float sense) {
+    precise Sphere sphere = sphere_at(index);
+    precise Material material = material_at(sphere.material);
+    precise Way way = way_of(arc, sphere.center, at, sense);
+    precise vec3 away = way.far - ray.origin;
+    precise float distance = length(away);
+    ray.direction = away / distance;
+    precise vec3 wi = to_local(vertex.frame, ray.direction);
+    if (wi.z <= 0.0) return;
+    precise vec2 place = place_on_film(way.direction, eye.lens);
+    if (dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
+    precise float share = frame.linked * link_share(material, arc.chords);
+    precise float pdf = pdf_camera(way.direction) * wi.z * spread_of(arc, at.sine) * chance_of(material, at.sine, arc.chords);
+    precise float weight = particle_weight(pdf / (frame.particles * share * self.emission), self.kappa);
+    precise vec3 back = eye.position - way.near;
+    precise float reach = length(back);
+    precise vec3 flux = self.power * self.path.throughput * tint_of(material, arc, at);
+    if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance + reach);
+    precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight / share);
+    if (value == vec3(0.0) || occluded(ray, distance, index)) return;
+    if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
+    splat(place, value);
+}
+
+// Through one sphere that is drawn, with so many chords as are drawn: by all ways that there are.
+void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise inout Sampler rng) {
+    precise vec2 pick = next_2d(rng);
+    int count = bitCount(LINKED);
+    int index = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
+    precise Sphere sphere = sphere_at(index);
+    precise Material material = material_at(sphere.material);
+    bool is_glass = HAS_DIELECTRIC && material.kind == DIELECTRIC;
+    int chords = !is_glass || pick.y < 0.25 ? 0 : pick.y < 0.75 ? 1 : 2;
+    if (self.path.depth + 2 + chords > frame.bounces) return;
+    precise Arc arc = arc_of(eye.position, ray.origin, sphere, material.ior, chords);
+    int ways = has_links(arc) ? way_count(chords) : 0;
+    for (int way = 0; way < ways; ++way) {
+        int lap = lap_of(chords, way);
+        bool falls = way_falls(chords, way);
+        precise float angle = angle_of_lap(arc, lap);
+        float m = may_meet(arc, angle, falls) ? meeting_of(arc, angle, falls) : -1.0;
+        if (m >= 0.0) link_by_way(self, vertex, ray, eye, index, arc, incidence_of(m), lap_sense(lap));
+    }
+}
+
+// Brings the camera what a particle scatters to it at a matte vertex; `ray` leaves there. `by_spheres`: through one
+// of them, too.
+void link_to_camera(Particle self, Vertex vertex, Ray ray, bool by_spheres, precise inout Sampler rng) {
+    precise Eye eye = sample_eye(rng);
+    link_straight(self, vertex, ray, eye);
+    // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
+    int tries = LINKED != 0 && by_spheres ? 1 : 0;
+    for (int i = 0; i < tries; ++i) link_through_sphere(self, vertex, ray, eye, rng);
+}
