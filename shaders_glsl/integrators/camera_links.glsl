@@ -46,40 +46,51 @@ void link_straight(Particle self, Vertex vertex, Ray ray, Eye eye) {
     splat(place, value);
 }
 
-// A way through a sphere: where it meets it on the side of the eye and on that of the vertex.
+// Where a way through a sphere meets it, on the side of the eye and on that of the vertex.
 struct Way {
     vec3 near;
     vec3 far;
     vec3 direction;  // unit, from the eye
 };
 
-Way way_of(Arc arc, vec3 center, Incidence at, float sense) {
-    precise vec3 cosines = cosines_along(arc, at.sine);
+// `sense`: of the turn about the centre, 1 from the eye towards the vertex.
+Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
     precise vec2 sines = arc.ratios.xy * at.sine;
-    precise vec2 cos_turn = at.cosine * cosines.xy + at.sine * sines;  // about the centre, from eye and from vertex
-    precise vec2 sin_turn = at.sine * cosines.xy - at.cosine * sines;
-    precise vec3 from_eye = sense * (arc.to_vertex - arc.cosine * arc.to_eye) / arc.sine;  // unit, across to_eye
-    precise vec3 from_vertex = sense * (arc.to_eye - arc.cosine * arc.to_vertex) / arc.sine;
+    precise vec2 cos_turn = at.cosine * at.cosines.xy + at.sine * sines;  // from the eye and from the vertex
+    precise vec2 sin_turn = at.sine * at.cosines.xy - at.cosine * sines;
+    precise float scale = sense / arc.sine;
+    precise vec3 from_eye = scale * (arc.to_vertex - arc.cosine * arc.to_eye);  // unit, across to_eye
+    precise vec3 from_vertex = scale * (arc.to_eye - arc.cosine * arc.to_vertex);
     precise vec3 near = center + arc.radius * (cos_turn.x * arc.to_eye + sin_turn.x * from_eye);
     precise vec3 far = center + arc.radius * (cos_turn.y * arc.to_vertex + sin_turn.y * from_vertex);
-    precise vec3 direction = normalized(sines.x * from_eye - cosines.x * arc.to_eye);
+    precise vec3 direction = normalized(sines.x * from_eye - at.cosines.x * arc.to_eye);
     return Way(near, far, direction);
 }
 
-// Brings the eye what a particle scatters to it by one way through a sphere.
-void link_by_way(Particle self, Vertex vertex, Ray ray, Eye eye, int index, Arc arc, Incidence at, float sense) {
+// Brings the eye what a particle scatters to it through one sphere, by one way that is drawn.
+void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise inout Sampler rng) {
+    precise vec2 pick = next_2d(rng);
+    precise float by_branch = next_1d(rng);
+    int count = bitCount(LINKED);
+    int index = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
     precise Sphere sphere = sphere_at(index);
     precise Material material = material_at(sphere.material);
-    precise Way way = way_of(arc, sphere.center, at, sense);
+    int chords = draw_chords(material, pick.y);
+    precise Arc arc = arc_of(eye.position, ray.origin, sphere, material.ior, chords);
+    if (self.path.depth + 2 + chords > frame.bounces || !has_links(arc)) return;
+    precise Branch branch = draw_branch(arc, by_branch);
+    precise float half_tangent = meeting_of(arc, branch);
+    if (half_tangent < 0.0) return;
+    precise Crossing at = crossing_of(arc, incidence_of(half_tangent).sine);
+    precise Way way = way_of(arc, sphere.center, at, chords == 1 ? -branch.sign : branch.sign);
     precise vec3 away = way.far - ray.origin;
     precise float distance = length(away);
     ray.direction = away / distance;
     precise vec3 wi = to_local(vertex.frame, ray.direction);
-    if (wi.z <= 0.0) return;
     precise vec2 place = place_on_film(way.direction, eye.lens);
-    if (dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
-    precise float share = frame.linked * link_share(material, arc.chords);
-    precise float pdf = pdf_camera(way.direction) * wi.z * spread_of(arc, at.sine) * chance_of(material, at.sine, arc.chords);
+    if (wi.z <= 0.0 || dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
+    precise float share = frame.linked * share_of_draws(material, chords) * share_of_branch(arc, branch.falls);
+    precise float pdf = pdf_camera(way.direction) * wi.z * spread_of(arc, at) * chance_of(material, at, chords);
     precise float weight = particle_weight(pdf / (frame.particles * share * self.emission), self.kappa);
     precise vec3 back = eye.position - way.near;
     precise float reach = length(back);
@@ -89,27 +100,6 @@ void link_by_way(Particle self, Vertex vertex, Ray ray, Eye eye, int index, Arc 
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
     if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
     splat(place, value);
-}
-
-// Through one sphere that is drawn, with so many chords as are drawn: by all ways that there are.
-void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise inout Sampler rng) {
-    precise vec2 pick = next_2d(rng);
-    int count = bitCount(LINKED);
-    int index = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
-    precise Sphere sphere = sphere_at(index);
-    precise Material material = material_at(sphere.material);
-    bool is_glass = HAS_DIELECTRIC && material.kind == DIELECTRIC;
-    int chords = !is_glass || pick.y < 0.25 ? 0 : pick.y < 0.75 ? 1 : 2;
-    if (self.path.depth + 2 + chords > frame.bounces) return;
-    precise Arc arc = arc_of(eye.position, ray.origin, sphere, material.ior, chords);
-    int ways = has_links(arc) ? way_count(chords) : 0;
-    for (int way = 0; way < ways; ++way) {
-        int lap = lap_of(chords, way);
-        bool falls = way_falls(chords, way);
-        precise float angle = angle_of_lap(arc, lap);
-        float m = may_meet(arc, angle, falls) ? meeting_of(arc, angle, falls) : -1.0;
-        if (m >= 0.0) link_by_way(self, vertex, ray, eye, index, arc, incidence_of(m), lap_sense(lap));
-    }
 }
 
 // Brings the camera what a particle scatters to it at a matte vertex; `ray` leaves there. `by_spheres`: through one

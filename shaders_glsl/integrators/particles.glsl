@@ -1,5 +1,7 @@
 // Particles on their way, linked to the camera at every matte surface that they meet.
 
+const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs the same, however little it brings
+
 // P1 / P0 of a particle at the first vertex that it meets; `ray` leaves there, in any direction.
 float kappa_of(int light, Vertex vertex, Ray ray, vec3 towards, float distance) {
     ray.direction = towards;
@@ -31,7 +33,7 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     precise Scattering next = sample_material(vertex, rng);
     self.path.throughput *= next.weight;
     if (self.path.throughput == vec3(0.0)) return false;
-    if (ROULETTE && roulette_ends(self.path.throughput, rng)) return false;
+    if (ROULETTE && ends_at_random(self.path.throughput, KEEP, rng)) return false;
     ray.direction = next.direction;
     ray.inward = (side < 0.0) != next.crosses;
     self.path.ray = ray;

@@ -42,17 +42,21 @@ vec3 direct_light(Vertex vertex, LightSample light, float rho) {
 }
 
 // Divides the survivors' throughput by their chance: another variance, the same mean. It applies
-// once the throughput is below 1/4: ending those paths saves more time than it adds variance
-// (docs/results/speed.md). Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
+// once the throughput is below 1 / keep. Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
 // meet exactly.
 const float CHANCES = 65536.0;
 
-bool roulette_ends(precise inout vec3 throughput, precise inout Sampler rng) {
+bool ends_at_random(precise inout vec3 throughput, float keep, precise inout Sampler rng) {
     precise float brightest = max(throughput.x, max(throughput.y, throughput.z));
-    precise float survival = min(ceil(4.0 * CHANCES * brightest) / CHANCES, 1.0);
+    precise float survival = min(ceil(keep * CHANCES * brightest) / CHANCES, 1.0);
     if (next_1d(rng) >= survival) return true;
     throughput /= survival;
     return false;
+}
+
+// Of paths from the camera: to end those below 1/4 saves more time than it adds variance (docs/results/speed.md).
+bool roulette_ends(precise inout vec3 throughput, precise inout Sampler rng) {
+    return ends_at_random(throughput, 4.0, rng);
 }
 
 struct Path {

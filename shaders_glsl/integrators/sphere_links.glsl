@@ -3,17 +3,19 @@
 // has them, by its number; nothing lies within it (glrt/methods/particles.py).
 //
 // All of a link lies in the plane of the eye, the vertex and the centre, and the angle of incidence t is its one
-// unknown. Seen from the centre, the way turns by
-//     T(t) = 2 t - asin(ke sin t) - asin(kv sin t) + chords (PI - 2 asin(sin t / ior)),
-// ke, kv: the radius over the distances of eye and vertex. Light goes that way where T is phi, the angle between eye
-// and vertex, or 2 PI - phi, or 2 PI + phi. Each asin(k sin t) with k < 1 is concave in t, so T is convex: it meets an
-// angle twice at most, where it falls and where it rises, and only once where it begins to rise at once.
+// unknown. Seen from the centre the way turns, beside half a turn for each chord, by
+//     D(t) = 2 t - asin(ke sin t) - asin(kv sin t) - 2 chords asin(sin t / ior),
+// ke, kv: the radius over the distances of eye and vertex. Light goes that way where D is psi or -psi, the angle
+// between eye and vertex (an odd number of chords: between the eye and the opposite of the vertex). Each asin(k sin t)
+// with k < 1 is concave in t, so D is convex: from 0 it rises at once and meets psi once at most; or it falls first,
+// meets -psi falling and rising, and psi after that. Its slope is at most 2, so that no angle is a whole turn off.
 
 const int MOST_CHORDS = 2;
-const float FLAT = 0.05;     // least |dT/dt| of a link: where the image is folded, paths from the camera do as well
+const float REFLECTED = 0.1;  // share of links of glass by reflection outside, and of those by one inside
+const float FLAT = 0.05;     // least |dD/dt| of a link: where the image is folded, paths from the camera do as well
 const float GRAZING = 0.999; // largest sine of the angle of incidence
-const int ROUNDS = 12;       // of the search of a root, at most
-const float CLOSE = 2e-5;    // radians: a step of Newton's method further, T is met as closely as floats allow
+const int ROUNDS = 12;       // of the search of an angle, at most
+const float CLOSE = 1e-3;    // radians: with a step of Newton's method, D is met as closely as floats allow
 
 // What a sphere has of links.
 struct Arc {
@@ -21,29 +23,31 @@ struct Arc {
     vec3 to_vertex;  // unit, from the centre
     vec3 ratios;     // sines at the eye, at the vertex and inside, over that of the angle of incidence
     float radius;
-    float cosine;    // of phi
+    float cosine;    // of the angle between the two
     float sine;
-    float angle;     // phi
     int chords;
 };
 
 Arc arc_of(vec3 eye, vec3 vertex, Sphere sphere, float ior, int chords) {
     precise vec3 u = eye - sphere.center;
     precise vec3 v = vertex - sphere.center;
-    precise float eye_distance = length(u);
-    precise float vertex_distance = length(v);
-    precise vec3 to_eye = u / eye_distance;
-    precise vec3 to_vertex = v / vertex_distance;
+    precise vec3 inverses = 1.0 / vec3(length(u), length(v), ior);
+    precise vec3 to_eye = u * inverses.x;
+    precise vec3 to_vertex = v * inverses.y;
     precise float cosine = dot(to_eye, to_vertex);
     precise float sine = length(cross(to_eye, to_vertex));
-    precise vec3 ratios = vec3(sphere.radius / eye_distance, sphere.radius / vertex_distance, 1.0 / ior);
-    if (chords == 0) ratios.z = 0.0;
-    return Arc(to_eye, to_vertex, ratios, sphere.radius, cosine, sine, angle_of(sine, cosine), chords);
+    precise vec3 ratios = inverses * vec3(sphere.radius, sphere.radius, 1.0);
+    return Arc(to_eye, to_vertex, ratios, sphere.radius, cosine, sine, chords);
 }
 
-// Whether eye and vertex lie outside the sphere, not in line with its centre.
+float first_slope(Arc arc) {
+    precise float slope = 2.0 - arc.ratios.x - arc.ratios.y - 2.0 * float(arc.chords) * arc.ratios.z;
+    return slope;
+}
+
+// Whether eye and vertex lie outside the sphere, not in line with its centre, and D falls by less than half a turn.
 bool has_links(Arc arc) {
-    return arc.ratios.x < 1.0 && arc.ratios.y < 1.0 && arc.sine > 0.0;
+    return arc.ratios.x < 1.0 && arc.ratios.y < 1.0 && arc.sine > 0.0 && first_slope(arc) > -2.0;
 }
 
 float cosine_of(float sine) {
@@ -58,7 +62,7 @@ vec3 cosines_along(Arc arc, float sine) {
     return cosines;
 }
 
-// dT / dt.
+// dD / dt.
 float slope_of(Arc arc, vec3 cosines, float cosine) {
     precise vec3 each = arc.ratios / cosines;
     precise float slope = 2.0 - cosine * (each.x + each.y + 2.0 * float(arc.chords) * each.z);
@@ -74,100 +78,121 @@ struct Incidence {
 
 Incidence incidence_of(float half_tangent) {
     precise float square = half_tangent * half_tangent;
-    precise float sine = 2.0 * half_tangent / (1.0 + square);
-    precise float cosine = (1.0 - square) / (1.0 + square);
+    precise float over = 1.0 / (1.0 + square);
+    precise float sine = 2.0 * half_tangent * over;
+    precise float cosine = (1.0 - square) * over;
     return Incidence(half_tangent, sine, cosine);
 }
 
-// T.
-float turn_of(Arc arc, Incidence at, vec3 cosines) {
-    precise float turn = 4.0 * small_angle(at.half_tangent);
-    turn -= angle_of(arc.ratios.x * at.sine, cosines.x);
-    turn -= angle_of(arc.ratios.y * at.sine, cosines.y);
-    if (arc.chords > 0) turn += float(arc.chords) * (PI - 2.0 * angle_of(arc.ratios.z * at.sine, cosines.z));
-    return turn;
+// Turns `a` back by the angle of `b`, as complex numbers of size 1.
+vec2 turned_back(vec2 a, vec2 b) {
+    precise vec2 turned = vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
+    return turned;
 }
 
-// The ways of a sphere: of each angle that T may meet where it rises, then of those where it falls, which begin at
-// chords * PI.
-int way_count(int chords) { return 2 * chords + 1; }
-bool way_falls(int chords, int way) { return way > chords; }
-int lap_of(int chords, int way) { return way_falls(chords, way) ? way - chords - 1 : way; }
+// A way through the sphere: where D meets psi or -psi, rising or falling.
+struct Branch {
+    float sign;  // of psi
+    bool falls;
+};
 
-// phi, 2 PI - phi, 2 PI + phi: the way runs about the centre from the eye towards the vertex in even laps, and the
-// other way round in the odd one.
-float lap_sense(int lap) { return lap == 1 ? -1.0 : 1.0; }
-float angle_of_lap(Arc arc, int lap) {
-    precise float angle = lap_sense(lap) * arc.angle + (lap == 0 ? 0.0 : 2.0 * PI);
-    return angle;
+// D less the angle of a branch; of more than a few degrees too little, by a third at half a turn.
+float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
+    precise vec3 sines = arc.ratios * at.sine;
+    precise vec2 half_way = vec2(at.cosine, at.sine);
+    vec2 inside = vec2(cosines.z, sines.z);
+    if (arc.chords > 0) half_way = turned_back(half_way, inside);
+    if (arc.chords > 1) half_way = turned_back(half_way, inside);
+    precise vec2 turn = turned_back(half_way, vec2(cosines.x, sines.x));
+    precise vec2 rest = turned_back(half_way, vec2(cosines.y, sines.y));
+    turn = turned_back(turn, vec2(rest.x, -rest.y));
+    float parity = arc.chords == 1 ? -1.0 : 1.0;
+    turn = turned_back(turn, vec2(parity * arc.cosine, branch.sign * arc.sine));
+    precise float half_tangent = turn.x > 0.0 ? turn.y / (1.0 + turn.x) : turn.y > 0.0 ? 1.0 : -1.0;
+    precise float miss = 2.0 * half_tangent * (1.0 - half_tangent * half_tangent / 3.0);
+    return miss;
 }
 
-// Whether T may meet the angle: where it rises it must end above it, where it falls begin above it.
-bool may_meet(Arc arc, float angle, bool falls) {
-    bool begins_to_fall = 2.0 - arc.ratios.x - arc.ratios.y - 2.0 * float(arc.chords) * arc.ratios.z < 0.0;
-    if (falls) return begins_to_fall;
-    if (!begins_to_fall && angle < float(arc.chords) * PI) return false;
-    Incidence grazing = incidence_of(1.0);
-    return turn_of(arc, grazing, cosines_along(arc, 1.0)) >= angle;
-}
-
-// The half tangent where T meets an angle; -1: nowhere. Newton's method from the end of the convex curve, held
-// between bounds.
-float meeting_of(Arc arc, float angle, bool falls) {
-    precise float low = 0.0;
-    precise float high = 1.0;
-    precise float m = falls ? 0.0 : 1.0;
+// The half tangent where D meets the angle of a branch; -1: nowhere. Newton's method from the end of the convex
+// curve goes towards the angle and not beyond, by steps that are too short if anything; where the slope has turned
+// before it comes there, there is none.
+float meeting_of(Arc arc, Branch branch) {
+    precise float m = branch.falls ? 0.0 : 1.0;
     float found = -1.0;
-    for (int i = 0; i < ROUNDS && found < 0.0; ++i) {
+    for (int i = 0; i < ROUNDS; ++i) {
         precise Incidence at = incidence_of(m);
         precise vec3 cosines = cosines_along(arc, at.sine);
-        precise float miss = turn_of(arc, at, cosines) - angle;
+        precise float miss = miss_of(arc, at, cosines, branch);
         precise float slope = slope_of(arc, cosines, at.cosine);
-        bool is_below = falls ? slope < 0.0 && miss > 0.0 : slope <= 0.0 || miss <= 0.0;
-        if (is_below) low = m;
-        else high = m;
-        precise float next = m - miss * 0.5 * (1.0 + m * m) / slope;
-        bool is_close = abs(miss) < CLOSE && falls == slope < 0.0;
-        m = next > low && next < high || is_close ? next : 0.5 * (low + high);
+        precise float way = miss / slope;
+        precise float half_tangent = 0.5 * way * (1.0 + way * way / 12.0);  // of the way, or a little less
+        m = (m - half_tangent) / (1.0 + m * half_tangent);
+        bool is_close = abs(way) < CLOSE;
         if (is_close) found = clamp(m, 0.0, 1.0);
+        if (is_close || branch.falls != slope < 0.0 || miss < 0.0 || !(m >= 0.0 && m <= 1.0)) break;
     }
     return found;
 }
 
-// Solid angle at the eye over area at the vertex, across the ray; 0: no link.
-float spread_of(Arc arc, float sine) {
-    if (sine >= GRAZING || !has_links(arc)) return 0.0;
+// Where a way meets the sphere.
+struct Crossing {
+    vec3 cosines;  // as cosines_along has them
+    float sine;    // of the angle of incidence
+    float cosine;
+    float slope;   // dD / dt
+};
+
+Crossing crossing_of(Arc arc, float sine) {
     precise float cosine = cosine_of(sine);
     precise vec3 cosines = cosines_along(arc, sine);
-    precise float slope = abs(slope_of(arc, cosines, cosine));
-    if (slope < FLAT) return 0.0;
-    precise vec2 k = arc.ratios.xy;
-    precise float across = k.x * k.x * k.y * k.y / (arc.radius * arc.radius);
-    precise float spread = across * sine * cosine / (cosines.x * cosines.y * arc.sine * slope);
+    return Crossing(cosines, sine, cosine, slope_of(arc, cosines, cosine));
+}
+
+// Solid angle at the eye over area at the vertex, across the ray; 0: no link.
+float spread_of(Arc arc, Crossing at) {
+    if (at.sine >= GRAZING || abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
+    precise float across = arc.ratios.x * arc.ratios.y / arc.radius;
+    precise float spread = across * across * at.sine * at.cosine / (at.cosines.x * at.cosines.y * arc.sine * abs(at.slope));
     return spread;
 }
 
 // How likely a path that meets the sphere goes this way: Fresnel's share at each surface.
-float chance_of(Material material, float sine, int chords) {
+float chance_of(Material material, Crossing at, int chords) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return 1.0;
-    precise float reflected = fresnel(cosine_of(sine), 1.0 / material.ior);
+    precise float reflected = fresnel(at.cosine, 1.0 / material.ior);
     precise float passed = (1.0 - reflected) * (1.0 - reflected);
     precise float chance = chords == 0 ? reflected : chords == 1 ? passed : passed * reflected;
     return chance;
 }
 
 // What is left of light on this way, beside its chance: the colour of a mirror, or what glass does not absorb.
-vec3 tint_of(Material material, Arc arc, Incidence at) {
+vec3 tint_of(Material material, Arc arc, Crossing at) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return metal_reflectance(material, at.cosine);
-    precise float chord = 2.0 * arc.radius * cosine_of(arc.ratios.z * at.sine);
-    return HAS_ATTENUATION ? share_left(absorption_of_glass(material.details), float(arc.chords) * chord) : vec3(1.0);
+    if (!HAS_ATTENUATION) return vec3(1.0);
+    return share_left(absorption_of_glass(material.details), float(2 * arc.chords) * arc.radius * at.cosines.z);
 }
 
-// The share of the links tried that are of one sphere and so many chords.
-float link_share(Material material, int chords) {
+// A link that is tried is of one sphere, drawn evenly; then the number of its chords is drawn, and one of the branches
+// that may be there.
+int draw_chords(Material material, float u) {
+    bool is_glass = HAS_DIELECTRIC && material.kind == DIELECTRIC;
+    return !is_glass || u < REFLECTED ? 0 : u < 1.0 - REFLECTED ? 1 : 2;
+}
+
+// The share of draws of one sphere with so many chords.
+float share_of_draws(Material material, int chords) {
     precise float share = 1.0 / float(bitCount(LINKED));
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return share;
-    return chords == 1 ? 0.5 * share : 0.25 * share;
+    return chords == 1 ? (1.0 - 2.0 * REFLECTED) * share : REFLECTED * share;
+}
+
+Branch draw_branch(Arc arc, float u) {
+    if (first_slope(arc) >= 0.0) return Branch(1.0, false);
+    return Branch(u < 0.25 ? 1.0 : -1.0, u >= 0.5);
+}
+
+float share_of_branch(Arc arc, bool falls) {
+    return first_slope(arc) >= 0.0 ? 1.0 : falls ? 0.5 : 0.25;
 }
 
 // --- the camera's side -----------------------------------------------------------------------
@@ -215,7 +240,9 @@ float rho_of_link(Chain chain, vec3 position, float cosine) {
     precise Sphere sphere = sphere_at(chain.sphere);
     precise Material material = material_at(sphere.material);
     precise Arc arc = arc_of(chain.eye, position, sphere, material.ior, chain.chords);
-    precise float pdf = chain.film * cosine * spread_of(arc, chain.sine) * chance_of(material, chain.sine, chain.chords);
-    precise float rho = pdf / (frame.particles * frame.linked * link_share(material, chain.chords));
+    precise Crossing at = crossing_of(arc, chain.sine);
+    precise float pdf = chain.film * cosine * spread_of(arc, at) * chance_of(material, at, chain.chords);
+    precise float share = share_of_draws(material, chain.chords) * share_of_branch(arc, at.slope < 0.0);
+    precise float rho = pdf / (frame.particles * frame.linked * share);
     return rho;
 }
