@@ -31,12 +31,12 @@ struct Arc {
 Arc arc_of(vec3 eye, vec3 vertex, Sphere sphere, float ior, int chords) {
     precise vec3 u = eye - sphere.center;
     precise vec3 v = vertex - sphere.center;
-    precise vec3 inverses = 1.0 / vec3(length(u), length(v), ior);
+    precise vec3 inverses = 1.0 / vec3(length(u), length(v), chords > 0 ? ior : 1.0);
     precise vec3 to_eye = u * inverses.x;
     precise vec3 to_vertex = v * inverses.y;
     precise float cosine = dot(to_eye, to_vertex);
     precise float sine = length(cross(to_eye, to_vertex));
-    precise vec3 ratios = inverses * vec3(sphere.radius, sphere.radius, 1.0);
+    precise vec3 ratios = inverses * vec3(sphere.radius, sphere.radius, chords > 0 ? 1.0 : 0.0);
     return Arc(to_eye, to_vertex, ratios, sphere.radius, cosine, sine, chords);
 }
 
