@@ -11,11 +11,10 @@
 // meets -psi falling and rising, and psi after that. Its slope is at most 2, so that no angle is a whole turn off.
 
 const int MOST_CHORDS = 2;
-const float REFLECTED = 0.1;  // share of links of glass by reflection outside, and of those by one inside
-const float FLAT = 0.05;     // least |dD/dt| of a link: where the image is folded, paths from the camera do as well
-const float GRAZING = 0.999; // largest sine of the angle of incidence
-const int ROUNDS = 12;       // of the search of an angle, at most
-const float CLOSE = 1e-3;    // radians: with a step of Newton's method, D is met as closely as floats allow
+const float REFLECTED = 0.125;    // share of links of glass by reflection outside, and of those by one inside
+const float FLAT = 0.0625;        // least |dD/dt| of a link: where the image folds over, paths from the camera serve
+const float CLOSE = 0.0009765625; // 2^-10 radians: a step of Newton's method further, D is met as floats can
+const int ROUNDS = 12;            // of these steps, at most
 
 // What a sphere has of links.
 struct Arc {
@@ -100,13 +99,13 @@ struct Branch {
 float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
     precise vec3 sines = arc.ratios * at.sine;
     precise vec2 half_way = vec2(at.cosine, at.sine);
-    vec2 inside = vec2(cosines.z, sines.z);
+    precise vec2 inside = vec2(cosines.z, sines.z);
     if (arc.chords > 0) half_way = turned_back(half_way, inside);
     if (arc.chords > 1) half_way = turned_back(half_way, inside);
     precise vec2 turn = turned_back(half_way, vec2(cosines.x, sines.x));
     precise vec2 rest = turned_back(half_way, vec2(cosines.y, sines.y));
     turn = turned_back(turn, vec2(rest.x, -rest.y));
-    float parity = arc.chords == 1 ? -1.0 : 1.0;
+    precise float parity = arc.chords == 1 ? -1.0 : 1.0;
     turn = turned_back(turn, vec2(parity * arc.cosine, branch.sign * arc.sine));
     precise float half_tangent = turn.x > 0.0 ? turn.y / (1.0 + turn.x) : turn.y > 0.0 ? 1.0 : -1.0;
     precise float miss = 2.0 * half_tangent * (1.0 - half_tangent * half_tangent / 3.0);
@@ -118,14 +117,15 @@ float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
 // before it comes there, there is none.
 float meeting_of(Arc arc, Branch branch) {
     precise float m = branch.falls ? 0.0 : 1.0;
-    float found = -1.0;
+    precise float found = -1.0;
     for (int i = 0; i < ROUNDS; ++i) {
         precise Incidence at = incidence_of(m);
         precise vec3 cosines = cosines_along(arc, at.sine);
         precise float miss = miss_of(arc, at, cosines, branch);
         precise float slope = slope_of(arc, cosines, at.cosine);
         precise float way = miss / slope;
-        precise float half_tangent = 0.5 * way * (1.0 + way * way / 12.0);  // of the way, or a little less
+        precise float half_way = 0.5 * way;
+        precise float half_tangent = half_way * (1.0 + half_way * half_way / 3.0);  // or a little less
         m = (m - half_tangent) / (1.0 + m * half_tangent);
         bool is_close = abs(way) < CLOSE;
         if (is_close) found = clamp(m, 0.0, 1.0);
@@ -150,7 +150,7 @@ Crossing crossing_of(Arc arc, float sine) {
 
 // Solid angle at the eye over area at the vertex, across the ray; 0: no link.
 float spread_of(Arc arc, Crossing at) {
-    if (at.sine >= GRAZING || abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
+    if (abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
     precise float across = arc.ratios.x * arc.ratios.y / arc.radius;
     precise float spread = across * across * at.sine * at.cosine / (at.cosines.x * at.cosines.y * arc.sine * abs(at.slope));
     return spread;
@@ -186,13 +186,16 @@ float share_of_draws(Material material, int chords) {
     return chords == 1 ? (1.0 - 2.0 * REFLECTED) * share : REFLECTED * share;
 }
 
+// Where D falls first, half of the draws are of the branch that does.
+const float SIDE = 0.25;
+
 Branch draw_branch(Arc arc, float u) {
     if (first_slope(arc) >= 0.0) return Branch(1.0, false);
-    return Branch(u < 0.25 ? 1.0 : -1.0, u >= 0.5);
+    return Branch(u < SIDE ? 1.0 : -1.0, u >= 0.5);
 }
 
 float share_of_branch(Arc arc, bool falls) {
-    return first_slope(arc) >= 0.0 ? 1.0 : falls ? 0.5 : 0.25;
+    return first_slope(arc) >= 0.0 ? 1.0 : falls ? 0.5 : SIDE;
 }
 
 // --- the camera's side -----------------------------------------------------------------------

@@ -181,6 +181,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         "integrators/aov_numbers.glsl",
         *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag"),
         *("particles.comp", "splats.comp", "integrators/particles.glsl"),
+        *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         "trace.comp",
         "passes/tiles.glsl",
         "passes/tonemap.glsl",
@@ -242,7 +243,7 @@ def test_particles_compile_without_a_warning(
     ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
     assert ctx.version_code >= 430
-    constants = {**FEATURE_SETS[features], "CASTERS": 5}
+    constants = {**FEATURE_SETS[features], "CASTERS": 5, "LINKED": 5}
     (compute,) = sources("compute", constants, WRITTEN, render_pass)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []

@@ -18,6 +18,7 @@ from tests.mutation.principled import PRINCIPLED
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
+from tests.mutation.sphere_links import SPHERE_LINKS
 from tests.mutation.textures import TEXTURES
 from tests.mutation.transport import TRANSPORT
 
@@ -25,6 +26,7 @@ MUTANTS = [
     *TRANSPORT,
     *PRINCIPLED,
     *PARTICLES,
+    *SPHERE_LINKS,
     *SHAPES,
     *MESHES,
     *INSTANCES,

@@ -5,6 +5,7 @@ from tests.mutation.mutant import Mutant, edit
 _EMISSION = "lights/particle_emission.glsl"
 _WEIGHTS = "integrators/particle_weights.glsl"
 _PARTICLES = "integrators/particles.glsl"
+_LINKS = "integrators/camera_links.glsl"
 _PATH = "integrators/path.glsl"
 _SHADERS = "shaders/test_particles.py"
 _PICTURES = "rendering/test_particles.py"
@@ -72,7 +73,11 @@ PARTICLES = [
     ),
     Mutant(
         "the colour of the surface that is linked is missing",
-        edit(_PARTICLES, "flux * (vertex.material.color / PI)", "flux * (vec3(0.5) / PI)"),
+        edit(
+            _LINKS,
+            "flux * (vertex.material.color / PI) * (pdf * weight);",
+            "flux * (vec3(0.5) / PI) * (pdf * weight);",
+        ),
         _LIGHT,
     ),
     Mutant(
@@ -82,13 +87,13 @@ PARTICLES = [
     ),
     Mutant(
         "particles pass what stands before the camera",
-        edit(_PARTICLES, "|| occluded(ray, distance, NO_SHAPE)", ""),
+        edit(_LINKS, " || occluded(ray, distance, NO_SHAPE)", ""),
         _LIGHT,
     ),
     Mutant(
         "particles are put onto the film without regard to the lens",
         edit(
-            _PARTICLES,
+            _LINKS,
             "dot(d, frame.camera.right) + frame.camera.tan_lens * lens.x",
             "dot(d, frame.camera.right)",
         ),

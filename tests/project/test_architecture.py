@@ -50,6 +50,9 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "8388608.0",  # 2^23: half of the cells of its grid
     "1.2379400392853803e27",  # 2^90: slopes beyond it are as good as none
     "5.9604644775390625e-8",  # 2^-24: an integer of 24 bits to the unit interval
+    *("0.125", "0.25"),  # shares of links of particles
+    "0.0625",  # slope of an angle over another, below which links are left alone
+    "0.0009765625",  # 2^-10 radians: a step of Newton's method from an angle
     "65536.0",  # 2^16: the chances of roulette
     *("1.44269504", "0.693359375", "2.12194440e-4", "87.0"),  # 1 / ln 2, ln 2; of exp(-depth)
     *("6.0", "24.0", "120.0", "720.0", "5040.0"),  # factorials

@@ -85,7 +85,7 @@ def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
 
 
 def test_particles_are() -> None:
-    constants = {**EVERYTHING, "CASTERS": 5}
+    constants = {**EVERYTHING, "CASTERS": 5, "LINKED": 5}
     for render_pass in (PARTICLES, SPLATS):
         (shader,) = sources("compute", constants, written_for(), render_pass)
         assert list(objections(shader)) == []

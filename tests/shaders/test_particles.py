@@ -12,6 +12,7 @@ from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
 from tests.support.numerics import Array, directions
 
+FILES = ("integrators/particle_start.glsl", "integrators/camera_links.glsl")
 ON: dict[str, Any] = {"caustics": "on"}
 MATERIALS = {"glass": glass(), "lamp": lamp(2.0), "matte": MATTE}
 FLAT = quad([-0.5, 1, -3.5], [1, 0, 0], [0, 0, 0.8], "lamp")
@@ -24,7 +25,7 @@ PLACE = {"quad": [0.1, 1.0, -3.1], "sphere": [0.2, 0.7, -3.0]}
 @pytest.fixture
 def particle_files() -> str:
     """What follows particles, without a film."""
-    return "void splat(vec2 place, vec3 radiance) {}\n" + read("integrators/particles.glsl")
+    return "void splat(vec2 place, vec3 radiance) {}\n" + "".join(map(read, FILES))
 
 
 def scene(kind: str, *more: dict[str, Any]) -> Scene:

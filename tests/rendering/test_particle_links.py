@@ -1,0 +1,159 @@
+"""Particles that are linked to the camera through single spheres: the same light, and less noise."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.gpu.context import Context
+from glrt.image.image import Image
+from glrt.methods.particles import link_bits
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import Schedule
+from glrt.scene.scene import Scene
+from tests.rendering.test_particles import BALL, LAMP, MATERIALS, ROOMS, room
+from tests.support.builders import box, cylinder, disk, glass, plane, quad, scene_of, sphere
+from tests.support.images import same_bits
+from tests.support.meshes import icosphere, mesh
+from tests.support.renders import assert_agree, rendered, rendering, same
+
+ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}
+CLOSED = room(
+    quad([-0.15, 0.98, -0.45], [0.3, 0, 0], [0, 0, 0.3], "lamp"),
+    sphere([0.4, -0.6, -0.2], 0.4, "glass"),
+    sphere([-0.45, -0.65, -0.4], 0.35, "mirror"),
+    sphere([-0.1, -0.8, 0.25], 0.2, "tinted"),
+)
+PLACES = {
+    "glass and a mirror in a closed room": CLOSED,
+    "a lens": ROOMS["a lens"],
+    "things before and behind a ball": ROOMS["what particles end at"],
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_links_change_the_noise_alone(context: Context, name: str) -> None:
+    size: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
+    without = rendered(PLACES[name], context, 4096, seed=1, **size)
+    image = rendered(PLACES[name], context, 1024, **size, **ON, particles=0.5)
+    assert_agree(image, without, within=0.07)
+
+
+@pytest.mark.parametrize("bounces", [2, 3, 4])
+@pytest.mark.parametrize("linked", [0.1, 1.0])
+def test_however_few_there_are(context: Context, bounces: int, linked: float) -> None:
+    """Of the particles, and of their bounces: a link takes one, two or three."""
+    size: dict[str, Any] = {"width": 24, "height": 24, "bounces": bounces}
+    without = rendered(CLOSED, context, 2048, seed=1, **size)
+    more = {"caustics": "on", "linked": linked, "particles": 1.0}
+    image = rendered(CLOSED, context, 512, **size, **more)
+    assert_agree(image, without, within=0.15)
+
+
+def test_the_error_falls_of_what_is_seen_in_a_mirror(context: Context) -> None:
+    """Over the mirror ball, relative to the radiance, by a factor of 5, beside particles alone."""
+    size: dict[str, Any] = {"width": 32, "height": 32, "sampler": "sobol", "particles": 1.0}
+    errors = []
+    for way in ({"caustics": "on"}, ON):
+        image = rendered(CLOSED, context, 128, **size, **way)
+        relative = (image.stderr / image.radiance)[16:24, 4:12]
+        errors.append(float(np.square(relative).mean()) ** 0.5)
+    assert errors[1] < errors[0] / 3
+
+
+# --- bits ------------------------------------------------------------------------------------
+
+
+def picture(context: Context, **more: Any) -> Image:
+    options: dict[str, Any] = {"sampler": "sobol", "bounces": 5, **ON, **more}
+    return rendered(ROOMS["a lens"], context, 40, **options)
+
+
+def test_a_crop_is_that_part_of_the_frame(context: Context) -> None:
+    part = picture(context, crop=(3, 5, 9, 7))
+    assert same_bits(part.radiance, picture(context).radiance[5:12, 3:12])
+
+
+def test_dispatches_may_be_of_any_size(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = picture(context, width=48, height=48, linked=0.5)
+    plain = Schedule.next_dispatch
+
+    def small(self: Any, remaining: int, *rest: Any) -> Any:
+        return plain(self, min(remaining, 3), *rest)._replace(tiles=1)
+
+    monkeypatch.setattr(Schedule, "next_dispatch", small)
+    assert same(picture(context, width=48, height=48, linked=0.5), expected)
+
+
+def test_shapes_written_into_the_kernel_change_nothing(context: Context) -> None:
+    images = []
+    for tier in ("generic", "baked"):
+        renderer = Renderer(CLOSED, None, context, tier, width=16, height=16, samples=32, **ON)
+        images.append(renderer.render().image())
+        renderer.release()
+    assert same(*images)
+
+
+def test_a_scene_without_such_spheres_has_no_links(context: Context) -> None:
+    scene = room(LAMP, {**BALL, "material": "pane"})
+    plain = rendered(scene, context, 32, caustics="on")
+    assert same(plain, rendered(scene, context, 32, **ON))
+
+
+# --- which spheres ---------------------------------------------------------------------------
+
+FLOOR = plane([0, 0, 0], [0, 1, 0], "matte")
+ROUND = sphere([0, 1, 0], 1, "glass")
+FAR_LAMP = sphere([0, 9, 0], 0.5, "lamp")
+ALONE: dict[str, list[dict[str, Any]]] = {
+    "on a floor": [FLOOR],
+    "beside another": [sphere([1.5, 0.5, 0], 0.5, "matte"), sphere([0, -1000, 0], 1000, "matte")],
+    "between tilted walls": [quad([-2, 0, 1.5], [4, 0, 0], [0, 2, 0.2], "matte")],
+    "beside a box": [box([1, 0, -1], [2, 2, 1], "matte")],
+    "beside a mesh": [mesh(icosphere(1), "matte", translate=[3, 0, 0])],
+}
+FULL: dict[str, list[dict[str, Any]]] = {
+    "sunk into a floor": [plane([0, 0.01, 0], [0, 3, 0], "matte")],
+    "with a lamp in it": [sphere([0.1, 1, 0], 0.2, "lamp")],
+    "in a larger ball": [sphere([0, 1, 0], 3, "glass")],
+    "cut by a quad": [quad([0.5, 0.5, -1], [0, 1, 0], [0, 0, 1], "matte")],
+    "with a disk in it": [disk([0, 1, 0], [0, 1, 0], 0.3, "matte")],
+    "pierced by a cylinder": [cylinder([0, 0, 0], [0, 3, 0], 0.1, "matte")],
+    "with a mesh in it": [mesh(icosphere(1), "matte", scale=0.1, translate=[0, 1, 0])],
+}
+
+
+def links_of(things: list[dict[str, Any]], **material: Any) -> int:
+    scene = scene_of([*things, ROUND, FAR_LAMP], {**MATERIALS, "glass": {**glass(), **material}})
+    spheres = [thing for thing in scene.visible if thing.shape == "sphere"]
+    number = next(n for n, it in enumerate(spheres) if it.material == "glass" and it.radius == 1)
+    return link_bits(scene) >> number & 1
+
+
+@pytest.mark.parametrize("name", ALONE)
+def test_a_sphere_that_nothing_lies_in_has_links(name: str) -> None:
+    assert links_of(ALONE[name]) == 1
+
+
+@pytest.mark.parametrize("name", FULL)
+def test_one_that_something_lies_in_has_none(name: str) -> None:
+    assert links_of(FULL[name]) == 0
+
+
+def test_a_hidden_thing_lies_nowhere() -> None:
+    assert links_of([{**FULL["with a lamp in it"][0], "hidden": True}]) == 1
+
+
+@pytest.mark.parametrize("material", [{"thin": True}, {"ior": 0.7}, {"roughness": 0.2}])
+def test_glass_that_bends_light_otherwise_has_none(material: dict[str, Any]) -> None:
+    assert links_of([FLOOR], **material) == 0
+
+
+def test_a_picture_has_links_only_where_it_asks_for_them(context: Context) -> None:
+    scene: Scene = ROOMS["a ball of glass"]
+    with rendering(scene, context, caustics="on") as renderer:
+        plain = renderer.render(32).image()
+        renderer.update(linked=0.5)
+        assert not same(renderer.render(32).image(), plain)
+        renderer.update(linked=0.0)
+        assert same(renderer.render(32).image(), plain)
