@@ -41,10 +41,11 @@ def caster_bits(scene: Scene) -> int:
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     known = [] if contents_of(scene).has_sphere_tree else spheres[:BITS]
-    return sum(1 << n for n, it in enumerate(known) if _is_smooth(scene.materials[it.material]))
+    return sum(1 << n for n, it in enumerate(known) if is_smooth(scene.materials[it.material]))
 
 
-def _is_smooth(material: Material) -> bool:
+def is_smooth(material: Material) -> bool:
+    """Whether light passes it, or comes by it, in one direction alone."""
     if isinstance(material, Dielectric):
         return material.thin or material.alpha == 0
     return isinstance(material, Metal) and material.alpha == 0
