@@ -11,13 +11,14 @@ from glrt.gpu.context import ROUTES, Pipeline
 from glrt.image.sources import FileRules
 from glrt.settings import RenderSettings, Settings, editable_of
 
-AUTO = "auto"  # as --method: chosen by a measurement
-_AUTO = {
+AUTO = "auto"  # as --method or --caustics: chosen by a measurement
+_AUTO = {  # what it chooses
     "method": "the cheapest that reaches --error, measured first for some seconds, or for half of "
     "--time",
     "caustics": "as a short pilot finds it cheaper, for long renders of scenes with smooth glass "
     "or metal",
 }
+_LEFT_OPEN = ("caustics",)  # those that are AUTO unless they are given
 SCENE = (
     "a scene file, the name of a scene that comes with glrt, a picture rendered by glrt, or - for "
     "a scene file on standard input"
@@ -128,6 +129,7 @@ def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> Non
         unit = editable_of(field).unit
         options = _options(name, field.annotation, unit)
         wish = "the scene's" if name in RenderSettings.model_fields else _shown(field.default)
+        wish = AUTO if has_auto and name in _LEFT_OPEN else wish
         notes = "; ".join(filter(None, [unit, f"default: {wish}"]))
         text = f"{field.description} ({notes})".replace("%", "%%")
         if has_auto and name in _AUTO:
