@@ -165,6 +165,13 @@ def test_no_pilot_and_no_error(
     assert recipe_of(image).decisions == {}
 
 
+def test_an_error_that_few_samples_reach_decides_nothing(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(caustics, "LEAST", 128)
+    assert recipe_of(rendered("cornell", *SIZE, "--error", "90%")).decisions == {}
+
+
 # --- pictures ------------------------------------------------------------------------------------
 
 
