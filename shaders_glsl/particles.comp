@@ -4,6 +4,7 @@
 layout(local_size_x = 64) in;
 
 #include "trace.glsl"
+#include "film/splat_unit.glsl"
 
 layout(std430) buffer Splats {
     uint clipped;  // how many were larger than MOST, and count as that
@@ -27,7 +28,7 @@ void add_words(int at, float units) {
 
 // Adds radiance to a pixel of the crop.
 void add_to_pixel(ivec2 pixel, vec3 radiance) {
-    precise vec3 units = radiance / frame.splat_unit;
+    precise vec3 units = radiance / splat_unit();
     if (!is_finite(units)) {
         atomicAdd(refused, 1u);
         return;

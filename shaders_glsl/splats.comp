@@ -6,6 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_arrays.glsl"
 #include "sampling/unit_float.glsl"
 #include "film/pixel.glsl"
+#include "film/splat_unit.glsl"
 #include "passes/tiles.glsl"
 
 layout(rgba32f) uniform readonly image2D source_mean;      // a: observations
@@ -40,7 +41,7 @@ void main() {
     precise float red = take_sum(at);
     precise float green = take_sum(at + 2);
     precise float blue = take_sum(at + 4);
-    precise vec3 radiance = vec3(red, green, blue) * (frame.splat_unit / (frame.particles * float(frame.sample_count)));
+    precise vec3 radiance = vec3(red, green, blue) * (splat_unit() / (frame.particles * float(frame.sample_count)));
     add_sample(pixel, radiance, 0);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));

@@ -7,6 +7,8 @@ Modules, each importing only what stands above it:
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
 - doubts: what is said of an error that is not to be believed
+- figures: what is told of a render that has ended
+- caustics: whether a render has particles, where the command line leaves it open
 - progress: the progress bar
 - render: `glrt render`
 - view: `glrt view`

@@ -11,7 +11,14 @@ from glrt.gpu.context import ROUTES, Pipeline
 from glrt.image.sources import FileRules
 from glrt.settings import RenderSettings, Settings, editable_of
 
-AUTO = "auto"  # as --method: chosen by a measurement
+AUTO = "auto"  # as --method or --caustics: chosen by a measurement
+_AUTO = {  # what it chooses
+    "method": "the cheapest that reaches --error, measured first for some seconds, or for half of "
+    "--time",
+    "caustics": "as a short pilot finds it cheaper, for long renders of scenes with smooth glass "
+    "or metal",
+}
+_LEFT_OPEN = ("caustics",)  # those that are AUTO unless they are given
 SCENE = (
     "a scene file, the name of a scene that comes with glrt, a picture rendered by glrt, or - for "
     "a scene file on standard input"
@@ -112,24 +119,22 @@ def file_rules(arguments: argparse.Namespace) -> FileRules:
     return FileRules(arguments.allow_outside, arguments.assets_from, is_changed)
 
 
-def add_settings(parser: argparse.ArgumentParser, *more_methods: str) -> None:
+def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> None:
     """An option for each field of Settings; absent ones leave no trace in the result.
 
-    `more_methods` are values of `--method` beyond those of the model.
+    `has_auto`: some of them take `auto` too, which is measured.
     """
     group = parser.add_argument_group("settings")
     for name, field in Settings.model_fields.items():
         unit = editable_of(field).unit
         options = _options(name, field.annotation, unit)
         wish = "the scene's" if name in RenderSettings.model_fields else _shown(field.default)
+        wish = AUTO if has_auto and name in _LEFT_OPEN else wish
         notes = "; ".join(filter(None, [unit, f"default: {wish}"]))
         text = f"{field.description} ({notes})".replace("%", "%%")
-        if name == "method" and AUTO in more_methods:
+        if has_auto and name in _AUTO:
             options["choices"] = [*options["choices"], AUTO]
-            text += (
-                f"; {AUTO}: the cheapest that reaches --error, measured first for some seconds, "
-                "or for half of --time"
-            )
+            text += f"; {AUTO}: {_AUTO[name]}"
         group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
     group.add_argument(
         "--light",

@@ -6,13 +6,12 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any, NamedTuple
 
 from glrt import signals
 from glrt.cli.autosave import Autosave
-from glrt.cli.doubts import clipped, doubt
+from glrt.cli.caustics import with_caustics
+from glrt.cli.figures import Done, tell
 from glrt.cli.options import (
-    AUTO,
     SCENE,
     add_context,
     add_files,
@@ -23,20 +22,17 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
-from glrt.cli.process import fail, file_names, peak_bytes, print_figures, since_start
+from glrt.cli.process import fail, since_start
 from glrt.cli.request import Order, opened, order
 from glrt.errors import RenderError, UsageError
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
-from glrt.methods.contents import contents_of
-from glrt.methods.omissions import left_out, omissions
 from glrt.methods.slowness import slow_because
 from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.scene.limits import cautions
-from glrt.scene.loading import sources_of
 from glrt.text import counted
 
 DESCRIPTION = "Render a scene to files, without a window."
@@ -55,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "scene", metavar="SCENE", nargs="?", help=f"{SCENE}; optional with --resume"
     )
     add_outputs(parser)
-    add_settings(parser, AUTO)
+    add_settings(parser, has_auto=True)
     parser.add_argument(
         "--time",
         type=float,
@@ -114,13 +110,14 @@ def _run(arguments: argparse.Namespace) -> int:
     is_kept = any(name.lower().endswith(".exr") for name in arguments.outputs)
     if getattr(arguments, "aov", ()) and not is_kept:
         raise UsageError("--aov needs an .exr output: other files hold the picture alone.")
-    if not arguments.quiet:
-        _warn(wanted)
     if is_automatic(arguments):
         from glrt.analysis.method_choice.advice import choose
 
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
+    wanted = with_caustics(arguments, wanted)
+    if not arguments.quiet:
+        _warn(wanted)
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption, load)
 
@@ -155,7 +152,7 @@ def _render(
         return fail(signals.NOTHING, _signal_code(interruption))
     estimate = image.error
     autosave.keep(image)
-    _tell(arguments, Done(renderer, image, begun, seconds, estimate))
+    tell(arguments, Done(renderer, image, begun, seconds, estimate))
     if interruption.signal is not None:
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
@@ -216,86 +213,3 @@ def _watch(
             autosave.after(renderer)
 
         yield watch
-
-
-class Done(NamedTuple):
-    """A render that has ended."""
-
-    renderer: Renderer
-    image: Image
-    begun: int  # samples that each pixel had at the start
-    seconds: dict[str, float]
-    error: float | None
-
-    @property
-    def new(self) -> int:
-        """Samples of each pixel that were rendered."""
-        return self.image.samples - self.begun
-
-    @property
-    def rate(self) -> float:
-        """Samples of pixels a second."""
-        width, height = self.renderer.size
-        return self.new * width * height / max(self.seconds["render"], 1e-9)
-
-    @property
-    def dropped(self) -> int:
-        """Samples that were not finite."""
-        state = self.image.film_state
-        if state is None:
-            return self.renderer.nonfinite()
-        return int(state.dropped.sum(dtype=float)) + self.renderer.lost_particles.refused
-
-
-def _tell(arguments: argparse.Namespace, done: Done) -> None:
-    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
-    renderer, begun, new = done.renderer, done.begun, done.new
-    width, height = renderer.size
-    if arguments.json:
-        print_figures(_figures(arguments, done), arguments.outputs)
-    elif not arguments.quiet:
-        known = "" if done.error is None else f", estimated error {100 * done.error:.2g} %"
-        more = f" ({new} of them new)" if begun else ""
-        print(
-            f"Wrote {file_names(arguments.outputs)}: {width} x {height}, "
-            f"{counted(done.image.samples, 'sample')}{more} in {done.seconds['render']:.1f} s "
-            f"({done.rate / 1e6:.2f} million samples/s){known}.",
-            file=sys.stderr,
-        )
-        if dropped := done.dropped:
-            print(
-                f"{dropped:,} samples were dropped: they were not finite, or exceeded the driver's "
-                "loop limit. If there are many, the picture is biased: use fewer bounces.",
-                file=sys.stderr,
-            )
-    doubts = (
-        [] if arguments.quiet else [clipped(renderer.lost_particles.clipped), doubt(done.image)]
-    )
-    for text in filter(None, doubts):
-        print(f"glrt: caution: {text}", file=sys.stderr)
-    if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
-        print(left_out(renderer.settings, missing), file=sys.stderr)
-
-
-def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
-    renderer, settings = done.renderer, done.renderer.settings
-    return {
-        "scene": arguments.scene or arguments.resume,
-        "width": settings.width,
-        "height": settings.height,
-        "samples": done.image.samples,
-        "bounces": settings.bounces,
-        "method": settings.method,
-        "seed": settings.seed,
-        "pipeline": renderer.pipeline,
-        "context": renderer.context.route,
-        "renderer": renderer.context.renderer,
-        "seconds": {name: round(value, 6) for name, value in done.seconds.items()},
-        "samples_per_second": round(done.rate, 1),
-        "error": done.error,
-        "error_doubtful": done.image.error_doubtful,
-        "nonfinite": done.dropped,
-        "peak_bytes": peak_bytes(),
-        "triangles": contents_of(renderer.scene).triangles,
-        "assets": sources_of(renderer.scene),
-    }

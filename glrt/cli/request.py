@@ -60,8 +60,8 @@ def order(arguments: argparse.Namespace) -> Order:
 
 def _decisions_kept(arguments: argparse.Namespace, recipe: Recipe | None) -> dict[str, str]:
     """The decisions that a picture tells of, but for settings that are given anew."""
-    told = recipe.decisions if recipe else {}
-    return {name: by for name, by in told.items() if name not in vars(arguments)}
+    told, given = recipe.decisions if recipe else {}, settings_given(arguments)
+    return {name: by for name, by in told.items() if name not in given}
 
 
 def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:

@@ -30,6 +30,7 @@ class Way(StrEnum):
     INDEPENDENT = "the independent sampler"
     CLASSIC = "a classic lighting model"
     PARTICLES = "--caustics on"
+    PILOT = "--caustics auto"
     AUTO = "--method auto"
     TIME = "--time"
     ERROR = "--error"
@@ -46,6 +47,7 @@ MEANINGS: dict[Way, str] = {
     Way.INDEPENDENT: "`--sampler independent`",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
+    Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
     Way.AUTO: "`--method auto`: the cheapest that reaches `--error`",
     Way.TIME: "`--time`: end after some seconds",
     Way.ERROR: "`--error`: end at an error",
@@ -68,14 +70,18 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         Way.INDEPENDENT,
     ),
     Way.PARTICLES: (*(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.INDEPENDENT),),
-    Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT),
+    Way.PILOT: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        *(Way.INDEPENDENT, Way.CLASSIC),
+    ),
+    Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PARTICLES, Way.AUTO),
+        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.AUTO),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PARTICLES, Way.AUTO, Way.TIME),
+        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.AUTO, Way.TIME),
     ),
 }
 
@@ -90,6 +96,7 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
+    frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
     frozenset({Way.AUTO, Way.RESUME}): "the picture has its method: leave out --method auto",
     frozenset({Way.AUTO, Way.PART}): "each part might choose another method: name one",
     frozenset({Way.AUTO, Way.MERGED}): "its parts have their method: leave out --method auto",

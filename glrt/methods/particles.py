@@ -8,7 +8,7 @@ from glrt.methods.contents import Contents, contents_of, is_sampled
 from glrt.methods.table import METHODS
 from glrt.scene.glasses import glasses_of, holds
 from glrt.scene.materials import Dielectric, Material, Metal
-from glrt.scene.objects import Object
+from glrt.scene.objects import Array, Object
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Quad, Sphere
 from glrt.settings import Settings
@@ -49,7 +49,7 @@ def caster_bits(scene: Scene) -> int:
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     known = [] if contents_of(scene).has_sphere_tree else spheres[:BITS]
-    return sum(1 << n for n, it in enumerate(known) if _is_smooth(scene.materials[it.material]))
+    return sum(1 << n for n, it in enumerate(known) if is_smooth(scene.materials[it.material]))
 
 
 def link_bits(scene: Scene) -> int:
@@ -60,31 +60,41 @@ def link_bits(scene: Scene) -> int:
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     bits = caster_bits(scene)
-    return sum(bits & 1 << n for n, it in enumerate(spheres[:BITS]) if _has_links(scene, it))
+    found = [(1 << n, it) for n, it in enumerate(spheres[:BITS]) if bits >> n & 1]
+    return sum(bit for bit, it in found if _bends_as_known(scene, it) and _is_empty(scene, it))
 
 
-def _has_links(scene: Scene, sphere: Sphere) -> bool:
+def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
     material = scene.materials[sphere.material]
-    if isinstance(material, Dielectric) and (material.thin or material.ior < 1):
-        return False
-    return not any(_reaches_into(other, sphere) for other in scene.visible if other is not sphere)
+    return not isinstance(material, Dielectric) or (not material.thin and material.ior >= 1)
 
 
-def _reaches_into(thing: Object, sphere: Sphere) -> bool:
-    """Whether something may lie within a sphere: it, or the box around it, comes that near."""
+def _is_empty(scene: Scene, sphere: Sphere) -> bool:
+    """Whether nothing, nor the box around it, reaches into a sphere."""
+    others: dict[type[Object], list[list[float]]] = {}
+    for thing in scene.visible:
+        if thing is not sphere:
+            others.setdefault(type(thing), []).append(thing.row)
     center = np.array(sphere.center, np.float64)
-    if isinstance(thing, Plane):
-        normal = np.array(thing.normal, np.float64)
-        apart = abs(float((center - thing.point) @ normal)) / float(np.linalg.norm(normal))
-    elif isinstance(thing, Sphere):
-        apart = float(np.linalg.norm(center - thing.center)) - thing.radius
-    else:
-        low, high = (corner[0] for corner in type(thing).bounds(np.array([thing.row], np.float64)))
-        apart = float(np.linalg.norm(center - np.clip(center, low, high)))
-    return apart < sphere.radius * (1 - TOUCHING)
+    nearest = (
+        float(_distances(kind, np.array(rows, np.float64), center).min())
+        for kind, rows in others.items()
+    )
+    return all(distance >= sphere.radius * (1 - TOUCHING) for distance in nearest)
 
 
-def _is_smooth(material: Material) -> bool:
+def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
+    """From a point to shapes of a kind, or to the boxes around them, (n,)."""
+    if kind is Plane:
+        away = ((point - rows[:, :3]) * rows[:, 3:]).sum(axis=1)
+        return np.asarray(np.abs(away) / np.linalg.norm(rows[:, 3:], axis=1))
+    if kind is Sphere:
+        return np.asarray(np.linalg.norm(point - rows[:, :3], axis=1) - rows[:, 3])
+    return np.asarray(np.linalg.norm(point - np.clip(point, *kind.bounds(rows)), axis=1))
+
+
+def is_smooth(material: Material) -> bool:
+    """Whether light passes it, or comes by it, in one direction alone."""
     if isinstance(material, Dielectric):
         return material.thin or material.alpha == 0
     return isinstance(material, Metal) and material.alpha == 0

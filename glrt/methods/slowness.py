@@ -12,7 +12,12 @@ LONG = 16  # bounces: paths that are followed further have hardly any light left
 
 def slow_because(scene: Scene, settings: Settings) -> list[str]:
     """A sentence or two for each reason: what takes the time, and what to do."""
-    found = (_one_by_one(scene), _unsampled(scene, settings), _no_roulette(settings))
+    found = (
+        _one_by_one(scene),
+        _unsampled(scene, settings),
+        _no_roulette(settings),
+        _particles_of_a_crop(settings),
+    )
     return [text for text in found if text]
 
 
@@ -45,4 +50,15 @@ def _no_roulette(settings: Settings) -> str:
     return (
         f"--no-roulette follows every path to its limit of {counted(settings.bounces, 'bounce')}, "
         "though it has hardly any light left: leave it out, or allow fewer --bounces."
+    )
+
+
+def _particles_of_a_crop(settings: Settings) -> str:
+    if settings.crop is None or settings.caustics == "off":
+        return ""
+    columns, rows = settings.size
+    share = 100 * columns * rows / (settings.width * settings.height)
+    return (
+        f"the crop is {share:.2g} % of the frame, and the particles of all of it are followed: "
+        "--caustics off may be faster."
     )

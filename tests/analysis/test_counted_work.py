@@ -24,7 +24,7 @@ from glrt.image.image import Image, read_recipe
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits
-from glrt.scene.scene import Scene
+from glrt.scene.scene import Scene, with_lights
 from glrt.settings import SettingOptions, Settings, settings_for
 from tests.support.builders import scene_of
 from tests.support.processes import glrt
@@ -73,6 +73,19 @@ def test_work_grows_with_paths_and_with_what_is_looked_for(context: Context) -> 
     assert 1.5 * naive < mis < 3 * naive
     assert mis < nee < 1.5 * mis
     assert shorter < short < mis
+
+
+def test_rays_of_particles_are_counted_whatever_the_lamps_shine(context: Context) -> None:
+    """Where light is added up, units are those of the brightest lamp, and too much is cut."""
+    scene = load("cornell")
+    settings = settings_for(scene.render, width=16, height=16, caustics="on")
+    found = {
+        rays_per_sample(with_lights(scene, {"lamp": factor}), settings, context)
+        for factor in (1e-6, 1.0, 1e6)
+    }
+    assert len(found) == 1
+    without = rays_per_sample(scene, settings_for(settings, caustics="off"), context)
+    assert found.pop() > 1.05 * without
 
 
 def test_idle_pixels_of_tiles_are_busy() -> None:

@@ -23,9 +23,9 @@ from tests.support.system_packages import needs
 
 SMALL = ("--width", "24", "--height", "16", "--samples", "4")
 KEYS = [
-    *("scene", "width", "height", "samples", "bounces", "method", "seed", "pipeline", "context"),
-    *("renderer", "seconds", "samples_per_second", "error", "error_doubtful", "nonfinite"),
-    *("peak_bytes", "triangles", "assets"),
+    *("scene", "width", "height", "samples", "bounces", "method", "caustics", "seed"),
+    *("pipeline", "context", "renderer", "seconds", "samples_per_second"),
+    *("error", "error_doubtful", "nonfinite", "peak_bytes", "triangles", "assets"),
 ]
 
 

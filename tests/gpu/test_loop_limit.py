@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from glrt.cli.figures import Done
 from glrt.cli.main import main
-from glrt.cli.render import Done
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context
 from glrt.image.sources import load

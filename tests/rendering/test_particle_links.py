@@ -1,4 +1,4 @@
-"""Particles that are linked to the camera through single spheres: the same light, and less noise."""
+"""Particles that are linked to the camera through single spheres: the same light, less noise."""
 
 from typing import Any
 

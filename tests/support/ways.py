@@ -24,6 +24,7 @@ OPTIONS: dict[Way, Options] = {
     Way.INDEPENDENT: ["--sampler", "independent"],
     Way.CLASSIC: ["--method", "phong"],
     Way.PARTICLES: ["--caustics", "on"],
+    Way.PILOT: ["--caustics", "auto"],
     Way.AUTO: ["--method", "auto", "--error", str(ASKED)],
     Way.TIME: ["--time", "0.1"],
     Way.ERROR: ["--error", str(ASKED)],
@@ -154,6 +155,16 @@ def particles_law(render: Render) -> None:
     assert_agree(one, other, within=0.4)
 
 
+def pilot_law(render: Render) -> None:
+    """It is the picture of what was chosen."""
+    image = render(OPTIONS[Way.PILOT])
+    assert image.recipe
+    found = image.recipe.settings
+    chosen = [str(value) for value in (found.caustics, found.particles, found.aimed)]
+    names = ("--caustics", "--particles", "--aimed")
+    assert same(image, render([word for pair in zip(names, chosen, strict=True) for word in pair]))
+
+
 def auto_law(render: Render) -> None:
     image = render(OPTIONS[Way.AUTO])
     assert image.recipe
@@ -181,6 +192,7 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.INDEPENDENT: independent_law,
     Way.CLASSIC: classic_law,
     Way.PARTICLES: particles_law,
+    Way.PILOT: pilot_law,
     Way.AUTO: auto_law,
     Way.TIME: limit_law(Way.TIME),
     Way.ERROR: limit_law(Way.ERROR),

@@ -1,4 +1,4 @@
-"""The cheapest method, and the fewest bounces, that reach an error.
+"""The cheapest method, and the fewest bounces, that reach an error; and whether particles pay.
 
 Modules, each importing only what stands above it:
 
@@ -6,4 +6,5 @@ Modules, each importing only what stands above it:
 - trial: bias, variance and work of the methods, measured on a small frame
 - search: the choice of bounces and method
 - advice: the result in words, for the commands
+- caustics: whether particles from lamps are worth their work, and how many
 """

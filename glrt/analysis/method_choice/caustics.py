@@ -1,0 +1,175 @@
+"""Whether particles from lamps are worth their work, and how many: for `--caustics auto`.
+
+A pilot renders a small copy of the whole frame without particles and with some choices of them, and
+counts the work of each. Nothing depends on a clock: every part and every crop of a picture decides
+alike, and so does the next run.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.analysis.method_choice.work import counting, work_per_sample
+from glrt.error.estimate import relative_error
+from glrt.gpu.context import Context
+from glrt.image.image import Image, Pixels
+from glrt.methods.particles import is_smooth, particles_a_sample, refusal
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+
+Values = Mapping[str, Any]  # of settings, by their names
+
+# What is tried, beside a render without particles.
+CHOICES: tuple[Values, ...] = (
+    {"particles": 0.25, "aimed": 0.5},
+    {"particles": 0.1, "aimed": 0.95},
+)
+PIXELS = 1 << 12  # of the small frame at most
+COUNTED = 1 << 10  # of the still smaller frame in which work is counted, which varies less
+SAMPLES = 64  # of each pixel: four observations with Sobol' points
+LEAST = 128  # times the samples of one of its pictures that a render must have, to be worth a pilot
+SEED = 0x43415553  # whatever that of the render is, so that it decides alike for each
+GAIN = 1.15  # times as efficient, at least: variances and work are estimates
+HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
+CERTAIN = 5.0  # standard errors of the mean of a frame, beyond which two differ
+# What a round of work costs with particles, in rounds without: paths from the camera are weighed
+# too, and particles part from each other. On llvmpipe, 384 x 384 pixels, this is 6 to 13 % more
+# than the time that CHOICES take on four scenes of smooth glass or metal, and 1 to 25 % on seven
+# others: it favours renders without.
+CAMERA_SIDE, PARTICLE_SIDE = 1.2, 2.0
+
+_NONE: Values = {}
+_TINY = 1e-300
+BY_PILOT = f"auto: variance and counted work of {SAMPLES} samples"
+
+
+class Finding(NamedTuple):
+    """What a pilot chose."""
+
+    settings: Settings  # of the render
+    gain: float  # how many times as efficient the best choice with particles is as none
+
+    def decisions(self, given: Values = _NONE) -> dict[str, str]:
+        """What recipes tell, by the names of settings that were not `given`."""
+        more = () if self.settings.caustics == "off" else CHOICES[0].keys() - given.keys()
+        return dict.fromkeys(["caustics", *sorted(more)], BY_PILOT)
+
+
+def may_gain(scene: Scene, settings: Settings) -> bool:
+    """Whether a pilot is worth its work: of a long render, where particles can be followed.
+
+    And where light comes by smooth glass or metal, which is what they are for.
+    """
+    names = {thing.material for thing in scene.visible}
+    return (
+        _is_long(settings, settings.samples)
+        and any(is_smooth(scene.materials[name]) for name in names)
+        and refusal(scene, settings_for(settings, caustics="on")) is None
+    )
+
+
+def particles_worth(
+    scene: Scene,
+    settings: Settings,
+    context: Context,
+    given: Values = _NONE,
+    error: float | None = None,
+) -> Finding | None:
+    """The cheapest way to an error: without particles, or with one choice of them.
+
+    `given` are settings that are not to be chosen. None if few samples reach `error` anyway.
+    """
+    without = settings_for(settings, caustics="off")
+    plain = _picture(scene, without, context)
+    if error is not None and not _is_long(settings, _samples_to(error, plain)):
+        return None
+    found: list[Finding] = []
+    for choice in _choices(given):
+        wanted = settings_for(settings, caustics="on", **choice)
+        found.append(Finding(wanted, _gain(scene, wanted, plain, context)))
+        if found[-1].gain < HOPELESS:
+            break
+    best = max(found, key=lambda finding: finding.gain)
+    return best if best.gain > GAIN else Finding(without, best.gain)
+
+
+def _choices(given: Values) -> list[Values]:
+    """Those that differ, with what is `given` in place of their own values."""
+    found: list[Values] = []
+    for choice in CHOICES:
+        wanted = {**choice, **given}
+        found += [wanted] if wanted not in found else []
+    return found
+
+
+def _is_long(settings: Settings, samples: float) -> bool:
+    """Whether a pilot is a small share of so many samples of each pixel of the frame."""
+    own = SAMPLES * math.prod(_small(settings, PIXELS).size)
+    return samples * settings.width * settings.height >= LEAST * own
+
+
+def _samples_to(error: float, plain: Image) -> float:
+    """How many samples of each pixel reach it without particles, about."""
+    return SAMPLES * _relative(plain, plain.stderr) / error**2
+
+
+def _gain(scene: Scene, settings: Settings, plain: Image, context: Context) -> float:
+    """How many times as efficient these settings are as those of a plain picture."""
+    image = _picture(scene, settings, context)
+    cost = _relative(image, image.stderr) * _slowed(scene, settings, context)
+    variance = max(_relative(image, plain.stderr), _unseen(plain, image))
+    return variance / max(cost, _TINY)
+
+
+def _unseen(plain: Image, other: Image) -> float:
+    """The least variance of a plain picture that lacks light which another has; 0 if it does not.
+
+    Its own errors tell nothing of light that none of its paths has found, such as the caustic of a
+    tiny lamp. Were that found once, it would be by one path of one pixel: all of it at once.
+    """
+    pixels = math.prod(plain.radiance.shape[:2])
+    gap = float(np.mean(other.radiance - plain.radiance, dtype=float))
+    errors = np.hypot(plain.stderr, other.stderr)
+    sure = math.sqrt(float(np.mean(np.square(errors), dtype=float)) / pixels)
+    if gap <= CERTAIN * sure:
+        return 0.0
+    return pixels * _relative(other, np.full_like(other.radiance, gap))
+
+
+def _small(settings: Settings, pixels: int) -> Settings:
+    """Settings for the whole frame in so many pixels at most, without AOVs."""
+    scale = min(1.0, math.sqrt(pixels / (settings.width * settings.height)))
+    width, height = (max(1, int(scale * n)) for n in (settings.width, settings.height))
+    return settings_for(
+        settings, width=width, height=height, crop=None, aov=(), samples=SAMPLES, seed=SEED
+    )
+
+
+def _picture(scene: Scene, settings: Settings, context: Context) -> Image:
+    renderer = Renderer(scene, _small(settings, PIXELS), context, tier="baked")
+    try:
+        return renderer.render().image()
+    finally:
+        renderer.release()
+
+
+def _slowed(scene: Scene, settings: Settings, context: Context) -> float:
+    """How many times the work of a sample without particles one with them takes."""
+    small = _small(settings, COUNTED)
+    with counting(scene, small, context) as counter:
+        both = work_per_sample(counter, settings.bounces, lambda _: True)
+        films = counter.image().particles
+    assert films is not None
+    own = float(films.mean.mean(dtype=float))
+    whole_groups = particles_a_sample(small) / particles_a_sample(settings)
+    return CAMERA_SIDE + PARTICLE_SIDE * own / whole_groups / (both - own)
+
+
+def _relative(scale: Image, errors: Pixels) -> float:
+    """The mean square of errors, relative to the radiance of a picture."""
+    error = relative_error(scale.radiance, errors)
+    assert error is not None  # there are four observations or more
+    return error**2

@@ -1,0 +1,76 @@
+"""`--caustics auto`: ask a pilot whether particles from lamps are worth their work."""
+
+import argparse
+import sys
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from glrt.cli.options import AUTO, is_automatic
+from glrt.cli.request import Order
+from glrt.gpu.context import open_context
+from glrt.image.sources import recipe_of
+from glrt.rendering.pipelines import resolve
+
+if TYPE_CHECKING:
+    from glrt.analysis.method_choice.caustics import Finding
+
+SHORT = 30.0  # seconds of `--time` of which a pilot would take too large a share
+MANY = 100  # times as efficient: more is not told
+
+
+def with_caustics(arguments: argparse.Namespace, wanted: Order) -> Order:
+    """The order, with particles where a pilot finds that they are worth their work.
+
+    Pictures keep what they were rendered with. What was found is told on stderr.
+    """
+    if not _is_open(arguments, wanted):
+        return wanted
+    from glrt.analysis.method_choice.caustics import CHOICES
+
+    given = {name: value for name, value in vars(arguments).items() if name in CHOICES[0]}
+    found = _finding(arguments, wanted, given)
+    if found is None:
+        return wanted
+    if not arguments.quiet:
+        print(told(found), file=sys.stderr, flush=True)
+    decisions = {**wanted.decisions, **found.decisions(given)}
+    return replace(wanted, settings=found.settings, decisions=decisions)
+
+
+def _is_open(arguments: argparse.Namespace, wanted: Order) -> bool:
+    """Whether the command line leaves it to the program, for a new render of some length."""
+    is_asked = getattr(arguments, "caustics", AUTO) == AUTO and not is_automatic(arguments)
+    is_new = wanted.begun is None and recipe_of(arguments.scene) is None
+    is_short = arguments.time is not None and arguments.time < SHORT
+    return is_asked and is_new and not is_short and arguments.pipeline != "fragment"
+
+
+def _finding(
+    arguments: argparse.Namespace, wanted: Order, given: dict[str, Any]
+) -> "Finding | None":
+    """What a pilot finds; None where there is none."""
+    from glrt.analysis.method_choice.caustics import may_gain, particles_worth
+
+    scene, settings = wanted.scene, wanted.settings
+    if not may_gain(scene, settings):
+        return None
+    context = open_context(arguments.context, arguments.pipeline)
+    try:
+        if resolve(arguments.pipeline, context) == "fragment":
+            return None
+        return particles_worth(scene, settings, context, given, wanted.limits.error)
+    finally:
+        context.gl.release()
+
+
+def told(found: "Finding") -> str:
+    """What a pilot chose, and why, in a sentence."""
+    from glrt.analysis.method_choice.caustics import CHOICES
+
+    times = f"{found.gain:.2g} times" if found.gain < MANY else f"over {MANY} times"
+    if found.settings.caustics == "off":
+        return f"Rendering with --caustics off: particles would be {times} as efficient."
+    chosen = " ".join(f"--{name} {getattr(found.settings, name):g}" for name in CHOICES[0])
+    return (
+        f"Rendering with --caustics on {chosen}: {times} as efficient as without, by a short pilot."
+    )

@@ -1,0 +1,98 @@
+"""What `glrt render` tells of a render that has ended: a line of JSON, or of prose."""
+
+import argparse
+import sys
+from typing import Any, NamedTuple
+
+from glrt.cli.doubts import clipped, doubt
+from glrt.cli.process import file_names, peak_bytes, print_figures
+from glrt.image.image import Image
+from glrt.methods.contents import contents_of
+from glrt.methods.omissions import left_out, omissions
+from glrt.rendering.renderer import Renderer
+from glrt.scene.loading import sources_of
+from glrt.text import counted
+
+
+class Done(NamedTuple):
+    """A render that has ended."""
+
+    renderer: Renderer
+    image: Image
+    begun: int  # samples that each pixel had at the start
+    seconds: dict[str, float]
+    error: float | None
+
+    @property
+    def new(self) -> int:
+        """Samples of each pixel that were rendered."""
+        return self.image.samples - self.begun
+
+    @property
+    def rate(self) -> float:
+        """Samples of pixels a second."""
+        width, height = self.renderer.size
+        return self.new * width * height / max(self.seconds["render"], 1e-9)
+
+    @property
+    def dropped(self) -> int:
+        """Samples that were not finite."""
+        state = self.image.film_state
+        if state is None:
+            return self.renderer.nonfinite()
+        return int(state.dropped.sum(dtype=float)) + self.renderer.lost_particles.refused
+
+
+def tell(arguments: argparse.Namespace, done: Done) -> None:
+    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    renderer, begun, new = done.renderer, done.begun, done.new
+    width, height = renderer.size
+    if arguments.json:
+        print_figures(_figures(arguments, done), arguments.outputs)
+    elif not arguments.quiet:
+        known = "" if done.error is None else f", estimated error {100 * done.error:.2g} %"
+        more = f" ({new} of them new)" if begun else ""
+        print(
+            f"Wrote {file_names(arguments.outputs)}: {width} x {height}, "
+            f"{counted(done.image.samples, 'sample')}{more} in {done.seconds['render']:.1f} s "
+            f"({done.rate / 1e6:.2f} million samples/s){known}.",
+            file=sys.stderr,
+        )
+        if dropped := done.dropped:
+            print(
+                f"{dropped:,} samples were dropped: they were not finite, or exceeded the driver's "
+                "loop limit. If there are many, the picture is biased: use fewer bounces.",
+                file=sys.stderr,
+            )
+    doubts = (
+        [] if arguments.quiet else [clipped(renderer.lost_particles.clipped), doubt(done.image)]
+    )
+    for text in filter(None, doubts):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
+        print(left_out(renderer.settings, missing), file=sys.stderr)
+
+
+def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
+    renderer, settings = done.renderer, done.renderer.settings
+    return {
+        "scene": arguments.scene or arguments.resume,
+        "width": settings.width,
+        "height": settings.height,
+        "samples": done.image.samples,
+        "bounces": settings.bounces,
+        "method": settings.method,
+        "caustics": settings.caustics,
+        "seed": settings.seed,
+        "pipeline": renderer.pipeline,
+        "context": renderer.context.route,
+        "renderer": renderer.context.renderer,
+        "seconds": {name: round(value, 6) for name, value in done.seconds.items()},
+        "samples_per_second": round(done.rate, 1),
+        "error": done.error,
+        "error_doubtful": done.image.error_doubtful,
+        "nonfinite": done.dropped,
+        "peak_bytes": peak_bytes(),
+        "triangles": contents_of(renderer.scene).triangles,
+        "assets": sources_of(renderer.scene),
+    }

@@ -1,0 +1,108 @@
+"""The pilot of `--caustics auto`: what it finds, and that no clock decides."""
+
+import random
+import time
+
+import pytest
+
+from glrt.analysis.method_choice import caustics
+from glrt.analysis.method_choice.caustics import may_gain, particles_worth
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
+
+BALL = "methods/caustic"
+
+
+def test_a_choice_that_is_given_whole_is_tried_once(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gains = iter([0.95])
+    monkeypatch.setattr(caustics, "_gain", lambda *_: next(gains))
+    given = {"particles": 0.3, "aimed": 0.4}
+    found = particles_worth(load(BALL), Settings(width=8, height=8), context, given)
+    assert found == (settings_for(Settings(width=8, height=8), caustics="off"), 0.95)
+    assert [*gains] == []
+
+
+def test_the_first_choice_may_be_hopeless(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gains = iter([0.5, 9.0])
+    monkeypatch.setattr(caustics, "_gain", lambda *_: next(gains))
+    found = particles_worth(load(BALL), Settings(width=8, height=8), context)
+    assert found
+    assert (found.settings.caustics, found.gain, [*gains]) == ("off", 0.5, [9.0])
+
+
+def under_a_ball(radius: float) -> Scene:
+    """A floor with the caustic of a lamp that shines as much whatever its size, and its light."""
+    things = [
+        plane([0, 0, 0], [0, 1, 0], "floor"),
+        sphere([0, 0.8, 0], 0.5, "glass"),
+        sphere([0.4, 3, 0.2], radius, "lamp"),
+    ]
+    materials = {"floor": MATTE, "glass": glass(), "lamp": lamp(9 / radius**2)}
+    camera = {"position": [0, 1.2, 3.5], "look_at": [-0.1, 0, 0.05], "fov": 12}
+    return scene_of(things, materials, camera=camera)
+
+
+@pytest.mark.parametrize("radius", [0.1, 1e-4])
+def test_light_that_no_path_finds_is_not_taken_for_darkness(
+    radius: float, context: Context
+) -> None:
+    """Without particles, the errors of a picture know nothing of the caustic of a tiny lamp."""
+    found = particles_worth(under_a_ball(radius), Settings(width=32, height=32), context)
+    assert found
+    assert found.settings.caustics == "on"
+    assert found.gain > 10
+
+
+def test_a_dark_scene_gains_nothing(context: Context) -> None:
+    things = [sphere([0, 0, -3], 0.5, "glass"), sphere([0, 0, 9], 0.5, "lamp")]
+    dark = scene_of(things, {"glass": glass(), "lamp": lamp(0.0)})
+    found = particles_worth(dark, Settings(width=8, height=8), context)
+    assert found
+    assert (found.settings.caustics, found.gain) == ("off", 0.0)
+
+
+def test_no_clock_decides(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = load(BALL)
+    settings = settings_for(scene.render, width=24, height=24, bounces=4)
+    plain = particles_worth(scene, settings, context)
+    now, strides = 0.0, random.Random(1)
+
+    def nonsense() -> float:
+        nonlocal now
+        now += strides.choice([0.0, 1e-6, 3.0, 1e4])
+        return now
+
+    monkeypatch.setattr(time, "perf_counter", nonsense)
+    assert particles_worth(scene, settings, context) == plain
+
+
+def test_the_frame_of_the_pilot_is_the_whole_one() -> None:
+    wanted = Settings(width=600, height=400, crop=(1, 2, 3, 4), aov=("depth",), seed=5)
+    small = caustics._small(wanted, 2400)
+    assert (small.size, small.aov, small.seed) == ((60, 40), (), caustics.SEED)
+    thin = caustics._small(Settings(width=16384, height=1), 4096)
+    assert thin.size == (8192, 1)
+
+
+def test_a_pilot_is_a_small_share_of_a_render() -> None:
+    """Of the samples of its three pictures, 3 / LEAST at most."""
+    scene = load("cornell")
+    assert may_gain(scene, settings_for(scene.render))
+    assert not may_gain(scene, settings_for(scene.render, samples=64))
+    assert not may_gain(scene, settings_for(scene.render, width=64, height=64))
+    assert may_gain(scene, settings_for(scene.render, samples=64, width=2048, crop=(0, 0, 9, 9)))
+
+
+def test_an_error_that_few_samples_reach_is_not_worth_a_choice(context: Context) -> None:
+    scene = load(BALL)
+    settings = settings_for(scene.render, width=24, height=24, samples=1 << 20)
+    assert may_gain(scene, settings)
+    assert particles_worth(scene, settings, context, error=1.0) is None
+    assert particles_worth(scene, settings, context, error=0.001) is not None
