@@ -169,7 +169,8 @@ float chance_of(Material material, Crossing at, int chords) {
 vec3 tint_of(Material material, Arc arc, Crossing at) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return metal_reflectance(material, at.cosine);
     if (!HAS_ATTENUATION) return vec3(1.0);
-    return share_left(absorption_of_glass(material.details), float(2 * arc.chords) * arc.radius * at.cosines.z);
+    precise float inside = float(2 * arc.chords) * arc.radius * at.cosines.z;
+    return share_left(absorption_of_glass(material.details), inside);
 }
 
 // A link that is tried is of one sphere, drawn evenly; then the number of its chords is drawn, and one of the branches
@@ -183,7 +184,8 @@ int draw_chords(Material material, float u) {
 float share_of_draws(Material material, int chords) {
     precise float share = 1.0 / float(bitCount(LINKED));
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return share;
-    return chords == 1 ? (1.0 - 2.0 * REFLECTED) * share : REFLECTED * share;
+    share *= chords == 1 ? 1.0 - 2.0 * REFLECTED : REFLECTED;
+    return share;
 }
 
 // Where D falls first, half of the draws are of the branch that does.

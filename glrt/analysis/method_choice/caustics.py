@@ -24,8 +24,9 @@ Values = Mapping[str, Any]  # of settings, by their names
 
 # What is tried, beside a render without particles.
 CHOICES: tuple[Values, ...] = (
-    {"particles": 0.25, "aimed": 0.5},
-    {"particles": 0.1, "aimed": 0.95},
+    {"particles": 0.25, "aimed": 0.5, "linked": 0.0},
+    {"particles": 0.1, "aimed": 0.95, "linked": 0.0},
+    {"particles": 0.5, "aimed": 0.2, "linked": 1.0},
 )
 PIXELS = 1 << 12  # of the small frame at most
 COUNTED = 1 << 10  # of the still smaller frame in which work is counted, which varies less
@@ -35,11 +36,20 @@ SEED = 0x43415553  # whatever that of the render is, so that it decides alike fo
 GAIN = 1.15  # times as efficient, at least: variances and work are estimates
 HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
 CERTAIN = 5.0  # standard errors of the mean of a frame, beyond which two differ
-# What a round of work costs with particles, in rounds without: paths from the camera are weighed
-# too, and particles part from each other. On llvmpipe, 384 x 384 pixels, this is 6 to 13 % more
-# than the time that CHOICES take on four scenes of smooth glass or metal, and 1 to 25 % on seven
-# others: it favours renders without.
-CAMERA_SIDE, PARTICLE_SIDE = 1.2, 2.0
+NEAR = 0.85  # of the best gain: what is later in CHOICES finds more of the light that a pilot misses
+
+
+class Costs(NamedTuple):
+    """What a round of work costs with particles, in rounds without."""
+
+    camera_side: float  # paths from the camera are weighed too
+    particle_side: float  # particles part from each other
+
+
+# On llvmpipe, 384 x 384 pixels, COSTS are 6 to 13 % more than the time that CHOICES without links
+# take on four scenes of smooth glass or metal, and 1 to 25 % more on seven others: they favour
+# renders without. COSTS_OF_LINKS, 192 x 192 pixels: 4 % less to 5 % more, on four scenes.
+COSTS, COSTS_OF_LINKS = Costs(1.2, 2.0), Costs(1.35, 3.6)
 
 _NONE: Values = {}
 _TINY = 1e-300
@@ -92,8 +102,9 @@ def particles_worth(
         found.append(Finding(wanted, _gain(scene, wanted, plain, context)))
         if found[-1].gain < HOPELESS:
             break
-    best = max(found, key=lambda finding: finding.gain)
-    return best if best.gain > GAIN else Finding(without, best.gain)
+    most = max(finding.gain for finding in found)
+    best = [finding for finding in found if finding.gain >= NEAR * most][-1]
+    return best if best.gain > GAIN else Finding(without, most)
 
 
 def _choices(given: Values) -> list[Values]:
@@ -165,7 +176,8 @@ def _slowed(scene: Scene, settings: Settings, context: Context) -> float:
     assert films is not None
     own = float(films.mean.mean(dtype=float))
     whole_groups = particles_a_sample(small) / particles_a_sample(settings)
-    return CAMERA_SIDE + PARTICLE_SIDE * own / whole_groups / (both - own)
+    costs = COSTS_OF_LINKS if settings.linked else COSTS
+    return costs.camera_side + costs.particle_side * own / whole_groups / (both - own)
 
 
 def _relative(scale: Image, errors: Pixels) -> float:
