@@ -42,6 +42,7 @@ SWITCHES = {
     "particles": Way({"caustics": "on"}),
     "few particles": Way({"caustics": "on", "particles": 0.1, "aimed": 0.98}),
     "many particles": Way({"caustics": "on", "particles": 1.0, "aimed": 0.2}),
+    "linked particles": Way({"caustics": "on", "particles": 0.5, "aimed": 0.2, "linked": 1.0}),
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
 SAMPLES = 32  # per pixel of a run: two blocks of Sobol' points

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.methods.features import needs_of
-from glrt.methods.particles import caster_bits, refusal
+from glrt.methods.particles import caster_bits, link_bits, refusal
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
+LINKED = {"particles": 0.5, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
 FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 
@@ -46,10 +47,16 @@ def variants_of(
 
 
 def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
-    """A variant with particles, where there is smooth glass or metal to aim them at."""
+    """Variants with particles, where there is smooth glass or metal to aim them at.
+
+    And with links, where there are spheres to link them through.
+    """
     changes: dict[str, Any] = {"method": LEAD, "caustics": "on"}
-    if caster_bits(scene) and not refusal(scene, settings_for(settings, **changes)):
-        yield f"{LEAD}, particles", changes
+    if not caster_bits(scene) or refusal(scene, settings_for(settings, **changes)):
+        return
+    yield f"{LEAD}, particles", changes
+    if link_bits(scene):
+        yield f"{LEAD}, particles linked", {**changes, **LINKED}
 
 
 def _variants_of_lead(settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -53,7 +53,7 @@ struct Way {
     vec3 direction;  // unit, from the eye
 };
 
-// `sense`: of the turn about the centre, 1 from the eye towards the vertex.
+// `sense` as sense_of has it.
 Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
     precise vec2 sines = arc.ratios.xy * at.sine;
     precise vec2 cos_turn = at.cosine * at.cosines.xy + at.sine * sines;  // from the eye and from the vertex
@@ -82,21 +82,20 @@ void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise
     precise float half_tangent = meeting_of(arc, branch);
     if (half_tangent < 0.0) return;
     precise Crossing at = crossing_of(arc, incidence_of(half_tangent).sine);
-    precise Way way = way_of(arc, sphere.center, at, chords == 1 ? -branch.sign : branch.sign);
+    precise Way way = way_of(arc, sphere.center, at, sense_of(branch, chords));
     precise vec3 away = way.far - ray.origin;
     precise float distance = length(away);
     ray.direction = away / distance;
     precise vec3 wi = to_local(vertex.frame, ray.direction);
     precise vec2 place = place_on_film(way.direction, eye.lens);
     if (wi.z <= 0.0 || dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
-    precise float share = frame.linked * share_of_draws(material, chords) * share_of_branch(arc, branch.falls);
-    precise float pdf = pdf_camera(way.direction) * wi.z * spread_of(arc, at) * chance_of(material, at, chords);
-    precise float weight = particle_weight(pdf / (frame.particles * share * self.emission), self.kappa);
+    precise float rho = pdf_of_way(pdf_camera(way.direction), material, arc, at, wi.z) / linked_this_way(material, arc, at);
+    precise float weight = particle_weight(rho / self.emission, self.kappa);
     precise vec3 back = eye.position - way.near;
     precise float reach = length(back);
     precise vec3 flux = self.power * self.path.throughput * tint_of(material, arc, at);
     if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance + reach);
-    precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight / share);
+    precise vec3 value = flux * (vertex.material.color / PI) * (frame.particles * rho * weight);
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
     if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
     splat(place, value);

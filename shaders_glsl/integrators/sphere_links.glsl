@@ -95,6 +95,9 @@ struct Branch {
     bool falls;
 };
 
+// Of the turn about the centre: 1 from the eye towards the vertex, -1 the other way round.
+float sense_of(Branch branch, int chords) { return chords == 1 ? -branch.sign : branch.sign; }
+
 // D less the angle of a branch; of more than a few degrees too little, by a third at half a turn.
 float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
     precise vec3 sines = arc.ratios * at.sine;
@@ -150,9 +153,11 @@ Crossing crossing_of(Arc arc, float sine) {
 
 // Solid angle at the eye over area at the vertex, across the ray; 0: no link.
 float spread_of(Arc arc, Crossing at) {
-    if (abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
+    precise float over = at.cosines.x * at.cosines.y * arc.sine * abs(at.slope);
+    bool is_finite_there = over > 0.0 && over < FAR;  // not where a way leaves along the sphere
+    if (!is_finite_there || abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
     precise float across = arc.ratios.x * arc.ratios.y / arc.radius;
-    precise float spread = across * across * at.sine * at.cosine / (at.cosines.x * at.cosines.y * arc.sine * abs(at.slope));
+    precise float spread = across * across * at.sine * at.cosine / over;
     return spread;
 }
 
@@ -198,6 +203,20 @@ Branch draw_branch(Arc arc, float u) {
 
 float share_of_branch(Arc arc, bool falls) {
     return first_slope(arc) >= 0.0 ? 1.0 : falls ? 0.5 : SIDE;
+}
+
+// Density of a way from the camera, on the film and per area of the vertex, which it meets with this cosine; `film`: that
+// of the ray, per solid angle.
+float pdf_of_way(float film, Material material, Arc arc, Crossing at, float cosine) {
+    precise float pdf = film * cosine * spread_of(arc, at) * chance_of(material, at, arc.chords);
+    return pdf;
+}
+
+// How many particles for each sample of a pixel are linked this way, if they come to the vertex.
+float linked_this_way(Material material, Arc arc, Crossing at) {
+    precise float share = share_of_draws(material, arc.chords) * share_of_branch(arc, at.slope < 0.0);
+    precise float count = frame.particles * frame.linked * share;
+    return count;
 }
 
 // --- the camera's side -----------------------------------------------------------------------
@@ -246,8 +265,6 @@ float rho_of_link(Chain chain, vec3 position, float cosine) {
     precise Material material = material_at(sphere.material);
     precise Arc arc = arc_of(chain.eye, position, sphere, material.ior, chain.chords);
     precise Crossing at = crossing_of(arc, chain.sine);
-    precise float pdf = chain.film * cosine * spread_of(arc, at) * chance_of(material, at, chain.chords);
-    precise float share = share_of_draws(material, chain.chords) * share_of_branch(arc, at.slope < 0.0);
-    precise float rho = pdf / (frame.particles * frame.linked * share);
+    precise float rho = pdf_of_way(chain.film, material, arc, at, cosine) / linked_this_way(material, arc, at);
     return rho;
 }

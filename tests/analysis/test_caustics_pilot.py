@@ -6,9 +6,10 @@ import time
 import pytest
 
 from glrt.analysis.method_choice import caustics
-from glrt.analysis.method_choice.caustics import may_gain, particles_worth
+from glrt.analysis.method_choice.caustics import CHOICES, may_gain, particles_worth
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.scene.materials import Dielectric
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
@@ -21,10 +22,29 @@ def test_a_choice_that_is_given_whole_is_tried_once(
 ) -> None:
     gains = iter([0.95])
     monkeypatch.setattr(caustics, "_gain", lambda *_: next(gains))
-    given = {"particles": 0.3, "aimed": 0.4}
+    given = {"particles": 0.3, "aimed": 0.4, "linked": 0.5}
     found = particles_worth(load(BALL), Settings(width=8, height=8), context, given)
     assert found == (settings_for(Settings(width=8, height=8), caustics="off"), 0.95)
     assert [*gains] == []
+
+
+def test_links_are_tried_where_a_sphere_has_them(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not through thin glass."""
+    tried: list[float] = []
+
+    def gain(_: Scene, settings: Settings, *__: object) -> float:
+        tried.append(settings.linked)
+        return 1.0
+
+    monkeypatch.setattr(caustics, "_gain", gain)
+    ball = under_a_ball(0.1)
+    thin = ball.model_copy(update={"materials": {**ball.materials, "glass": Dielectric(thin=True)}})
+    for scene, expected in ((ball, [0, 0, 1]), (thin, [0, 0])):
+        particles_worth(scene, Settings(width=8, height=8), context)
+        assert tried == expected
+        tried.clear()
 
 
 def test_the_first_choice_may_be_hopeless(
@@ -35,6 +55,28 @@ def test_the_first_choice_may_be_hopeless(
     found = particles_worth(load(BALL), Settings(width=8, height=8), context)
     assert found
     assert (found.settings.caustics, found.gain, [*gains]) == ("off", 0.5, [9.0])
+
+
+@pytest.mark.parametrize(
+    ("gains", "chosen"),
+    [
+        ((2.0, 1.9, 1.8), 2),
+        ((1.3, 1.0, 1.12), 0),
+        ((2.0, 1.8, 1.6), 1),
+        ((1.6, 1.6, 2.0), 2),
+        ((2.0, 1.6, 1.6), 0),
+    ],
+)
+def test_of_choices_that_gain_about_as_much_the_last_one_is_taken(
+    gains: tuple[float, ...], chosen: int, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It finds more of the light that the pilot misses."""
+    left = iter(gains)
+    monkeypatch.setattr(caustics, "_gain", lambda *_: next(left))
+    monkeypatch.setattr(caustics, "_picture", lambda *_: None)
+    settings = Settings(width=8, height=8)
+    found = particles_worth(load(BALL), settings, context)
+    assert found == (settings_for(settings, caustics="on", **CHOICES[chosen]), gains[chosen])
 
 
 def under_a_ball(radius: float) -> Scene:
@@ -92,7 +134,7 @@ def test_the_frame_of_the_pilot_is_the_whole_one() -> None:
 
 
 def test_a_pilot_is_a_small_share_of_a_render() -> None:
-    """Of the samples of its three pictures, 3 / LEAST at most."""
+    """Of the samples of its four pictures, 4 / LEAST at most."""
     scene = load("cornell")
     assert may_gain(scene, settings_for(scene.render))
     assert not may_gain(scene, settings_for(scene.render, samples=64))

@@ -21,7 +21,7 @@ from tests.support.system_packages import needs_package
 SIZE = ("--width", "24", "--height", "24", "--bounces", "4")
 LONG = (*SIZE, "--samples", "64")  # as much as a pilot, where `folder` has lowered what it takes
 BALL, MIRRORS = "methods/caustic", "metals"  # where particles are worth their work, and where not
-DECIDED = dict.fromkeys(("caustics", "particles", "aimed"), BY_PILOT)
+DECIDED = dict.fromkeys(("caustics", *CHOICES[0]), BY_PILOT)
 
 
 @pytest.fixture
@@ -43,15 +43,15 @@ def recipe_of(image: Image) -> Recipe:
     return image.recipe
 
 
-def chosen(image: Image) -> tuple[str, float, float]:
+def chosen(image: Image) -> tuple[str, float, float, float]:
     settings = recipe_of(image).settings
-    return settings.caustics, settings.particles, settings.aimed
+    return settings.caustics, settings.particles, settings.aimed, settings.linked
 
 
 def explicit(image: Image) -> list[str]:
     """The options that ask for what was chosen."""
-    values = zip(("--caustics", "--particles", "--aimed"), chosen(image), strict=True)
-    return [str(word) for pair in values for word in pair]
+    names = ("--caustics", *(f"--{name}" for name in CHOICES[0]))
+    return [str(word) for pair in zip(names, chosen(image), strict=True) for word in pair]
 
 
 @pytest.fixture
@@ -71,7 +71,7 @@ def no_pilot(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_caustic_gets_particles_and_the_recipe_tells_why(folder: Path) -> None:
     image = rendered(BALL, *LONG)
     assert chosen(image)[0] == "on"
-    assert {"particles": chosen(image)[1], "aimed": chosen(image)[2]} in CHOICES
+    assert dict(zip(CHOICES[0], chosen(image)[1:], strict=True)) in CHOICES
     assert recipe_of(image).decisions == DECIDED
     assert same(image, rendered(BALL, *LONG, *explicit(image)))
     assert not same(image, rendered(BALL, *LONG, "--caustics", "off"))
@@ -87,7 +87,7 @@ def test_mirrors_that_light_hardly_comes_by_get_none(folder: Path) -> None:
 def test_what_is_given_is_kept(folder: Path) -> None:
     image = rendered(BALL, *LONG, "--particles", "0.3")
     assert chosen(image)[:2] == ("on", 0.3)
-    assert recipe_of(image).decisions == {"caustics": BY_PILOT, "aimed": BY_PILOT}
+    assert recipe_of(image).decisions == {name: BY_PILOT for name in DECIDED if name != "particles"}
 
 
 # --- what it does not depend on ----------------------------------------------------------------
@@ -186,13 +186,13 @@ def test_a_picture_keeps_what_was_chosen(folder: Path, request: pytest.FixtureRe
     assert same(longer, Image.load("whole.exr"))
     assert recipe_of(longer).decisions == DECIDED
     other = rendered("first.exr", "--aimed", "0.7")
-    assert [*recipe_of(other).decisions] == ["caustics", "particles"]
+    assert {*recipe_of(other).decisions} == {"caustics", "particles", "linked"}
 
 
 def test_a_picture_without_the_key_has_no_particles(folder: Path, no_pilot: None) -> None:
     rendered(BALL, *LONG, "--caustics", "off").save("off.exr")
     table = json.loads(read_recipe(Path("off.exr")).to_json())
-    for name in ("caustics", "particles", "aimed"):
+    for name in DECIDED:
         del table["settings"][name]
     assert Recipe.from_json(json.dumps(table), "off.exr").settings.caustics == "off"
     assert chosen(rendered("off.exr"))[0] == "off"
@@ -218,7 +218,7 @@ def test_it_tells_what_was_chosen(
 def test_gains_beyond_belief_are_not_spelled_out() -> None:
     on = settings_for(Settings(), caustics="on", **CHOICES[1])
     assert command.told(caustics.Finding(on, 1.234)) == (
-        "Rendering with --caustics on --particles 0.1 --aimed 0.95: 1.2 times as efficient as "
-        "without, by a short pilot."
+        "Rendering with --caustics on --particles 0.1 --aimed 0.95 --linked 0: 1.2 times as "
+        "efficient as without, by a short pilot."
     )
     assert ": over 100 times as efficient" in command.told(caustics.Finding(on, 1e9))

@@ -11,10 +11,10 @@ _LIGHT = f"{_PICTURES}::test_links_change_the_noise_alone"
 
 SPHERE_LINKS = [
     Mutant(
-        "the camera forgets Fresnel's share of a link",
+        "Fresnel's share is not in the density of a link",
         edit(
             _LINKS,
-            "spread_of(arc, at) * chance_of(material, at, chain.chords);",
+            "spread_of(arc, at) * chance_of(material, at, arc.chords);",
             "spread_of(arc, at);",
         ),
         _LIGHT,
@@ -59,7 +59,7 @@ SPHERE_LINKS = [
         _LIGHT,
     ),
     Mutant(
-        "the camera does not know how few particles are linked",
+        "links do not know how few particles take part",
         edit(_LINKS, "frame.particles * frame.linked * share", "frame.particles * share"),
         f"{_PICTURES}::test_however_few_there_are",
     ),
@@ -76,7 +76,7 @@ SPHERE_LINKS = [
     Mutant(
         "tinted glass takes nothing from a link",
         edit(_LINKS, "float(2 * arc.chords) * arc.radius", "0.0 * arc.radius"),
-        _LIGHT,
+        f"{_SHADERS}::test_tinted_glass_takes_its_share_of_each_chord",
     ),
     Mutant(
         "what stands between a ball and the eye hides nothing",
@@ -94,7 +94,7 @@ SPHERE_LINKS = [
     ),
     Mutant(
         "a link runs about the centre the wrong way round",
-        edit(_CAMERA_LINKS, "chords == 1 ? -branch.sign : branch.sign", "branch.sign"),
-        _LIGHT,
+        edit(_LINKS, "chords == 1 ? -branch.sign : branch.sign", "branch.sign"),
+        f"{_SHADERS}::test_each_branch_is_met",
     ),
 ]

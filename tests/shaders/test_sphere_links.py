@@ -168,10 +168,21 @@ def test_every_way_of_light_is_found(call_glsl: CallGlsl, chords: int) -> None:
     assert nearest.size > 10_000
 
 
+def sense_of(found: Links) -> Array:
+    """1: the way turns about the centre from the eye towards the vertex; -1: the other way."""
+    eye, vertex, near = (p - CENTER for p in (found.eye, found.vertex, found.way.near))
+    return np.asarray(np.sign((np.cross(eye, vertex) * np.cross(eye, near)).sum(1)))
+
+
 @pytest.mark.parametrize(("chords", "branch"), KINDS)
 def test_each_branch_is_met(call_glsl: CallGlsl, chords: int, branch: str) -> None:
+    """And turns as it tells."""
     found, sines = ways_found(call_glsl, chords)
-    assert (np.abs(sines[branch] - found.way.sine) < 1e-5).sum() > 50
+    is_met = np.abs(sines[branch] - found.way.sine) < 1e-5
+    assert is_met.sum() > 50
+    call = f"sense_of(Branch({BRANCHES[branch]}), {chords}) + 0.0 * x"
+    (told,) = call_glsl(call, scene=place(), options=ON, x=np.zeros(1))
+    assert (sense_of(found)[is_met] == told).mean() > 0.99  # but with eye and vertex in line
 
 
 @pytest.mark.parametrize("chords", [0, 1, 2])
@@ -189,12 +200,10 @@ def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
         "sine": found.way.sine,
     }
     true = {"near": found.way.near, "far": found.way.far, "direction": found.start}
-    turned = np.cross(found.eye - CENTER, found.vertex - CENTER)
-    sense = np.sign((turned * np.cross(found.eye - CENTER, found.way.near - CENTER)).sum(1))
     way = "precise Way way = way_of(arc, ball.center, crossing_of(arc, sine), sense);"
     for name, expected in true.items():
         setup = ARC.format(chords) + way
-        got = call_glsl(f"way.{name}", "vec3", setup=setup, sense=sense, **usual)
+        got = call_glsl(f"way.{name}", "vec3", setup=setup, sense=sense_of(found), **usual)
         apart = np.abs(got - expected).max(axis=1)
         assert np.quantile(apart, 0.99) < 1e-5  # beyond: eye, centre and vertex in line
         assert np.quantile(apart, 0.999) < 1e-3
@@ -253,3 +262,27 @@ def test_glass_sends_fresnel_s_share(call_glsl: CallGlsl) -> None:
             f"chance_of({mine}, {crossing}, {chords})", scene=place(), options=ON, sine=sine
         )
         assert_allclose(got, expected, rtol=2e-5)
+
+
+@pytest.mark.parametrize("chords", [0, 1, 2])
+def test_tinted_glass_takes_its_share_of_each_chord(call_glsl: CallGlsl, chords: int) -> None:
+    found = links(chords)
+    color, distance = np.array([0.2, 0.5, 0.9]), 0.3
+    tint = {"attenuation_color": color.tolist(), "attenuation_distance": distance}
+    tinted = scene_of(
+        [sphere([0, 0, -3], 0.5, "glass"), sphere([0, 3, -3], 0.1, "lamp")],
+        {"glass": glass(**tint), "lamp": lamp(2.0)},
+    )
+    got = call_glsl(
+        "tint_of(material_at(sphere_at(0).material), arc, crossing_of(arc, sine))",
+        "vec3",
+        scene=tinted,
+        options=ON,
+        setup=ARC.format(chords),
+        eye=found.eye,
+        vertex=found.vertex,
+        ior=found.ior,
+        sine=found.way.sine,
+    )
+    inside = 2 * chords * RADIUS * np.sqrt(1 - (found.way.sine / found.ior) ** 2)
+    assert_allclose(got, color ** (inside[:, None] / distance), rtol=1e-4)

@@ -15,7 +15,7 @@ from glrt.analysis.method_choice.work import counting, work_per_sample
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
-from glrt.methods.particles import is_smooth, particles_a_sample, refusal
+from glrt.methods.particles import is_smooth, link_bits, particles_a_sample, refusal
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -36,7 +36,7 @@ SEED = 0x43415553  # whatever that of the render is, so that it decides alike fo
 GAIN = 1.15  # times as efficient, at least: variances and work are estimates
 HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
 CERTAIN = 5.0  # standard errors of the mean of a frame, beyond which two differ
-NEAR = 0.85  # of the best gain: what is later in CHOICES finds more of the light that a pilot misses
+NEAR = 0.85  # of the best gain: later CHOICES find more of the light that a pilot has not seen
 
 
 class Costs(NamedTuple):
@@ -97,22 +97,23 @@ def particles_worth(
     if error is not None and not _is_long(settings, _samples_to(error, plain)):
         return None
     found: list[Finding] = []
-    for choice in _choices(given):
+    for choice in _choices(given, has_links=link_bits(scene) != 0):
         wanted = settings_for(settings, caustics="on", **choice)
         found.append(Finding(wanted, _gain(scene, wanted, plain, context)))
         if found[-1].gain < HOPELESS:
             break
     most = max(finding.gain for finding in found)
-    best = [finding for finding in found if finding.gain >= NEAR * most][-1]
-    return best if best.gain > GAIN else Finding(without, most)
+    good = [finding for finding in found if finding.gain >= max(NEAR * most, GAIN)]
+    return good[-1] if good else Finding(without, most)
 
 
-def _choices(given: Values) -> list[Values]:
+def _choices(given: Values, has_links: bool) -> list[Values]:
     """Those that differ, with what is `given` in place of their own values."""
     found: list[Values] = []
     for choice in CHOICES:
         wanted = {**choice, **given}
-        found += [wanted] if wanted not in found else []
+        if wanted not in found and (has_links or not choice["linked"]):
+            found.append(wanted)
     return found
 
 

@@ -34,6 +34,7 @@ _ALL = (
     Case("bulb", "A small lamp inside a glass sphere", glass.bulb),
     Case("caustic", "A glass sphere and a small lamp", glass.caustic),
     Case("focus", "A caustic of a lamp of any size", particles.focused),
+    Case("mirrored", "A caustic that a mirror ball shows", particles.mirrored),
     Case("fireflies", "The brightest samples of a caustic", glass.fireflies),
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),

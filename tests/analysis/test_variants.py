@@ -1,0 +1,51 @@
+"""Which variants a chart compares: particles and links only where there is something for them."""
+
+from typing import Any
+
+import pytest
+
+from glrt.analysis.chart.drawing import MARKERS
+from glrt.analysis.variants import variants_of
+from glrt.image.sources import load
+from glrt.settings import settings_for
+from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
+
+MIRROR: dict[str, Any] = {"type": "metal", "color": [0.9, 0.9, 0.9]}
+WITH = {"mis, particles": ("on", 0.0), "mis, particles linked": ("on", 1.0)}
+
+
+def found(material: dict[str, Any], *more: dict[str, Any]) -> dict[str, tuple[str, float]]:
+    """The variants with particles of a ball: whether they are on, and the share of links."""
+    things = [sphere([0, 0, -3], 1, "ball"), quad([-1, 3, -4], [2, 0, 0], [0, 0, 2], "lamp")]
+    scene = scene_of([*things, *more], {"ball": material, "matte": MATTE, "lamp": lamp()})
+    variants = variants_of(scene, settings_for(scene.render), ["mis"])
+    settings = {variant.name: variant.settings for variant in variants}
+    return {name: (it.caustics, it.linked) for name, it in settings.items() if "particles" in name}
+
+
+@pytest.mark.parametrize("material", [glass(), MIRROR], ids=["glass", "a mirror"])
+def test_particles_are_charted_with_links_and_without(material: dict[str, Any]) -> None:
+    assert found(material) == WITH
+
+
+@pytest.mark.parametrize(
+    ("material", "more"),
+    [
+        ({**glass(), "thin": True}, []),
+        (glass(), [sphere([0, 0, -3], 0.5, "matte")]),
+    ],
+    ids=["thin glass", "a ball in a ball"],
+)
+def test_links_are_left_out_where_no_sphere_has_them(
+    material: dict[str, Any], more: list[dict[str, Any]]
+) -> None:
+    assert [*found(material, *more)] == ["mis, particles"]
+
+
+def test_particles_are_left_out_where_nothing_bends_light() -> None:
+    assert found(MATTE) == {}
+
+
+def test_every_variant_of_the_scene_with_most_has_a_marker_of_its_own() -> None:
+    scene = load("methods/gap")
+    assert len(variants_of(scene, settings_for(scene.render))) <= len(MARKERS) == len({*MARKERS})
