@@ -90,6 +90,7 @@ void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise
     precise vec2 place = place_on_film(way.direction, eye.lens);
     if (wi.z <= 0.0 || dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
     precise float rho = pdf_of_way(pdf_camera(way.direction), material, arc, at, wi.z) / linked_this_way(material, arc, at);
+    if (rho == 0.0) return;  // no link: beside a kappa that is infinite it would have no weight
     precise float weight = particle_weight(rho / self.emission, self.kappa);
     precise vec3 back = eye.position - way.near;
     precise float reach = length(back);

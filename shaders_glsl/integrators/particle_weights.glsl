@@ -51,6 +51,7 @@ float emission_beside_particles(Ray ray, Hit hit, int light, float kappa, float 
 
 // Of a particle linked to the camera: PL^2 over the sum of squares. `over`: P0 / PL.
 float particle_weight(float over, float kappa) {
-    precise float weight = 1.0 / (1.0 + over * over * (1.0 + kappa * kappa));
+    precise float both = over * kappa;  // P1 / PL: kappa alone may be beyond what has a square
+    precise float weight = 1.0 / (1.0 + over * over + both * both);
     return weight;
 }

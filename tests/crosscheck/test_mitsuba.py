@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -20,7 +19,7 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.scene.scene import Scene, with_lights
-from tests.mitsuba.engine import LLVM_PACKAGE
+from tests.crosscheck.conftest import NO_WHEEL
 from tests.mitsuba.scenes import (
     GLASS_BOX,
     MATERIALS,
@@ -41,25 +40,9 @@ from tests.mitsuba.scenes import (
 from tests.support.alarms import ALPHA, book
 from tests.support.builders import glass, plane, scene_of, sphere
 from tests.support.renders import rendered
-from tests.support.system_packages import needs_package
 
-NO_WHEEL = "Mitsuba has no wheel for this system"
 SMALL = {"width": 48, "height": 48, "bounces": 3, "roulette": False}
 SAMPLES = 256
-
-
-@pytest.fixture(scope="module")
-def mitsuba() -> Iterator[Peer]:
-    """Mitsuba in its fast mode, ready."""
-    if find_spec("mitsuba") is None:
-        pytest.skip(NO_WHEEL)
-    try:
-        peer = Peer([sys.executable, "-m", "tests.mitsuba.serve"])
-    except RenderError as error:
-        needs_package(LLVM_PACKAGE not in str(error), LLVM_PACKAGE)
-        raise
-    yield peer
-    peer.close()
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ PARTICLES = [
     ),
     Mutant(
         "particles do not know that lamps are sampled, too",
-        edit(_WEIGHTS, "over * over * (1.0 + kappa * kappa)", "over * over"),
+        edit(_WEIGHTS, "over * over + both * both", "over * over"),
         f"{_SHADERS}::test_the_three_ways_share_all_light",
     ),
     Mutant(

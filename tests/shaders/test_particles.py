@@ -149,6 +149,13 @@ def test_the_three_ways_share_all_light(call_glsl: CallGlsl) -> None:
     assert all((share > 0.5).sum() > 100 for share in shares)
 
 
+def test_a_weight_is_a_number_at_grazing_angles(call_glsl: CallGlsl) -> None:
+    """Where a lamp is sampled a vertex that scattering hardly meets it from."""
+    over = np.array([1e-30, 1e-20, 1e-10, 1.0])
+    weight = call_glsl("particle_weight(over, 1e25)", scene=scene("quad"), options=ON, over=over)
+    assert_allclose(weight, 1 / (1 + (over * 1e25) ** 2), rtol=1e-5, atol=1e-20)
+
+
 def starts(call_glsl: CallGlsl, files: str, place: Scene, what: str, kind: str) -> Array:
     return call_glsl(
         what,
