@@ -41,7 +41,7 @@ SPHERE_LINKS = [
     ),
     Mutant(
         "a link spreads without regard to its cosine at the vertex",
-        edit(_LINKS, "(at.cosines.x * at.cosines.y * arc.sine", "(at.cosines.x * arc.sine"),
+        edit(_LINKS, "at.cosines.x * at.cosines.y * arc.sine", "at.cosines.x * arc.sine"),
         f"{_SHADERS}::test_a_link_spreads_as_rays_do",
     ),
     Mutant(
