@@ -28,6 +28,7 @@ from glrt.rendering.schedule import (
     DispatchRange,
     Schedule,
     iterations_per_sample,
+    rounds_for_particles,
     whole_frame,
 )
 
@@ -181,6 +182,7 @@ def _block_of_sums(context: Context, what: str, size: int) -> moderngl.Buffer:
 def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     """How many rounds of loops a dispatch may take, None: any; and how many particles a lane."""
     iterations = iterations_per_sample(plan.scene, plan.settings)
+    iterations += rounds_for_particles(plan.scene, plan.settings)
     rounds = usable_rounds(context, iterations)
     block = plan.settings.block
     return rounds, block if rounds is None else max(1, min(block, rounds // iterations))

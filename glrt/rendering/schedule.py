@@ -15,10 +15,11 @@ from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.methods.contents import MESH, Contents, contents_of
 from glrt.methods.features import has_image
+from glrt.methods.particles import caster_bits, link_bits
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
-from glrt.settings import RenderSettings
+from glrt.settings import RenderSettings, Settings
 
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
@@ -29,6 +30,7 @@ MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/results/d
 # Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
 _EXPONENT = read_constants(read("integrators/classic.glsl"))["MOST_EXPONENT"]
 HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)
+LINK_ROUNDS = read_constants(read("integrators/sphere_links.glsl"))["ROUNDS"]
 MOST_PASSED = 8
 ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
 _GOLDEN = 0.618
@@ -69,6 +71,17 @@ def iterations_per_sample(
     rays += traits.samples_lights and scene.sun is not None
     segments = (settings.bounces + 1) * (1 + _passed(scene, found))
     return 1 + segments * (1 + rays * search + choice)
+
+
+def rounds_for_particles(scene: Scene, settings: Settings) -> int:
+    """Rounds beside those: paths weighed against aimed particles, and links through spheres."""
+    if settings.caustics == "off":
+        return 0
+    spheres = 1 + contents_of(scene).shapes["sphere"]
+    weighed = 2 * spheres if settings.aimed and caster_bits(scene) else 0
+    linked = settings.linked and link_bits(scene)
+    links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(scene) if linked else 0
+    return (settings.bounces + 1) * (weighed + links)
 
 
 def _levels_of_sky(scene: Scene) -> int:

@@ -28,6 +28,7 @@ from glrt.rendering.schedule import (
     Schedule,
     iterations_per_sample,
     most_samples,
+    rounds_for_particles,
     whole_frame,
 )
 from glrt.settings import Cost, Settings
@@ -285,7 +286,8 @@ def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     SceneError if not one.
     """
     scene, settings = plan.scene, plan.settings
-    iterations = iterations_per_sample(scene, settings)
+    more = rounds_for_particles(scene, settings)
+    iterations = iterations_per_sample(scene, settings) + more
     rounds = usable_rounds(context, iterations)
-    least = iterations_per_sample(scene, settings, 0)
+    least = iterations_per_sample(scene, settings, 0) + more
     return rounds, most_samples(iterations, rounds, least)

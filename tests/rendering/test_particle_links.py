@@ -9,8 +9,9 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.methods.particles import link_bits
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.schedule import Schedule
+from glrt.rendering.schedule import Schedule, rounds_for_particles
 from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
 from tests.rendering.test_particles import BALL, LAMP, MATERIALS, ROOMS, room
 from tests.support.builders import (
     box,
@@ -133,6 +134,20 @@ def test_a_scene_without_such_spheres_has_no_links(context: Context) -> None:
     scene = room(LAMP, {**BALL, "material": "pane"})
     plain = rendered(scene, context, 32, caustics="on")
     assert same(plain, rendered(scene, context, 32, **ON))
+
+
+@pytest.mark.parametrize("bounces", [3, 7])
+def test_the_rounds_of_links_count_towards_the_limit_of_loops(bounces: int) -> None:
+    """Of a search, of the choice of a sphere, and of what hides the ways to and from it."""
+    settings = Settings(bounces=bounces)
+    found = {
+        linked: rounds_for_particles(CLOSED, settings_for(settings, caustics="on", linked=linked))
+        for linked in (0.0, 1.0)
+    }
+    shapes = 3 + 7  # balls, and quads
+    assert found[0] == (bounces + 1) * 2 * 4
+    assert found[1] - found[0] == (bounces + 1) * (2 + 12 + 4 + 2 * (shapes + 2))
+    assert rounds_for_particles(CLOSED, settings) == 0
 
 
 # --- which spheres ---------------------------------------------------------------------------
