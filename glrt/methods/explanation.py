@@ -105,9 +105,17 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
 def _by_settings(needs: Needs, settings: Settings) -> list[Feature]:
     return [
         Feature("particles", needs.has_particles, f"caustics {settings.caustics}"),
+        Feature("linked spheres", needs.linked != 0, _links(needs, settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]
+
+
+def _links(needs: Needs, settings: Settings) -> str:
+    if settings.linked and not needs.linked and needs.has_particles:
+        return "no sphere of smooth glass or metal that nothing lies in"
+    text = f"linked {settings.linked:g}"
+    return f"{text}, {counted(needs.linked.bit_count(), 'sphere')}" if needs.linked else text
 
 
 def _aims(needs: Needs, found: Contents) -> list[Feature]:

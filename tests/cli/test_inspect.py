@@ -39,3 +39,20 @@ def test_it_names_files_and_lines() -> None:
     marker = lines.index("// sampling/warp.glsl:1")
     text = (folder("shaders_glsl") / "sampling/warp.glsl").read_text().splitlines()
     assert lines[marker + 1 : marker + 1 + len(text)] == text
+
+
+@pytest.mark.parametrize(
+    ("scene", "wanted", "line"),
+    [
+        ("methods/gap", ("on", "1"), "in   linked spheres  linked 1, 3 spheres"),
+        ("methods/gap", ("on", "0"), "out  linked spheres  linked 0"),
+        ("lamps", ("on", "1"), "out  linked spheres  no sphere of smooth glass or metal"),
+    ],
+)
+def test_it_tells_through_how_many_spheres_particles_are_linked(
+    scene: str, wanted: tuple[str, str], line: str
+) -> None:
+    caustics, linked = wanted
+    told = glrt("inspect", scene, "--caustics", caustics, "--linked", linked)
+    assert told.returncode == 0
+    assert [found for found in told.stdout.splitlines() if found.startswith(line)] != []
