@@ -95,6 +95,11 @@ class Links(NamedTuple):
     start: Array  # directions from the eye
     spread: Array  # solid angle at the eye over area at the vertex, across the ray
 
+    def inputs(self) -> dict[str, Array]:
+        """What ARC and a crossing read."""
+        sine = self.way.sine
+        return {"eye": self.eye, "vertex": self.vertex, "ior": self.ior, "sine": sine}
+
 
 def links(chords: int, count: int = 20_000) -> Links:
     """Random ones, with their spread by differences of rays."""
@@ -127,10 +132,7 @@ def test_a_link_spreads_as_rays_do(call_glsl: CallGlsl, chords: int) -> None:
         scene=place(),
         options=ON,
         setup=ARC.format(chords),
-        eye=found.eye,
-        vertex=found.vertex,
-        ior=found.ior,
-        sine=found.way.sine,
+        **found.inputs(),
     )
     is_there = spread > 0
     assert is_there.mean() > (0.7 if chords == 2 else 0.9)  # but folds, and eyes close to it
@@ -141,10 +143,9 @@ def test_a_link_spreads_as_rays_do(call_glsl: CallGlsl, chords: int) -> None:
 def ways_found(call_glsl: CallGlsl, chords: int) -> tuple[Links, dict[str, Array]]:
     """The sines of incidence that the branches find, of links that are there; NaN: none."""
     found = links(chords)
-    inputs = {"eye": found.eye, "vertex": found.vertex, "ior": found.ior}
     usual: dict[str, Any] = {"scene": place(), "options": ON, "setup": ARC.format(chords)}
-    usual |= inputs
-    slope = call_glsl("crossing_of(arc, sine).slope", sine=found.way.sine, **usual)
+    usual |= found.inputs()
+    slope = call_glsl("crossing_of(arc, sine).slope", **usual)
     fits = call_glsl("has_links(arc)", "bool", **usual) & (np.abs(slope) > 0.0625)
     sines = {}
     for name, branch in BRANCHES.items():
@@ -194,10 +195,7 @@ def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
         "scene": place(),
         "options": ON,
         "functions": files + read("integrators/camera_links.glsl"),
-        "eye": found.eye,
-        "vertex": found.vertex,
-        "ior": found.ior,
-        "sine": found.way.sine,
+        **found.inputs(),
     }
     true = {"near": found.way.near, "far": found.way.far, "direction": found.start}
     way = "precise Way way = way_of(arc, ball.center, crossing_of(arc, sine), sense);"
@@ -279,10 +277,7 @@ def test_tinted_glass_takes_its_share_of_each_chord(call_glsl: CallGlsl, chords:
         scene=tinted,
         options=ON,
         setup=ARC.format(chords),
-        eye=found.eye,
-        vertex=found.vertex,
-        ior=found.ior,
-        sine=found.way.sine,
+        **found.inputs(),
     )
     inside = 2 * chords * RADIUS * np.sqrt(1 - (found.way.sine / found.ior) ** 2)
     assert_allclose(got, color ** (inside[:, None] / distance), rtol=1e-4)
