@@ -21,7 +21,9 @@ INDEPENDENT, SOBOL = "independent", "sobol"
 
 def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
     """Edits for a survival probability of min(throughput / threshold, 1), from `bounce` on."""
-    edits = [Edit("integrators/path.glsl", "4.0 * CHANCES", f"CHANCES / {threshold}")]
+    edits = [
+        Edit("integrators/path.glsl", "throughput, 4.0, rng", f"throughput, 1.0 / {threshold}, rng")
+    ]
     if bounce:
         call = "if (ROULETTE && {}roulette_ends("
         late = call.format(f"path.depth >= {bounce} && ")

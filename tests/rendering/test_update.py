@@ -65,6 +65,7 @@ CHANGES: dict[str, Any] = {
     "caustics": "on",
     "particles": 1.0,
     "aimed": 0.2,
+    "linked": 0.5,
     "seed": 5,
     "exposure": 1.5,
     "tonemap": "agx",
