@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from bench import mesh_sizes
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from bench.shader_edits import Edit, edited
+from glrt.analysis.variants import LINKED
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
@@ -42,7 +43,7 @@ SWITCHES = {
     "particles": Way({"caustics": "on"}),
     "few particles": Way({"caustics": "on", "particles": 0.1, "aimed": 0.98}),
     "many particles": Way({"caustics": "on", "particles": 1.0, "aimed": 0.2}),
-    "linked particles": Way({"caustics": "on", "particles": 0.5, "aimed": 0.2, "linked": 1.0}),
+    "linked particles": Way({"caustics": "on", **LINKED}),
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
 SAMPLES = 32  # per pixel of a run: two blocks of Sobol' points
