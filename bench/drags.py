@@ -22,9 +22,8 @@ from bench.screens import screen
 from bench.window_tour import play
 from glrt.image.sources import load
 from glrt.scene.scene import Scene
-from glrt.view.panels.objects import with_material
 from glrt.view.state.controls import replaced
-from glrt.view.viewport.transform import with_object
+from glrt.view.state.scene_edits import with_material, with_object
 
 SECONDS = 6.0  # of each drag
 REST = 12  # frames between drags, and at least so many before the first

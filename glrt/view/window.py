@@ -18,10 +18,13 @@ from glrt.settings import Settings
 from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
+from glrt.view.messages import Messages
+from glrt.view.native import Native
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
+from glrt.view.panels.questions import draw_question
 from glrt.view.panels.viewport import draw_keys, draw_viewport
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
@@ -62,7 +65,7 @@ class Window:
         self._styled: tuple[str, float] | None = None
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
-        self._wait, self._told = EventWait(), ("", "")
+        self._wait, self._told = EventWait(), tuple[object, ...]()
         self._shares = Shares()
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
@@ -97,6 +100,8 @@ class Window:
         callbacks.setup_imgui_config = _configure
         callbacks.post_init = self._open
         callbacks.pre_new_frame = self._render
+        callbacks.show_gui = self._ask
+        callbacks.confirm_exit = self._may_close
         callbacks.before_exit = self._close
         params.fps_idling.enable_idling = False  # it draws nine frames a second; see EventWait
         return params
@@ -121,8 +126,10 @@ class Window:
         context = wrap_window()
         preferences, problem = load_preferences(preferences_file())
         self._rate = RATES[context.is_software]
+        session = Session(scene, settings, context, pipeline=self._pipeline, rest=IdleKernel())
         self.app = App(
-            session=Session(scene, settings, context, pipeline=self._pipeline, rest=IdleKernel()),
+            session=session,
+            messages=Messages(session),
             show=_shown(context.gl),
             preferences=preferences,
             preferences_file=preferences_file(),
@@ -131,7 +138,8 @@ class Window:
             pivot=scene.camera.look_at,
             shaders=Watch(shader_files()),
         )
-        self.app.complain(problem)
+        self.app.messages.complain(problem)
+        self._native = Native(self.app.files.drop)
 
     def _render(self) -> None:
         """Before a frame is drawn: keys, edits, samples, and the picture of them."""
@@ -144,6 +152,7 @@ class Window:
         draw_keys(app)
         self._shares.keep(PARTS)
         self._style()
+        self._native.entitle(app.files.title)
         app.advance()
         app.look(now)
         self._poll(now)
@@ -155,7 +164,7 @@ class Window:
     def _poll(self, now: float) -> None:
         """What is no event of the window: files, dialogs, and preferences to be written."""
         self.app.follow_files(now)
-        self.app.dialogs.poll()
+        self.app.files.dialogs.poll(is_drawn=False)
         self._keep(now)
 
     def _is_quiet(self) -> bool:
@@ -165,9 +174,10 @@ class Window:
         is_done = self.app.show.is_done(self.app.session)
         return is_done and not self._interruption.signal and self._tells(now) == self._told
 
-    def _tells(self, now: float) -> tuple[str, str]:
+    def _tells(self, now: float) -> tuple[object, ...]:
         """What comes and goes by itself."""
-        return self.app.session.problem, self.app.recent_message(now)
+        messages = self.app.messages
+        return self.app.session.problem, messages.recent(now), messages.question
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -184,10 +194,25 @@ class Window:
             imgui.get_style().font_scale_main = wanted[1]
             imgui.get_style().frame_border_size = 1.0  # a light box on a light ground has an edge
 
+    def _ask(self) -> None:
+        """What stands above the parts of the window."""
+        draw_question(self.app)
+        self.app.files.dialogs.poll(is_drawn=True)
+
+    def _may_close(self) -> bool:
+        """Whether the window closes at once when the user wishes it; else that is asked."""
+        is_agreed = not self.app.files.is_changed
+        if not is_agreed:
+            self.app.files.close(self._leave)
+        return is_agreed
+
+    def _leave(self) -> None:
+        self.params.app_shall_exit = True
+
     def _close(self) -> None:
         self.app.keep_preferences()
         self.app.show.release()
-        self.app.dialogs.close()
+        self.app.files.dialogs.close()
         self.app.session.release()
 
 

@@ -18,8 +18,8 @@ from glrt.scene.materials import Lambertian
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Sphere
 from glrt.settings import Cost
-from glrt.view.panels.objects import with_material
 from glrt.view.state.controls import replaced
+from glrt.view.state.scene_edits import with_material
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.mixed_scene import everything
 from tests.support.renders import SAMPLERS, rendering, same

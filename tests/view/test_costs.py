@@ -4,8 +4,8 @@ import pytest
 
 from glrt.methods.light_layers import Plan, plan_for
 from glrt.settings import Cost
-from glrt.view.panels.objects import with_material
 from glrt.view.state.costs import cost_of_light, cost_of_tint, reach_of_bounces, reach_of_size
+from glrt.view.state.scene_edits import with_material
 from glrt.view.state.session import Session
 from tests.support.sessions import start
 

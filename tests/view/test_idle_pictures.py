@@ -8,8 +8,8 @@ from glrt.gpu.context import Context
 from glrt.methods.light_layers import Layering
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights
-from glrt.view.panels.objects import with_material
 from glrt.view.state.controls import replaced
+from glrt.view.state.scene_edits import with_material
 from glrt.view.state.session import Session
 from tests.support.builders import sphere
 from tests.support.images import same_bits

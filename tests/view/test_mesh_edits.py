@@ -14,8 +14,9 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
+from glrt.view.state.scene_edits import with_object
 from glrt.view.viewport.pick import pick
-from glrt.view.viewport.transform import moved_to, object_matrix, scaled, shifted, with_object
+from glrt.view.viewport.transform import moved_to, object_matrix, scaled, shifted
 from tests.support.builders import lamp, plane, scene_of, sphere
 from tests.support.meshes import blob, icosphere, mesh
 

@@ -17,7 +17,8 @@ from glrt.scene import own_trees
 from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
-from glrt.view.viewport.transform import shifted, with_object
+from glrt.view.state.scene_edits import with_object
+from glrt.view.viewport.transform import shifted
 from tests.support.builders import MATTE, lamp, plane, scene_of
 from tests.support.meshes import blob, icosphere, mesh
 

@@ -15,6 +15,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Quad, Shape, Sphere
+from glrt.view.state.scene_edits import with_object
 from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import pick, ray_through
 from glrt.view.viewport.transform import (
@@ -24,7 +25,6 @@ from glrt.view.viewport.transform import (
     scaled,
     shifted,
     view_matrix,
-    with_object,
 )
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
 

@@ -11,11 +11,10 @@ from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
-from glrt.view.panels.objects import with_material
 from glrt.view.state.controls import replaced
 from glrt.view.state.preview_size import COARSEST, STILL
+from glrt.view.state.scene_edits import with_material, with_object
 from glrt.view.state.session import FIRST_SAMPLES, Session
-from glrt.view.viewport.transform import with_object
 from tests.support.sessions import Clock, frames, start, walked
 
 BALL = 2  # number of an object

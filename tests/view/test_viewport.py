@@ -2,13 +2,15 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from imgui_bundle import ImVec2, imgui
 
 from glrt.resources import folder
-from glrt.view.app import SHOWN, App
+from glrt.view.files import Files
+from glrt.view.messages import SHOWN, Messages
 from glrt.view.panels import viewport
 from glrt.view.state.preferences import Preferences
 
@@ -99,11 +101,11 @@ def test_arrows_in_an_open_list_leave_the_camera_alone(io: imgui.IO, is_open: bo
     assert app.steps == ([] if is_open else [(0.0, 0.0, -1.0)])
 
 
-def an_app(**known: Any) -> App:
-    """The window's state without a session and a picture."""
-    nothing: Any = None
-    parts = dict.fromkeys(("session", "show", "preferences_file", "pace", "pivot", "shaders"))
-    return App(**{**parts, "preferences": nothing, "source": "", **known})
+def files(folder: Path, source: str = "") -> Files:
+    """What is open, without a session's renderer."""
+    session: Any = SimpleNamespace(scene=None, problem="")
+    recent = folder / "recent.json"
+    return Files(session, Messages(session), source, recent, lambda _: None, lambda _: None)
 
 
 def test_a_file_that_is_there_is_not_what_a_window_saves_to_by_default(
@@ -112,7 +114,8 @@ def test_a_file_that_is_there_is_not_what_a_window_saves_to_by_default(
     monkeypatch.chdir(tmp_path)
     for name in ("scene.toml", "picture.png", "picture-2.png"):
         Path(name).touch()
-    assert (an_app().scene_path, an_app().save_path) == ("scene-2.toml", "picture-3.png")
+    opened = files(tmp_path)
+    assert (opened.scene_path, opened.picture_path) == ("scene-2.toml", "picture-3.png")
 
 
 def test_a_scene_is_saved_to_the_file_that_it_came_from_and_to_no_other(
@@ -120,19 +123,20 @@ def test_a_scene_is_saved_to_the_file_that_it_came_from_and_to_no_other(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("mine.toml").write_text((folder("scenes") / "cornell.toml").read_text())
-    app = an_app(source="mine.toml")
-    assert app.scene_path == "mine.toml"
-    monkeypatch.setattr(App, "_take", lambda *_: None)
-    app.open("lamps")
-    assert app.scene_path == "scene.toml"
-    app.open("mine.toml")
-    assert app.scene_path == "mine.toml"
+    opened = files(tmp_path, "mine.toml")
+    assert opened.scene_path == "mine.toml"
+    monkeypatch.setattr(Files, "_take", lambda *_: None)
+    opened.open("lamps")
+    assert opened.scene_path == "scene.toml"
+    opened.open("mine.toml")
+    assert opened.scene_path == "mine.toml"
 
 
 def test_a_message_goes_after_a_while_and_comes_back_when_it_is_told_again() -> None:
-    app = an_app()
-    assert app.recent_message(app.told + 1.0) == ""
+    nobody: Any = None
+    messages = Messages(nobody)
+    assert messages.recent(messages.told + 1.0) == ""
     for _ in range(2):
-        app.tell("Saved picture.png")
-        assert app.recent_message(app.told + 0.5 * SHOWN) == "Saved picture.png"
-        assert app.recent_message(app.told + 1.5 * SHOWN) == ""
+        messages.tell("Saved picture.png")
+        assert messages.recent(messages.told + 0.5 * SHOWN) == "Saved picture.png"
+        assert messages.recent(messages.told + 1.5 * SHOWN) == ""

@@ -22,10 +22,10 @@ def a_picture_is_saved_with_its_recipe_and_opened_again(hand: Hand) -> None:
         hand.begin()
         hand.there(lambda: hand.session.edit(replaced_fov(hand, 25.0), samples=3))
         hand.until(lambda: hand.session.is_done)
-        hand.there(partial(setattr, app, "save_path", str(file)))
-        hand.there(app.save)
+        hand.there(partial(setattr, app.files, "picture_path", str(file)))
+        hand.there(app.files.save_picture)
         hand.begin()
-        hand.there(partial(app.open, str(file)))
+        hand.there(partial(app.files.open, str(file)))
         hand.settle()
         assert (hand.session.scene.camera.fov, hand.session.settings.samples) == (25.0, 3)
         reopen(hand)
@@ -65,10 +65,10 @@ def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
         hand.ctx.item_click(button)
         samples = hand.session.samples
         hand.until(lambda: hand.session.samples > samples)
-        assert app.dialogs.is_open
+        assert app.files.dialogs.is_open
         (folder / "new").write_text(f"{file}\n")
         (folder / "new").rename(answer)
-        hand.until(lambda: not app.dialogs.is_open)
+        hand.until(lambda: not app.files.dialogs.is_open)
 
     try:
         choose("...##scene file", folder / "cornell.toml")
@@ -78,13 +78,13 @@ def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
         choose("...##save", folder / "shot.exr")
         assert read_recipe(folder / "shot.exr").scene == hand.session.scene
         choose("...##open", folder / "shot.exr")
-        assert app.source == str(folder / "shot.exr")
+        assert app.files.source == str(folder / "shot.exr")
         hand.ctx.item_click("...##open")
-        hand.there(app.dialogs.close)
-        assert not app.dialogs.is_open
+        hand.there(app.files.dialogs.close)
+        assert not app.files.dialogs.is_open
     finally:
         os.environ["PATH"] = path
-        hand.there(app.dialogs.close)
+        hand.there(app.files.dialogs.close)
     reopen(hand)
 
 
@@ -102,12 +102,12 @@ def without_dialogs_the_boxes_serve(hand: Hand) -> None:
         update={"render": load("cornell").render.model_copy(update=SMALL)}
     )
     file_dialogs.PROGRAMS = before
-    assert app.message.startswith("Saved")
+    assert app.messages.last.startswith("Saved")
     reopen(hand)
 
 
 @check
 def what_cannot_be_saved_is_told(hand: Hand) -> None:
-    hand.there(partial(setattr, hand.window.app, "save_path", "/nowhere/picture.png"))
-    hand.there(hand.window.app.save)
+    hand.there(partial(setattr, hand.window.app.files, "picture_path", "/nowhere/picture.png"))
+    hand.there(hand.window.app.files.save_picture)
     assert "/nowhere" in hand.session.problem

@@ -14,7 +14,7 @@ def keys_that_are_typed_into_a_box_move_nothing(hand: Hand) -> None:
     hand.ctx.item_click("//Controls/##open")
     hand.ctx.key_chars_append("weasd")
     assert hand.session.scene.camera == before
-    assert hand.window.app.open_path == "weasd"
+    assert hand.window.app.files.open_path == "weasd"
     hand.ctx.key_press(imgui.Key.enter.value)
     hand.ctx.item_click("//Controls/open")
     hand.settle()

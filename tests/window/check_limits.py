@@ -13,8 +13,8 @@ from imgui_bundle.imguizmo import im_guizmo
 from glrt.scene.scene import Scene, with_lights
 from glrt.scene.values import LARGEST, SMALLEST
 from glrt.view.state.controls import replaced
+from glrt.view.state.scene_edits import with_object
 from glrt.view.viewport import orbit
-from glrt.view.viewport.transform import with_object
 from tests.support.builders import lamp, plane, scene_of
 from tests.window.gestures import ball, drag, reopen
 from tests.window.hand import Hand, check
@@ -175,11 +175,11 @@ def what_is_no_scene_and_what_is_no_file_is_told(hand: Hand) -> None:
     noise = Path.cwd() / "noise.png"
     noise.write_bytes(bytes(range(256)) * 9)
     for source in (".", "/", str(noise), "/dev/null", "x" * 5000, "x\0y", "~", "..", " "):
-        told(hand, partial(app.open, source))
+        told(hand, partial(app.files.open, source))
     for path in (".", "/", "x" * 5000 + ".png", "picture", "/dev/full", "x.png/y.png", " "):
-        told(hand, partial(app.save, path))
+        told(hand, partial(app.files.save_picture, path))
     for path in (".", "/", "x" * 5000 + ".toml", "noise.png/y.toml"):
-        told(hand, partial(app.save_scene, path))
+        told(hand, partial(app.files.save_scene, path))
     for text in (
         "",
         "{",
@@ -190,7 +190,7 @@ def what_is_no_scene_and_what_is_no_file_is_told(hand: Hand) -> None:
         "9" * 5000,
     ):
         hand.there(partial(imgui.set_clipboard_text, text))
-        told(hand, app.paste_recipe)
+        told(hand, app.files.paste_recipe)
     assert hand.session.state == before
     reopen(hand)
 
@@ -201,18 +201,18 @@ def a_name_that_is_no_text_is_shown_and_kept(hand: Hand) -> None:
     app, file = hand.window.app, Path.cwd() / os.fsdecode(b"caf\xe9.toml")
     file.write_text((Path.cwd() / "scenes" / "cornell.toml").read_text())
     hand.ctx.item_open("//Controls/Files")
-    hand.there(partial(app.open, str(file)))
+    hand.there(partial(app.files.open, str(file)))
     goes_on(hand)
-    assert app.scene_path == str(file)
-    hand.there(partial(app.save, str(file.with_suffix(".png"))))
-    hand.there(app.save_scene)
+    assert app.files.scene_path == str(file)
+    hand.there(partial(app.files.save_picture, str(file.with_suffix(".png"))))
+    hand.there(app.files.save_scene)
     goes_on(hand)
     assert not hand.session.problem
     hand.ctx.item_close("//Controls/Files")
     reopen(hand)
 
 
-def told(hand: Hand, act: Callable[[], None]) -> None:
+def told(hand: Hand, act: Callable[[], object]) -> None:
     """A command that is refused in a line, and changes nothing."""
     hand.session.problem = ""
     hand.there(act)

@@ -13,9 +13,9 @@ from tests.window.hand import Hand, check
 def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
     app, file = hand.window.app, Path.cwd() / "edited.toml"
     hand.there(lambda: hand.session.edit(bounces=3))
-    hand.there(partial(setattr, app, "scene_path", str(file)))
-    hand.there(app.save_scene)
-    hand.there(partial(app.open, str(file)))
+    hand.there(partial(setattr, app.files, "scene_path", str(file)))
+    hand.there(app.files.save_scene)
+    hand.there(partial(app.files.open, str(file)))
     hand.settle()
     assert hand.session.settings.bounces == 3
     text = file.read_text()

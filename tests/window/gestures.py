@@ -91,7 +91,7 @@ def reopen(hand: Hand) -> None:
     """The scene that the window was opened with, small again."""
 
     def open_small() -> None:
-        hand.window.app.open("cornell")
+        hand.window.app.files.open("cornell")
         hand.session.edit(**SMALL)
         hand.session.opened = hand.session.state
 

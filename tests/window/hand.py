@@ -93,7 +93,10 @@ class Hand:
             self.session.rest = None  # no other process, but where a check wants it
             app.preferences = self._preferences
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
-            app.pivot = app.camera.look_at
+            app.files.saved = self.session.scene
+            app.files.dialogs.close()
+            app.messages.question = None
+            app.pivot, app.selected = app.camera.look_at, None
             app.show.forget()
             app.show.view, app.show.wipe = "picture", 0.5
 

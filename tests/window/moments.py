@@ -69,22 +69,22 @@ def dragging(window: Window, frame: int) -> None:
 
 def choosing(window: Window, frame: int) -> None:
     if frame == FRAMES:
-        window.app.dialogs.ask_open("Open", ["All files", "*"], window.app.open)
+        window.app.files.dialogs.ask_open("Open", ["All files", "*"], window.app.files.open)
     if frame > FRAMES and os.path.exists("dialog.pid"):
-        assert window.app.dialogs.is_open
+        assert window.app.files.dialogs.is_open
         terminate()
 
 
 def saving(window: Window, frame: int) -> None:
     if frame == FRAMES:
         before(files, "_rename", terminate)
-        window.app.save("picture.exr")
+        window.app.files.save_picture("picture.exr")
 
 
 def saving_when_killed(window: Window, frame: int) -> None:
     if frame == FRAMES:
         before(files, "_rename", lambda: os.kill(os.getpid(), signal.SIGKILL))
-        window.app.save("picture.exr")
+        window.app.files.save_picture("picture.exr")
 
 
 def closing(_window: Window, frame: int) -> None:

@@ -5,12 +5,14 @@ Modules, each importing only what stands above it:
 - layout: the shares of the window that its parts have
 - slider_text: where the number of a slider stands
 - widgets: a widget for each kind of control
+- questions: what the window asks
 - legend: what false colours mean
 - plots: figures and the error over time
 - gizmo: handles of the selected object
 - key_table: keys, and the choice of others
 - compare: what is shown, and the kept picture
-- objects: the selected object and its material
+- materials: the material of the selected object
+- objects: the selected object, and new ones
 - lights: the light groups and their lamps
 - files: open and save
 - background: light from infinity

@@ -1,63 +1,80 @@
 """The part of the panel that opens and saves: scenes, pictures and their recipes."""
 
+from pathlib import Path
+
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.files import printable
 from glrt.scene.catalog import scene_names
-from glrt.view import file_dialogs
 from glrt.view.app import App
+from glrt.view.files import Files
 from glrt.view.panels.widgets import button, tip
 
 
 def draw_files(app: App) -> None:
     """Scenes to open, and where pictures and scenes go."""
-    _chooser(app)
-    app.open_path, entered = _path("open", app.open_path, "scene file or picture")
-    tip("A scene file, or a picture rendered by glrt: opens its scene, camera and settings")
+    files = app.files
+    _chooser(files)
+    _recent(files)
+    files.open_path, entered = _path("open", files.open_path, "scene, model or picture")
+    tip("A scene file, a model, or a picture rendered by glrt: that opens its scene and settings")
     imgui.same_line()
-    if button("open", bool(app.open_path)) or (entered and app.open_path):
-        app.open(app.open_path)
+    if button("open", bool(files.open_path)) or (entered and files.open_path):
+        files.ask_open(files.open_path)
     if _browse("open"):
-        app.dialogs.ask_open("Open a scene, a model or a picture", file_dialogs.SCENES, app.open)
+        files.browse_open()
     has_picture = app.session.samples > 0
-    app.save_path, entered = _path("save", app.save_path, "picture.png, or .exr, .npy")
+    files.picture_path, entered = _path("save", files.picture_path, "picture.png, or .exr, .npy")
     imgui.same_line()
     if button("save", has_picture) or (entered and has_picture):
-        app.save()
+        files.ask_save_picture(files.picture_path)
     tip("The picture as shown, with its recipe; .exr holds radiance and its standard error")
     if has_picture and _browse("save"):
-        app.dialogs.ask_save("Save the picture", app.save_path, file_dialogs.PICTURE, app.save)
-    app.scene_path, entered = _path("scene file", app.scene_path, "scene.toml")
+        files.browse_picture()
+    files.scene_path, entered = _path("scene file", files.scene_path, "scene.toml")
     imgui.same_line()
-    if button("save scene", bool(app.scene_path)) or (entered and app.scene_path):
-        app.save_scene()
+    if button("save scene", bool(files.scene_path)) or (entered and files.scene_path):
+        files.ask_save_scene(files.scene_path)
     tip(
         "The scene as a TOML file. Comments, order and formatting of the file that it was opened "
         "from are kept."
     )
     if _browse("scene file"):
-        app.dialogs.ask_save("Save the scene", app.scene_path, file_dialogs.SCENE, app.save_scene)
-    _recipe(app, has_picture)
+        files.browse_scene()
+    _recipe(files, has_picture)
 
 
-def _chooser(app: App) -> None:
+def _chooser(files: Files) -> None:
     names = scene_names()
-    index = names.index(app.source) if app.source in names else -1
+    index = names.index(files.source) if files.source in names else -1
     imgui.set_next_item_width(hello_imgui.em_size(12))
     chosen, index = imgui.combo("scene", index, names)
     if chosen:
-        app.open(names[index])
+        files.ask_open(names[index])
 
 
-def _recipe(app: App, has_picture: bool) -> None:
+def _recent(files: Files) -> None:
+    """What was opened last; names of one kind are told apart by their folders."""
+    imgui.set_next_item_width(hello_imgui.em_size(12))
+    if not imgui.begin_combo("recent", ""):
+        return
+    for number, source in enumerate(files.recent):
+        path = Path(source)
+        shown = f"{path.name} in {path.parent}" if path.is_absolute() else source
+        if imgui.selectable(f"{printable(shown)}##{number}", False)[0]:
+            files.ask_open(source)
+    imgui.end_combo()
+
+
+def _recipe(files: Files, has_picture: bool) -> None:
     if button("copy recipe", has_picture):
-        app.copy_recipe()
+        files.copy_recipe()
     tip(
         "Copies scene, settings and samples of this picture as text, for another window or a report"
     )
     imgui.same_line()
     if button("paste recipe"):
-        app.paste_recipe()
+        files.paste_recipe()
 
 
 def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
@@ -70,8 +87,6 @@ def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
 
 
 def _browse(name: str) -> bool:
-    """Whether the dialog of a row is asked for; there is no such button without dialogs."""
-    if not file_dialogs.are_there():
-        return False
+    """Whether the dialog of a row is asked for."""
     imgui.same_line()
     return imgui.button(f"...##{name}")

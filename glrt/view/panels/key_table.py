@@ -107,4 +107,4 @@ def _bind(app: App, action: Action, chords: tuple[str, ...]) -> None:
         bindings = {**app.preferences.bindings, action: chords}
         app.prefer(replaced(app.preferences, bindings=bindings))
     except GlrtError as error:
-        app.complain(str(error).removeprefix("bindings: "))
+        app.messages.complain(str(error).removeprefix("bindings: "))

@@ -8,10 +8,10 @@ from glrt.scene.materials import Light, Opaque
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
-from glrt.view.panels.objects import with_material
 from glrt.view.panels.widgets import edited
 from glrt.view.state.controls import control_of_items, controls_of
 from glrt.view.state.costs import cost_of_light, cost_of_tint
+from glrt.view.state.scene_edits import with_material
 
 INTENSITY = control_of_items(Scene, "lights")
 EMISSION = next(c for c in controls_of(Light) if c.name == "emission")

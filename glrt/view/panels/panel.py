@@ -52,6 +52,8 @@ def draw_panel(app: App) -> None:
     _commands(app)
     _cautions(app)
     for title, section, flags in _SECTIONS:
+        if section is draw_object and app.is_to_be_seen:
+            imgui.set_next_item_open(True)
         if imgui.collapsing_header(title, flags):
             section(app)
 
@@ -87,16 +89,16 @@ def _colored(color: tuple[float, float, float, float], text: str) -> None:
 def _commands(app: App) -> None:
     session = app.session
     if imgui.button("go on" if session.paused else "pause"):
-        session.paused = not session.paused
+        app.pause()
     beside("restart")
     if imgui.button("restart"):
         app.restart()
     beside("undo")
     if button("undo", session.history.can_undo):
-        session.undo()
+        app.undo()
     beside("redo")
     if button("redo", session.history.can_redo):
-        session.redo()
+        app.redo()
 
 
 def _with_camera(scene: Scene, **changes: Any) -> Scene:
@@ -177,7 +179,7 @@ def _edit(app: App, changes: dict[str, Any]) -> None:
 def _preferences(app: App, controls: list[Control]) -> None:
     changes = edited_fields(tuple(controls), dict(app.preferences), "preference")
     if changes:
-        with app.telling():
+        with app.messages.telling():
             app.prefer(replaced(app.preferences, **changes))
 
 

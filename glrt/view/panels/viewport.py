@@ -2,14 +2,17 @@
 
 import math
 import time
+from collections.abc import Callable
 
 from imgui_bundle import ImVec2, imgui
 
 from glrt.view.app import App, Rectangle
+from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.legend import draw_legend
 from glrt.view.state.keys import Action, Move
+from glrt.view.viewport.outline import outline
 
 _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "forward": (0, 0, 1),
@@ -19,6 +22,19 @@ _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "up": (0, 1, 0),
     "down": (0, -1, 0),
 }
+_COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key does
+    "home": lambda app: app.home(),
+    "frame": lambda app: app.frame_selected(),
+    "pause": lambda app: app.pause(),
+    "undo": lambda app: app.undo(),
+    "redo": lambda app: app.redo(),
+    "duplicate": lambda app: app.duplicate(),
+    "delete": lambda app: app.delete(),
+    "open": lambda app: app.files.browse_open(),
+    "save_scene": lambda app: app.files.save_again(),
+    "save_scene_as": lambda app: app.files.browse_scene(),
+    "save": lambda app: app.files.save_picture(),
+}
 _LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
 _EVERY_BUTTON = int(
     imgui.ButtonFlags_.mouse_button_left
@@ -26,6 +42,7 @@ _EVERY_BUTTON = int(
     | imgui.ButtonFlags_.mouse_button_middle
 )
 _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
+_OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 _NOTICE = (0.0, 0.0, 0.0, 0.65)
 
 
@@ -50,6 +67,7 @@ def draw_viewport(app: App) -> None:
     is_wiped = bool(app.picture.kept_name) and app.show.drawn == "picture"
     if is_wiped:
         _wipe(app)
+    _outline(app)
     draw_gizmo(app, corner.x, corner.y, width, height)
     if not is_held(app):  # a button below the handles would keep the mouse from them
         if is_wiped:
@@ -71,8 +89,29 @@ def _notices(app: App) -> tuple[str, ...]:
         app.show.notice(app.session),
         "old picture, until the new one has a sample" if app.show.is_old else "",
         "paused" if app.session.paused else "",
-        app.recent_message(time.perf_counter()),
+        app.messages.recent(time.perf_counter()),
     )
+
+
+def _outline(app: App) -> None:
+    """Around the selected object, so that it is seen which one it is."""
+    shape = app.selected_shape
+    if shape is None or shape.hidden:
+        return
+    left, top, width, height = app.rectangle
+    settings = app.session.settings
+    painter, here = imgui.get_window_draw_list(), (left, top)
+    lines = _edges(shape, app.camera, settings.width / settings.height)
+    places = (lines * (width, height) + here).tolist()
+    painter.push_clip_rect(here, (left + width, top + height), True)
+    dark, bright = (imgui.get_color_u32(color) for color in _OUTLINE)
+    for color, thickness in ((dark, 3.0), (bright, 1.5)):  # seen on any picture
+        for start, end in places:
+            painter.add_line(start, end, color, thickness)
+    painter.pop_clip_rect()
+
+
+_edges = kept_for_the_same(outline)
 
 
 def _wipe(app: App) -> None:
@@ -115,18 +154,9 @@ def draw_keys(app: App) -> None:
     if held:
         right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
         app.walk(right, up, forward, seconds)
-    if _is_pressed(app, "home"):
-        app.home()
-    if _is_pressed(app, "frame"):
-        app.frame_selected()
-    if _is_pressed(app, "pause"):
-        app.session.paused = not app.session.paused
-    if _is_pressed(app, "undo"):
-        app.session.undo()
-    if _is_pressed(app, "redo"):
-        app.session.redo()
-    if _is_pressed(app, "save"):
-        app.save()
+    for action, act in _COMMANDS.items():
+        if _is_pressed(app, action):
+            act(app)
     if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
         app.session.history.settle()
 
@@ -161,7 +191,7 @@ def _clicks(app: App, share: tuple[float, float]) -> None:
         if picked and imgui.get_io().key_alt:
             app.focus_on(picked.point)
         else:
-            app.selected = picked.number if picked else None
+            app.select(picked.number if picked else None)
 
 
 def _was_dragged() -> bool:

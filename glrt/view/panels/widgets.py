@@ -67,6 +67,15 @@ def button(label: str, is_enabled: bool = True) -> bool:
     return pressed
 
 
+def named(label: str, value: str, name: str) -> str:
+    """A box for a name; the new one once it is typed to its end, else ""."""
+    imgui.set_next_item_width(_width_beside(label))
+    flags = imgui.InputTextFlags_.auto_select_all.value
+    _, text = imgui.input_text(f"{label}##{name}", value, flags)
+    is_done = imgui.is_item_deactivated_after_edit()
+    return text.strip() if is_done and text.strip() != value else ""
+
+
 def beside(text: str) -> None:
     """Go on in this line if a button with this text has room there."""
     imgui.same_line()

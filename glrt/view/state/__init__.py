@@ -3,8 +3,11 @@
 Modules, each importing only what stands above it:
 
 - controls: what a widget must know of a value
+- scene_edits: objects and materials added, copied, renamed, removed
+- new_objects: what is added, and where
 - keys: names of keys and what they mean
 - preferences: what a user wants of any window
+- recent: what was opened last
 - edited: what undo brings back
 - history: undo and redo
 - preview_size: how coarsely edits in a row are shown

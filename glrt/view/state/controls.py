@@ -5,7 +5,7 @@ the models in `glrt.scene`.
 """
 
 import types
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
@@ -92,8 +92,13 @@ def switch(name: str, help_text: str, cost: Cost) -> Control:
 
 def replaced(value: Model, **changes: Any) -> Model:
     """A frozen model with other values of some fields; UsageError says what does not fit."""
+    return made(type(value), {**dict(value), **changes})
+
+
+def made(model: type[Model], values: Mapping[str, Any]) -> Model:
+    """A frozen model of these values; UsageError says what does not fit."""
     try:
-        return type(value).model_validate({**dict(value), **changes})
+        return model.model_validate(values)
     except ValidationError as error:
         problem = error.errors(include_url=False, include_input=False)[0]
         text = str(problem["msg"]).removeprefix("Value error, ")

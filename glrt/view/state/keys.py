@@ -5,7 +5,11 @@ from string import ascii_lowercase, digits
 from typing import Literal, get_args
 
 Move = Literal["forward", "back", "left", "right", "up", "down"]
-Action = Move | Literal["home", "frame", "pause", "undo", "redo", "save"]
+Action = (
+    Move
+    | Literal["home", "frame", "pause", "undo", "redo"]
+    | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save"]
+)
 Bindings = dict[Action, tuple[str, ...]]
 
 DEFAULTS: Bindings = {
@@ -20,7 +24,12 @@ DEFAULTS: Bindings = {
     "pause": ("space",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
-    "save": ("ctrl+s",),
+    "duplicate": ("ctrl+d",),
+    "delete": ("delete",),
+    "open": ("ctrl+o",),
+    "save_scene": ("ctrl+s",),
+    "save_scene_as": ("ctrl+shift+s",),
+    "save": ("ctrl+e",),
 }
 MEANING: dict[Action, str] = {
     "forward": "walk forward",
@@ -34,8 +43,25 @@ MEANING: dict[Action, str] = {
     "pause": "pause, continue",
     "undo": "undo",
     "redo": "redo",
+    "duplicate": "duplicate the selection",
+    "delete": "delete the selection",
+    "open": "open a file",
+    "save_scene": "save the scene",
+    "save_scene_as": "save the scene as",
     "save": "save the picture",
 }
+
+
+def with_defaults(given: Mapping[Action, tuple[str, ...]]) -> Bindings:
+    """The keys of all actions: a default one that means something else by choice is left out."""
+    chosen = {text for chords in given.values() for text in chords}
+    free = {
+        action: tuple(text for text in chords if text not in chosen)
+        for action, chords in DEFAULTS.items()
+    }
+    return {**free, **given}
+
+
 MODIFIERS = ("ctrl", "shift", "alt")
 NAMES = (  # as Dear ImGui has them; Escape is left out, since it cancels
     *ascii_lowercase,

@@ -69,7 +69,7 @@ class Preferences(Frozen):
     @field_validator("bindings")
     @classmethod
     def _mean_one_thing_each(cls, given: Bindings) -> Bindings:
-        bindings = {**DEFAULTS, **given}
+        bindings = keys.with_defaults(given)
         if problem := keys.problem(bindings):
             raise ValueError(problem)
         return bindings

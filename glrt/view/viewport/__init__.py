@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - views: the views of a render
 - orbit: moves of the camera
 - pick: what lies under a point
+- outline: where an object ends in the picture
 - transform: moves of shapes
 - picture_view: a view, and the kept picture beside it
 """

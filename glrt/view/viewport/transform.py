@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.camera import Camera
-from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.scene.values import Vector
 from glrt.view.state.controls import replaced
@@ -68,12 +67,6 @@ def scaled(shape: Shape, factor: float) -> Shape:
 def _points(shape: Shape) -> tuple[str, ...]:
     """The fields that hold points of it."""
     return (shape.anchor, *shape.points)
-
-
-def with_object(scene: Scene, index: int, shape: Shape) -> Scene:
-    """The scene with another shape in the place of one."""
-    objects = (*scene.objects[:index], shape, *scene.objects[index + 1 :])
-    return replaced(scene, objects=objects)
 
 
 def _flat(turn: NDArray[np.float64], shift: NDArray[np.float64]) -> Matrix:

@@ -1,0 +1,244 @@
+"""What is open in the window, where it came from, and where it goes."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+from glrt.errors import GlrtError
+from glrt.files import printable, unused
+from glrt.image.recipe import Recipe
+from glrt.image.sources import load, load_recipe, scene_file_of
+from glrt.scene.catalog import MODELS
+from glrt.scene.scene import Scene
+from glrt.scene.toml_writer import scene_with, write_scene
+from glrt.settings import RenderSettings, settings_for
+from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
+from glrt.view.file_watch import Watch, watch_for
+from glrt.view.memo import kept_for_the_same
+from glrt.view.messages import Messages
+from glrt.view.state.controls import replaced
+from glrt.view.state.edited import State
+from glrt.view.state.recent import load_recent, save_recent, with_opened
+from glrt.view.state.session import Session
+
+Then = Callable[[], object]
+PICTURE_NAME = "picture.png"
+EDITED = ("objects", "materials", "lights", "background", "sun")  # what a save is asked for
+
+
+def nothing() -> None:
+    """Do nothing."""
+
+
+@dataclass
+class Files:
+    """Scenes and pictures: opened, saved under free names, and nothing replaced unasked."""
+
+    session: Session
+    messages: Messages
+    source: str  # what was opened: a path, or the name of a scene that comes with glrt
+    recent_file: Path
+    show: Callable[[Scene], None]  # a scene that was opened
+    add: Callable[[Path], None]  # a model to the scene
+    open_path: str = ""
+    picture_path: str = field(default_factory=lambda: unused(PICTURE_NAME))
+    picture_name: str = PICTURE_NAME  # that numbers are put to
+    scene_path: str = field(init=False)
+    watch: Watch | None = field(init=False)  # of the scene file, if the scene came from one
+    saved: Scene = field(init=False)  # as the file has it, or as it was opened
+    recent: tuple[str, ...] = field(init=False)
+    dialogs: Dialogs = field(default_factory=Dialogs)
+
+    def __post_init__(self) -> None:
+        """Know what was opened."""
+        self.recent = load_recent(self.recent_file)
+        self._came_from(self.source)
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether the scene has edits that no file has; camera and settings alone are none."""
+        return _differs(self.saved, self.session.scene)
+
+    @property
+    def title(self) -> str:
+        """Of the window: what is open, and a star for what is not saved."""
+        name = Path(self.source).name if self.source else "recipe"
+        return f"{printable(name)}{' *' if self.is_changed else ''} - glrt"
+
+    def open(self, source: str) -> None:
+        """Another scene, or the scene, view and settings of a picture."""
+        with self.messages.telling():
+            scene, recipe = load_recipe(source)
+            self._take(scene, recipe or scene.render)
+            self._came_from(source)
+            self.messages.tell(f"Opened {source}")
+
+    def ask_open(self, source: str) -> None:
+        """Open it; where that would lose edits, ask first."""
+        self._unless_lost(f"Open {Path(source).name}?", lambda: self.open(source))
+
+    def drop(self, path: str) -> None:
+        """A file that was dropped on the window; a model may be added to the scene."""
+        if Path(path).suffix.lower() not in MODELS:
+            return self.ask_open(path)
+        self.messages.ask(
+            f"Open {Path(path).name}?",
+            "Add the model to this scene, or open it as a scene of its own?",
+            add=lambda: self.add_from(path),
+            open=lambda: self.ask_open(path),
+        )
+        return None
+
+    def add_from(self, path: str) -> None:
+        """The meshes of a model to the scene."""
+        self.add(Path(path))
+
+    def browse_open(self) -> None:
+        """Choose a file to open."""
+        title = "Open a scene, a model or a picture"
+        self.dialogs.ask_open(title, SCENES, self.ask_open)
+
+    def paste_recipe(self) -> None:
+        """The scene, view and settings that a recipe in the clipboard tells."""
+        with self.messages.telling():
+            recipe = Recipe.from_json(imgui.get_clipboard_text(), "The clipboard")
+            self._take(recipe.scene, recipe.taken)
+            self._came_from("")
+            self.messages.tell("Opened the recipe in the clipboard")
+
+    def copy_recipe(self) -> None:
+        """Put the recipe of the picture into the clipboard, as one line of JSON."""
+        with self.messages.telling():
+            recipe = self.session.image().recipe
+            assert recipe
+            imgui.set_clipboard_text(recipe.to_json())
+            self.messages.tell("Copied the recipe of this picture")
+
+    def _came_from(self, source: str) -> None:
+        """A scene that came from a file is saved there again, and another one elsewhere."""
+        self.source, self.watch = source, watch_for(source)
+        self.scene_path = source if self.watch else unused("scene.toml")
+        self.saved = self.session.scene
+        self._remember(source)
+
+    def _remember(self, source: str) -> None:
+        recent = with_opened(self.recent, source) if source else self.recent
+        if recent != self.recent:
+            self.recent = recent
+            self.messages.complain(save_recent(recent, self.recent_file))
+
+    def _take(self, scene: Scene, settings: RenderSettings) -> None:
+        self.session.opened = State(scene, settings_for(settings, crop=None))
+        self.session.problem = ""
+        self.session.edit(scene, **dict(self.session.opened.settings))
+        self.show(scene)
+
+    def follow(self, now: float) -> None:
+        """Take in what another program has changed in the scene file."""
+        if self.watch and self.watch.has_changed(now):
+            self.reload()
+
+    def reload(self) -> None:
+        """The scene as its file has it now; the camera and the settings stay."""
+        with self.messages.telling():
+            found, lost = load(self.source), "; undo brings your edits back" * self.is_changed
+            self.saved, self.session.problem = found, ""
+            self.session.edit(replaced(found, camera=self.session.scene.camera))
+            self.messages.tell(f"Read {self.source} again{lost}")
+
+    def save_scene(self, path: str = "") -> bool:
+        """Write the scene as it is to a path, by default that of the text box; whether it was."""
+        self.scene_path = path or self.scene_path
+        whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
+        try:
+            model = scene_file_of(self.source) if self.source else None
+            has_comments = write_scene(whole, file, model)
+        except GlrtError as error:
+            self.messages.complain(str(error))
+            return False
+        self.source, self.watch = str(file), watch_for(str(file))
+        self.saved = self.session.scene
+        self._remember(self.source)
+        lost = "" if has_comments or not model else f", without the comments of {model.name}"
+        self.messages.tell(f"Saved {_where(file)}{lost}")
+        return True
+
+    def save_again(self, then: Then = nothing) -> None:
+        """Write the scene to the file that it came from; where there is none, ask for a name."""
+        if self.watch:
+            if self.save_scene(self.source):
+                then()
+        else:
+            self.browse_scene(then)
+
+    def browse_scene(self, then: Then = nothing) -> None:
+        """Choose where the scene is saved."""
+
+        def use(path: str, is_agreed: bool) -> None:
+            self.ask_save_scene(path, is_agreed, then)
+
+        self.dialogs.ask_save("Save the scene", self.scene_path, SCENE, ".toml", use)
+
+    def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = nothing) -> None:
+        """Save the scene under a name; a file that is not its own is replaced on request alone."""
+        is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
+        self._unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())
+
+    def save_picture(self, path: str = "") -> None:
+        """Write the picture, with its recipe, to a path, by default that of the text box."""
+        path = path or self.picture_path
+        if not self.session.samples:
+            return self.messages.complain("There is no picture yet.")
+        with self.messages.telling():
+            self.session.image().save(path)
+            self.messages.tell(f"Saved {_where(Path(path))}")
+            if path != unused(self.picture_name) and path != self.picture_path:
+                self.picture_name = path
+            self.picture_path = unused(self.picture_name)
+        return None
+
+    def ask_save_picture(self, path: str, is_agreed: bool = False) -> None:
+        """Save the picture; a file that is there is replaced on request alone."""
+        self._unless_there(path, is_agreed, lambda: self.save_picture(path))
+
+    def browse_picture(self) -> None:
+        """Choose where the picture is saved."""
+        self.dialogs.ask_save(
+            "Save the picture", self.picture_path, PICTURE, ".png", self.ask_save_picture
+        )
+
+    def close(self, leave: Then) -> None:
+        """Leave; where that would lose edits, ask first."""
+        self._unless_lost("Close the window?", leave)
+
+    def _unless_lost(self, title: str, act: Then) -> None:
+        if not self.is_changed:
+            act()
+            return
+        name = Path(self.source).name if self.source else "The scene"
+        self.messages.ask(
+            title,
+            f"{name} has changes that are not saved.",
+            save=lambda: self.save_again(act),
+            do_not_save=act,
+        )
+
+    def _unless_there(self, path: str, is_agreed: bool, act: Then) -> None:
+        if os.path.exists(path) and not is_agreed:
+            self.messages.ask("Replace it?", f"{_where(Path(path))} is there already.", replace=act)
+        else:
+            act()
+
+
+def _where(file: Path) -> str:
+    """The name of a file, and its folder."""
+    whole = file.absolute()
+    return f"{whole.name} in {whole.parent}"
+
+
+@kept_for_the_same
+def _differs(saved: Scene, scene: Scene) -> bool:
+    return any(getattr(saved, part) != getattr(scene, part) for part in EDITED)

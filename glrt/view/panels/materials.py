@@ -1,0 +1,185 @@
+"""The part of the panel that edits the material of the selected object."""
+
+from collections import Counter
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from imgui_bundle import imgui
+
+from glrt.scene.conductors import PRESETS
+from glrt.scene.cone import Cone
+from glrt.scene.materials import TYPES, Light, Material, Metal, Opaque, Principled
+from glrt.scene.shapes import Shape
+from glrt.settings import Cost
+from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.widgets import beside, button, edited, edited_fields, named, tip
+from glrt.view.state.controls import Control, controls_of, switch
+from glrt.view.state.scene_edits import (
+    unused_materials,
+    with_cone,
+    with_material,
+    with_new_material,
+    with_object_of,
+    with_own_material,
+    with_renamed_material,
+    with_retyped,
+    with_texture,
+    without_unused_materials,
+)
+
+_OF_TEXTURE = ("rotation", "filter", "strength")  # what a widget edits of a texture
+_MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"
+_WAYS = ("color", "preset", "ior", "k")  # in which metal may say what it reflects
+_DOWN = (0.0, -1.0, 0.0)
+CONE = switch("cone", "light a cone of directions alone: a spot", Cost.RECOMPILE)
+_REFLECTS = "how it is said what the metal reflects: by a colour, a measured metal, or its index"
+REFLECTS = Control(
+    "reflects",
+    "choice",
+    _REFLECTS,
+    Cost.RECOMPILE,
+    "",
+    None,
+    None,
+    None,
+    ("color", "preset", "ior"),
+)
+TINTED = switch("tinted", "let the inside of the glass absorb light", Cost.RECOMPILE)
+NESTS = switch("nests", "give the glass a priority over other glass", Cost.RECOMPILE)
+_OPTIONS: dict[Control, dict[str, Any]] = {  # what begins where a switch is turned on
+    TINTED: {"attenuation_color": (0.6, 0.9, 0.7), "attenuation_distance": 1.0},
+    NESTS: {"priority": 0},
+}
+_TYPE = "what kind of surface it is; the values that both kinds have stay"
+TYPE = Control("type", "choice", _TYPE, Cost.RECOMPILE, "", None, None, None, tuple(TYPES))
+MATERIAL = Control("material", "choice", _MATERIAL, Cost.RECOMPILE, "", None, None, None)
+
+
+def draw_material(app: App, index: int, shape: Shape) -> None:
+    """Which material an object has, and what it is like."""
+    scene, name = app.session.scene, shape.material
+    chosen = edited(replace(MATERIAL, choices=tuple(scene.materials)), name)
+    if chosen is not None:
+        app.edit_scene("", partial(with_object_of, index=index, material=chosen))
+        return
+    if _commands(app, index, name):
+        return
+    material = scene.materials[name]
+    kind = edited(TYPE, material.type, f"material {name}")
+    if kind is not None:
+        app.edit_scene("", partial(with_retyped, name=name, kind=kind))
+    elif wanted := _another_way(material, name):
+        app.edit_scene("", partial(with_material, name=name, **wanted))
+    else:
+        _values(app, name, material)
+
+
+def _commands(app: App, index: int, name: str) -> bool:
+    """The name of the material, and buttons; whether one of them changed the scene."""
+    scene = app.session.scene
+    renamed = named("name", name, f"material {name}")
+    sharing = _uses(scene.objects)[name]
+    imgui.text_disabled(f"of {sharing} objects" if sharing > 1 else "of this object alone")
+    beside("new")
+    is_new = button("new##material")
+    tip("A matte material of its own for this object")
+    beside("make unique")
+    is_own = button("make unique", sharing > 1)
+    tip("A copy of the material for this object alone; the other objects keep theirs")
+    unused = unused_materials(scene)
+    beside(f"remove {len(unused)} unused")
+    is_cleared = bool(unused) and button(f"remove {len(unused)} unused")
+    if unused:
+        tip(f"Materials that no object has: {', '.join(unused[:10])}")
+    if renamed:
+        app.edit_scene("", partial(with_renamed_material, old=name, new=renamed))
+    elif is_new:
+        app.edit_scene("", partial(with_new_material, index=index))
+    elif is_own:
+        app.edit_scene("", partial(with_own_material, index=index))
+    elif is_cleared:
+        app.edit_scene("", without_unused_materials)
+    return bool(renamed) or is_new or is_own or is_cleared
+
+
+def _values(app: App, name: str, material: Material) -> None:
+    """Its values, and its cone and textures if it has some."""
+    changes = edited_fields(_controls(material), dict(material), f"material {name}")
+    if changes:
+        app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
+    elif isinstance(material, Opaque):
+        if material.emits:
+            _cone(app, name, material.cone)
+        _textures(app, name, material)
+
+
+def _textures(app: App, name: str, material: Opaque) -> None:
+    """How the images of a material lie on its surfaces; the values above are their factors."""
+    for key, texture in material.textures.items():
+        imgui.separator_text(f"{key}: {texture.told}")
+        names = _OF_TEXTURE if texture.image is not None else _OF_TEXTURE[:1]
+        controls = tuple(c for c in controls_of(type(texture)) if c.name in names)
+        changes = edited_fields(controls, dict(texture), f"{key} of {name}")
+        if changes:
+            edit = partial(with_texture, name=name, key=key, changes=changes)
+            app.edit_scene(f"{name} {key} {list(changes)}", edit)
+
+
+def _another_way(material: Material, name: str) -> dict[str, Any]:
+    """Fields to set, or to leave open, as the user has just chosen."""
+    label = f"material {name}"
+    if isinstance(material, Metal):
+        way = next(way for way in REFLECTS.choices if getattr(material, way) is not None)
+        other = edited(REFLECTS, way, label)
+        return {} if other is None else _reflecting(material, other)
+    changes: dict[str, Any] = {}
+    for control, start in _OPTIONS.items():
+        if all(hasattr(material, field) for field in start):
+            is_on = all(getattr(material, field) is not None for field in start)
+            wanted = edited(control, is_on, label)
+            if wanted is not None:
+                changes |= start if wanted else dict.fromkeys(start)
+    return changes
+
+
+def _cone(app: App, name: str, cone: Cone | None) -> None:
+    """Whether a lamp lights a cone alone, and which."""
+    wanted = edited(CONE, cone is not None, name)
+    if wanted is not None:
+        new = Cone(axis=_DOWN) if wanted else None
+        app.edit_scene("", partial(with_material, name=name, cone=new))
+    elif cone and (changes := edited_fields(controls_of(Cone), dict(cone), f"cone {name}")):
+        edit = partial(with_cone, name=name, changes=changes)
+        app.edit_scene(f"cone {name} {list(changes)}", edit)
+
+
+@kept_for_the_same
+def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
+    """How many objects each material is of."""
+    return Counter(shape.material for shape in objects)
+
+
+def _controls(material: Material) -> tuple[Control, ...]:
+    """Of what is given; the emission of lamps stands with the light groups.
+
+    Glass that becomes rough is another kernel.
+    """
+    is_lamp = isinstance(material, Light)
+    open_ = (name for name, value in material if value is None or (is_lamp and name == "emission"))
+    controls = controls_of(type(material), tuple(open_))
+    if not isinstance(material, Principled) or not material.transmission:
+        return controls
+    return tuple(c.costing(Cost.RECOMPILE) if c.name == "roughness" else c for c in controls)
+
+
+def _reflecting(metal: Metal, way: str) -> dict[str, Any]:
+    """What says in another way what a metal reflects, as near to before as can be."""
+    index = metal.conductor or PRESETS["gold"]
+    ways: dict[str, dict[str, Any]] = {
+        "color": {"color": metal.head_on},
+        "preset": {"preset": metal.preset or "gold"},
+        "ior": {"ior": index.ior, "k": index.k},
+    }
+    return {**dict.fromkeys(_WAYS), **ways[way]}

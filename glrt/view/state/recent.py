@@ -1,0 +1,36 @@
+"""What was opened last, kept in a file of the user beside the preferences."""
+
+import json
+from pathlib import Path
+
+from glrt.errors import RenderError
+from glrt.files import printable, write_text
+
+MOST = 10
+
+
+def load_recent(file: Path) -> tuple[str, ...]:
+    """Paths and names of scenes, the last one first; nothing where the file cannot be read."""
+    try:
+        given = json.loads(file.read_text("utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return ()
+    names = given if isinstance(given, list) else []
+    return tuple(name for name in names if isinstance(name, str))[:MOST]
+
+
+def with_opened(recent: tuple[str, ...], source: str) -> tuple[str, ...]:
+    """With one more in front; a file by its whole path, so that it is found from anywhere."""
+    path = Path(source)
+    name = printable(str(path.absolute())) if path.is_file() else source
+    return (name, *(other for other in recent if other != name))[:MOST]
+
+
+def save_recent(recent: tuple[str, ...], file: Path) -> str:
+    """Write them; returns what went wrong, "" for nothing."""
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_text(file, json.dumps(recent, indent=2) + "\n")
+    except (OSError, RenderError) as error:
+        return f"What was opened last cannot be kept: {error}"
+    return ""
