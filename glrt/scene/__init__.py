@@ -47,6 +47,7 @@ Modules, each importing only what stands above it:
 - scene: all of it together, and whether the parts fit
 - model_scene: scenes of model files alone
 - toml: scene files read
+- toml_lists: objects that come and go in the text of a scene file
 - toml_writer: scene files written, with their comments kept
 - catalog: the scenes that come with glrt, by name
 - glasses: the glasses of a scene, and what is around its camera

@@ -41,10 +41,10 @@ def scene_to_dict(scene: Contents) -> dict[str, Any]:
 
 def toml_text(scene: Contents) -> str:
     """A scene file, to its last line; what has its default is left out."""
-    return "\n".join(toml_lines(_short_tables(scene))).strip() + "\n"
+    return "\n".join(toml_lines(short_tables(scene))).strip() + "\n"
 
 
-def _short_tables(scene: Contents) -> dict[str, Any]:
+def short_tables(scene: Contents) -> dict[str, Any]:
     """`scene_to_dict` without defaults, but for format and kinds of materials and shapes."""
     found = scene.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     for name, material in scene.materials.items():

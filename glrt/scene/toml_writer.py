@@ -10,9 +10,9 @@ from glrt.files import write_whole
 from glrt.scene.file_copies import copy_files
 from glrt.scene.loading import hashes_of, with_hashes
 from glrt.scene.scene import Scene
-from glrt.scene.tables import scene_to_dict, toml_text
-from glrt.scene.tables import toml_lines as toml_lines
+from glrt.scene.tables import scene_to_dict, short_tables, toml_lines, toml_text
 from glrt.scene.toml import parse_scene
+from glrt.scene.toml_lists import with_as_many
 from glrt.settings import RenderSettings, Settings
 
 MOST_LETTERS = 500_000  # of a file, which takes seconds: beyond, its comments go
@@ -60,16 +60,22 @@ def _with_comments(text: str, scene: Scene) -> str | None:
     if len(text) > MOST_LETTERS:
         return None
     try:
-        before = parse_scene(tomllib.loads(text), "")
-        new = _changed(text, scene_to_dict(before), scene_to_dict(scene))
+        before = scene_to_dict(parse_scene(tomllib.loads(text), ""))
+        after, short = scene_to_dict(scene), short_tables(scene)
+        texts = ["\n".join(toml_lines({"objects": [it]})) + "\n" for it in short.get("objects", [])]
+        text, before["objects"] = with_as_many(text, before["objects"], after["objects"], texts)
+        new = _changed(text, before, after, short)
         told = with_hashes(parse_scene(tomllib.loads(new), ""), hashes_of(scene))
         return new if told == scene else None
     except (ValueError, SceneError):
         return None
 
 
-def _changed(text: str, before: Table, after: Table) -> str:
-    """ValueError if the library cannot make the change."""
+def _changed(text: str, before: Table, after: Table, short: Table) -> str:
+    """Make the text say `after`; `short` is that without defaults, as what is new is written.
+
+    ValueError if the library cannot make the change.
+    """
     try:
         import tomlkit
     except ModuleNotFoundError:
@@ -79,32 +85,34 @@ def _changed(text: str, before: Table, after: Table) -> str:
         ) from None
     try:
         document = tomlkit.parse(text)
-        _follow(document, before, after)
+        _follow(document, before, after, short)
         return tomlkit.dumps(document)
     except (LookupError, TypeError, AttributeError) as error:  # ways to write TOML are many
         raise ValueError(str(error)) from error
 
 
-def _follow(table: Any, before: Table, after: Table) -> None:
+def _follow(table: Any, before: Table, after: Table, short: Table) -> None:
     """Make the same changes to a table of the document as lead from one table to another."""
     for key in before.keys() - after.keys():
         table.pop(key, None)
     for key, value in after.items():
-        old = before.get(key)
+        old, brief = before.get(key), short.get(key, value)
         if value == old:
             continue
-        if isinstance(value, dict):
-            _follow(table.setdefault(key, {}), old or {}, value)
+        if old is None and isinstance(value, dict):
+            _follow(table.setdefault(key, {}), {}, brief, brief)
+        elif isinstance(value, dict):
+            _follow(table.setdefault(key, {}), old or {}, value, brief)
         elif key in table and isinstance(old, list) and len(old) == len(value):
             _follow_items(table[key], old, value)
         else:
-            table[key] = value
+            table[key] = brief
 
 
 def _follow_items(items: Any, before: list[Any], after: list[Any]) -> None:
     """The same for a list, whose items may be tables."""
     for index, (old, value) in enumerate(zip(before, after, strict=True)):
         if isinstance(value, dict) and value != old:
-            _follow(items[index], old, value)
+            _follow(items[index], old, value, {})
         elif value != old:
             items[index] = value

@@ -31,7 +31,7 @@ from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 
 Rectangle = tuple[float, float, float, float]  # left, top, width, height
-SIZE = 0.1  # of half a new object, in distances from the camera to the pivot
+SIZE = 0.07  # of half a new object, in distances from the camera to the pivot
 
 
 @dataclass

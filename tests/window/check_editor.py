@@ -1,7 +1,5 @@
 """Objects, materials and lamps: added, copied, renamed, changed and removed, as a user does it."""
 
-from pathlib import Path
-
 from PIL import Image
 
 from tests.window.hand import Hand, check

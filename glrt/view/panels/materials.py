@@ -89,10 +89,7 @@ def _commands(app: App, index: int, name: str) -> bool:
     is_own = button("make unique", sharing > 1)
     tip("A copy of the material for this object alone; the other objects keep theirs")
     unused = unused_materials(scene)
-    beside(f"remove {len(unused)} unused")
-    is_cleared = bool(unused) and button(f"remove {len(unused)} unused")
-    if unused:
-        tip(f"Materials that no object has: {', '.join(unused[:10])}")
+    is_cleared = bool(unused) and _removes(unused)
     if renamed:
         app.edit_scene("", partial(with_renamed_material, old=name, new=renamed))
     elif is_new:
@@ -102,6 +99,15 @@ def _commands(app: App, index: int, name: str) -> bool:
     elif is_cleared:
         app.edit_scene("", without_unused_materials)
     return bool(renamed) or is_new or is_own or is_cleared
+
+
+def _removes(unused: list[str]) -> bool:
+    """Whether materials that no object has are to go."""
+    label = f"remove {len(unused)} unused"
+    beside(label)
+    is_pressed = imgui.button(f"{label}###remove unused")
+    tip(f"Materials that no object has: {', '.join(unused[:10])}")
+    return is_pressed
 
 
 def _values(app: App, name: str, material: Material) -> None:
