@@ -1,10 +1,14 @@
 """What a user does in the window, in the words of the checks."""
 
 import math
+import os
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
+
+import glfw  # isort: skip
 
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
@@ -96,3 +100,46 @@ def reopen(hand: Hand) -> None:
         hand.session.opened = hand.session.state
 
     hand.there(open_small)
+
+
+def add(hand: Hand, kind: str) -> None:
+    """A new object, by its button and its menu."""
+    hand.ctx.item_click("//Controls/add")
+    hand.ctx.yield_(2)
+    hand.ctx.item_click(f"//$FOCUSED/{kind}")
+    hand.ctx.yield_(3)
+
+
+def retype(hand: Hand, material: str, kind: str) -> None:
+    """Another type of a material of the selected object."""
+    hand.ctx.set_ref("Controls")
+    hand.ctx.combo_click(f"type##material {material}/{kind}")
+    hand.ctx.yield_(2)
+
+
+def type_name(hand: Hand, box: str, name: str) -> None:
+    """A name into a box of the panel."""
+    hand.ctx.item_click(f"//Controls/{box}")
+    hand.ctx.key_chars_replace_enter(name)
+    hand.ctx.yield_(2)
+
+
+def answer(hand: Hand, name: str) -> None:
+    """Press a button of the box that asks."""
+    hand.until(lambda: hand.window.app.messages.question is not None)
+    hand.ctx.yield_(3)
+    question = hand.window.app.messages.question
+    assert question
+    hand.ctx.item_click(f"//{question.title}##question/{name}")
+    hand.ctx.yield_(3)
+
+
+def drop(hand: Hand, path: Path) -> None:
+    """A file on the window: what GLFW does when the X server tells it of one."""
+
+    def dropped() -> None:
+        ((called, _),) = glfw._window_drop_callback_repository.values()
+        called(None, 1, [os.fsencode(path)])
+
+    hand.there(dropped)
+    hand.ctx.yield_(2)
