@@ -5,10 +5,11 @@ Modules, each importing only what stands above it:
 - opengl: the window's OpenGL context
 - file_watch: files that another program changes
 - memo: results kept while a scene stays the same
-- file_dialogs: file dialogs of the desktop, or of the window
 - event_wait: no frame where it would show nothing new
 - native: title, and files dropped on the window
 - state: values and pure functions behind the window
+- file_browser: a file dialog inside the window
+- file_dialogs: file dialogs of the desktop, or of the window
 - viewport: what is drawn of a picture, and moves of the camera
 - messages: what the window tells and asks
 - files: what is open, and where it is saved

@@ -7,7 +7,9 @@ from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 
-from imgui_bundle import im_file_dialog, portable_file_dialogs
+from imgui_bundle import portable_file_dialogs
+
+from glrt.view.file_browser import FileBrowser
 
 PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # that draw dialogs on Linux
 SCENES = [
@@ -20,7 +22,6 @@ PICTURE = ["Picture", "*.png *.exr *.npy"]
 
 Open = Callable[[str], object]
 Save = Callable[[str, bool], object]  # a path, and whether the user agreed to replace what is there
-_OPEN, _SAVE = "glrt open", "glrt save"  # of the dialogs inside the window
 
 
 def are_there() -> bool:
@@ -35,8 +36,6 @@ def _finds(programs: tuple[str, ...], path: str | None) -> bool:
 
 class _OfDesktop:
     """A dialog of the desktop, in a process of its own."""
-
-    agrees = True  # it asks before it replaces a file
 
     def __init__(
         self, dialog: portable_file_dialogs.open_file | portable_file_dialogs.save_file
@@ -54,33 +53,12 @@ class _OfDesktop:
         self._dialog.kill()
 
 
-class _InWindow:
-    """A dialog that Dear ImGui draws: it is drawn as often as it is asked for its answer."""
-
-    agrees = False
-
-    def __init__(self, key: str) -> None:
-        self._key = key
-
-    def answer(self) -> str | None:
-        """As of the other kind."""
-        dialog = im_file_dialog.FileDialog.instance()
-        if not dialog.is_done(self._key):
-            return None
-        chosen = dialog.get_result().path() if dialog.has_result() else ""
-        dialog.close()
-        return chosen
-
-    def close(self) -> None:
-        im_file_dialog.FileDialog.instance().close()
-
-
 class Dialogs:
     """At most one dialog at a time; the window goes on while it is open."""
 
     def __init__(self) -> None:
         """None is open."""
-        self._dialog: _OfDesktop | _InWindow | None = None
+        self._dialog: _OfDesktop | FileBrowser | None = None
         self._use: Save | None = None
 
     @property
@@ -96,9 +74,7 @@ class Dialogs:
                 portable_file_dialogs.open_file(title, str(Path.cwd()), kinds)
             )
         else:
-            place, dialog = str(Path.cwd()), im_file_dialog.FileDialog.instance()
-            dialog.open(_OPEN, title, _filters(kinds), False, place)
-            self._dialog = _InWindow(_OPEN)
+            self._dialog = FileBrowser(title, "open", _suffixes(kinds), Path.cwd())
         self._use = lambda path, _: use(path)
 
     def ask_save(self, title: str, path: str, kinds: list[str], suffix: str, use: Save) -> None:
@@ -108,9 +84,7 @@ class Dialogs:
         if are_there():
             self._dialog = _OfDesktop(portable_file_dialogs.save_file(title, str(whole), kinds))
         else:
-            dialog = im_file_dialog.FileDialog.instance()
-            dialog.save(_SAVE, title, _filters(kinds), str(whole.parent))
-            self._dialog = _InWindow(_SAVE)
+            self._dialog = FileBrowser(title, "save", _suffixes(kinds), whole)
 
         def with_suffix(chosen: str, is_agreed: bool) -> None:
             has_one = bool(Path(chosen).suffix)
@@ -120,9 +94,10 @@ class Dialogs:
 
     def poll(self, is_drawn: bool) -> None:
         """Use what was chosen, if the user is done; `is_drawn`: within a frame that is drawn."""
-        if not self._dialog or not self._use or isinstance(self._dialog, _InWindow) != is_drawn:
+        if not self._dialog or not self._use or isinstance(self._dialog, FileBrowser) != is_drawn:
             return
-        path, agrees, use = self._dialog.answer(), self._dialog.agrees, self._use
+        path, use = self._dialog.answer(), self._use
+        agrees = isinstance(self._dialog, _OfDesktop)  # it asks before a file is replaced
         if path is None:
             return
         self._dialog = self._use = None
@@ -136,7 +111,5 @@ class Dialogs:
         self._dialog = self._use = None
 
 
-def _filters(kinds: list[str]) -> str:
-    """Of the dialog inside the window: "Scene{.toml},.*"."""
-    name, patterns = kinds
-    return f"{name}{{{patterns.replace('*', '').replace(' ', ',')}}},.*"
+def _suffixes(kinds: list[str]) -> tuple[str, ...]:
+    return tuple(pattern.removeprefix("*") for pattern in kinds[1].split())

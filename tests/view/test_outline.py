@@ -8,8 +8,10 @@ import pytest
 
 import glrt
 from glrt.scene.camera import Camera
+from glrt.scene.cylinder import Cylinder
 from glrt.scene.meshes import Mesh
-from glrt.scene.shapes import KINDS, Box, Cylinder, Disk, Plane, Quad, Shape, Sphere
+from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
+from glrt.scene.solids import Box
 from glrt.view.viewport import outline as outlines
 from glrt.view.viewport.outline import STEPS, faces_of_triangles, outline
 from glrt.view.viewport.pick import ray_through

@@ -103,7 +103,7 @@ def a_click_in_the_picture_opens_the_panel_at_the_object(hand: Hand) -> None:
     click(hand, shape.center)
     ctx.yield_(3)
     info = ctx.item_info("//Controls/duplicate")
-    panel = ctx.window_info("//Controls").window
+    panel: Any = ctx.window_info("//Controls").window
     assert panel.pos.y < info.rect_full.min.y < panel.pos.y + panel.size.y
 
 

@@ -138,7 +138,8 @@ def drop(hand: Hand, path: Path) -> None:
     """A file on the window: what GLFW does when the X server tells it of one."""
 
     def dropped() -> None:
-        ((called, _),) = glfw._window_drop_callback_repository.values()
+        library: Any = glfw
+        ((called, _),) = library._window_drop_callback_repository.values()
         called(None, 1, [os.fsencode(path)])
 
     hand.there(dropped)

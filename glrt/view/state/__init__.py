@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - new_objects: what is added, and where
 - keys: names of keys and what they mean
 - preferences: what a user wants of any window
+- folders: what a folder holds
 - recent: what was opened last
 - edited: what undo brings back
 - history: undo and redo

@@ -1,0 +1,109 @@
+"""A file dialog inside the window, for desktops that have none."""
+
+from pathlib import Path
+
+from imgui_bundle import ImVec2, hello_imgui, imgui
+
+from glrt.files import printable
+from glrt.view.state.folders import Listing, listing, nearest_folder
+
+_WIDTH, _ROWS = 34.0, 14.0  # letters' heights
+_DOUBLE = imgui.SelectableFlags_.allow_double_click | imgui.SelectableFlags_.no_auto_close_popups
+
+
+class FileBrowser:
+    """A box above the window that shows a folder; it is drawn when it is asked for its answer."""
+
+    def __init__(self, title: str, act: str, suffixes: tuple[str, ...], path: Path) -> None:
+        """`act` is the word on the button, `path` a folder, or a file to begin with."""
+        self._title, self._act, self._suffixes = f"{title}###file browser", act, suffixes
+        self._name = "" if path.is_dir() else path.name
+        self._answer: str | None = None
+        self._is_open = False
+        self._go(path if path.is_dir() else path.parent)
+
+    def _go(self, folder: Path) -> None:
+        self._folder = nearest_folder(folder)
+        self._typed = printable(str(self._folder))
+        self._listing: Listing = listing(self._folder, self._suffixes)
+
+    def answer(self) -> str | None:
+        """The path that was chosen, "" for none; None while the user has not chosen."""
+        if not self._is_open:
+            imgui.open_popup(self._title)
+            self._is_open = True
+        center = imgui.get_main_viewport().get_center()
+        imgui.set_next_window_pos(center, imgui.Cond_.appearing.value, ImVec2(0.5, 0.5))
+        flags = imgui.WindowFlags_.always_auto_resize.value
+        if not imgui.begin_popup_modal(self._title, None, flags)[0]:
+            return ""  # it was ended by Escape
+        self._draw_folder()
+        self._draw_names()
+        self._draw_answers()
+        if self._answer is not None:
+            imgui.close_current_popup()
+        imgui.end_popup()
+        return self._answer
+
+    def close(self) -> None:
+        """It ends when it is drawn no more."""
+
+    def _draw_folder(self) -> None:
+        if imgui.button("up"):
+            self._go(self._folder.parent)
+        imgui.same_line()
+        if imgui.button("home"):
+            self._go(Path.home())
+        imgui.same_line()
+        imgui.set_next_item_width(-1)
+        flags = imgui.InputTextFlags_.enter_returns_true.value
+        is_entered, self._typed = imgui.input_text("##folder", self._typed, flags)
+        if is_entered:
+            self._go(Path(self._typed))
+
+    def _draw_names(self) -> None:
+        size = ImVec2(hello_imgui.em_size(_WIDTH), hello_imgui.em_size(_ROWS))
+        if imgui.begin_child("names", size, imgui.ChildFlags_.borders.value):
+            if self._listing.problem:
+                imgui.text_wrapped(printable(self._listing.problem))
+            for name in self._listing.folders:
+                if self._row(f"{name}/"):
+                    self._go(self._folder / name)
+                    break
+            for name in self._listing.files:
+                is_chosen = self._row(name)
+                if is_chosen is not None:
+                    self._name = name
+                if is_chosen:
+                    self._answer = str(self._folder / name)
+        imgui.end_child()
+
+    def _row(self, name: str) -> bool | None:
+        """Of the list: None where it was not clicked, else whether it was clicked twice."""
+        is_picked = imgui.selectable(printable(name), name == self._name, int(_DOUBLE))[0]
+        left = imgui.MouseButton_.left.value
+        return imgui.is_mouse_double_clicked(left) if is_picked else None
+
+    def _draw_answers(self) -> None:
+        imgui.set_next_item_width(hello_imgui.em_size(_WIDTH - 12))
+        flags = imgui.InputTextFlags_.enter_returns_true.value
+        shown = printable(self._name)
+        is_entered, typed = imgui.input_text("##name", shown, flags)
+        self._name = self._name if typed == shown else typed
+        imgui.same_line()
+        imgui.begin_disabled(not self._name)
+        is_pressed = imgui.button(self._act)
+        imgui.end_disabled()
+        if self._name and (is_pressed or is_entered):
+            self._choose(self._folder / Path(self._name).expanduser())
+        imgui.same_line()
+        if imgui.button("cancel"):
+            self._answer = ""
+
+    def _choose(self, path: Path) -> None:
+        """A file; a folder that was typed is gone to."""
+        if path.is_dir():
+            self._name = ""
+            self._go(path)
+        else:
+            self._answer = str(path)
