@@ -33,6 +33,7 @@ Modules, each importing only what stands above it:
 - display: the display pass
 - false_colors: numbers of pixels as colours
 - aov_view: AOVs as colours
+- magnifier: part of a picture with sharp pixels
 - surface_view: the first surface under simple light
 - renderer: scene and settings to samples, step by step
 - stopping: render to a limit of samples, time or error

@@ -1,5 +1,7 @@
 """A film weighed: the picture that other intensities of its lamps give, or particles beside it."""
 
+from typing import NamedTuple
+
 import moderngl
 import numpy as np
 
@@ -11,6 +13,21 @@ from glrt.rendering.film import Exposure, Film, standard_error
 from glrt.rendering.pass_film import Array
 
 _VERSION = "410 core"
+
+
+class Reading(NamedTuple):
+    """What a film holds of one pixel, under weights."""
+
+    radiance: Array  # (3,) float32
+    stderr: Array  # (3,) float32, NaN below two observations
+    samples: int  # that were finite
+
+
+def reading(film: Film, weights: Weights, x: int, y: int) -> Reading:
+    """Of the pixel in column x and row y, (0, 0) upper left."""
+    row = film.read(slice(y, y + 1))
+    radiance, error = _mixed(row, weights)
+    return Reading(radiance[0, x], error[0, x], film.samples - int(row.dropped[0, x]))
 
 
 def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]:

@@ -25,12 +25,12 @@ from glrt.view.state.new_objects import with_model, with_new
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.scene_edits import found_again, with_duplicate, without_object
 from glrt.view.state.session import Session
+from glrt.view.state.zoom import FIT, Rectangle, Zoom
 from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 
-Rectangle = tuple[float, float, float, float]  # left, top, width, height
 SIZE = 0.07  # of half a new object, in distances from the camera to the pivot
 
 
@@ -52,6 +52,8 @@ class App:
     is_to_be_seen: bool = False  # what is selected, in the panel
     asked: Question | None = None  # that is on the screen
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
+    zoom: Zoom = FIT
+    inspects: bool = False  # the pixel under the mouse
     frame_seconds: float = 0.0
     progress: Progress = field(default_factory=Progress)
     shown_problem: str = ""  # what went wrong, as the panel told it last
@@ -152,6 +154,14 @@ class App:
         if self.selected_shape and self.selected is not None:
             self.edit_scene("", partial(without_object, index=self.selected))
             self.selected = None
+
+    def zoom_to(self, scale: float | None) -> None:
+        """Pixels of the screen for one of the picture; None: the whole picture."""
+        self.zoom = self.zoom.to(scale) if scale else FIT
+
+    def inspect(self) -> None:
+        """Show what the pixel under the mouse holds, or no more."""
+        self.inspects = not self.inspects
 
     def pause(self) -> None:
         """Stop gathering samples, or go on."""

@@ -37,6 +37,7 @@ DISPLAYS = (
     "false_colors.frag",
     "aov_view.frag",
     "first_surface.frag",
+    "magnify.frag",
 )
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
@@ -179,7 +180,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     assert files == {*FILES, *by_structs} | {
         *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
         "integrators/aov_numbers.glsl",
-        *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag"),
+        *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"),
         *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         "trace.comp",

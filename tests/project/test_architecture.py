@@ -28,7 +28,7 @@ ENTRIES = {
     "aov.frag",
     "particles.comp",
     "splats.comp",
-} | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag"}
+} | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 NOT_OF_A_PATH = {
     *ENTRIES,
     "passes/tonemap.glsl",

@@ -34,6 +34,7 @@ DRAWN = (
     "false_colors.frag",
     "aov_view.frag",
     "first_surface.frag",
+    "magnify.frag",
 )
 # The driver compiles all of them in tests/shaders; here, those with the most and the least text.
 SETS = [

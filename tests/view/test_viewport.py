@@ -53,7 +53,7 @@ def frame(app: Turned) -> None:
     imgui.begin("Picture")
     imgui.set_cursor_screen_pos(ImVec2(0.0, 50.0))
     imgui.invisible_button("picture", ImVec2(1000.0, 450.0), viewport._EVERY_BUTTON)
-    viewport._mouse(app)  # type: ignore[arg-type]
+    viewport._mouse(app, ImVec2(0, 0), ImVec2(900, 500))  # type: ignore[arg-type]
     imgui.end()
     imgui.render()
 

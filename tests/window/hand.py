@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
+from glrt.view.state.zoom import FIT
 from glrt.view.viewport.picture import Picture
 from glrt.view.window import Window
 
@@ -97,6 +98,7 @@ class Hand:
             app.files.dialogs.close()
             app.messages.question = None
             app.pivot, app.selected = app.camera.look_at, None
+            app.zoom, app.inspects = FIT, False
             app.show.forget()
             app.show.view, app.show.wipe = "picture", 0.5
 

@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - key_table: keys, and the choice of others
 - compare: what is shown, and the kept picture
 - materials: the material of the selected object
+- inspector: pixels and the histogram
 - objects: the selected object, and new ones
 - lights: the light groups and their lamps
 - files: open and save

@@ -14,6 +14,8 @@ _MOUSE = {  # in the picture
     "right drag": "look around; in fly mode: turn about the pivot",
     "middle drag": "shift",
     "wheel": "move nearer or farther",
+    "Ctrl, wheel": "zoom into the picture",
+    "Ctrl, drag": "move the picture that is zoomed",
     "click": "select an object; its handles move it, with Shift they scale it",
     "Alt, click": "focus on that point",
     "double click": "make that point the pivot",

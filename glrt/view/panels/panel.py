@@ -16,6 +16,7 @@ from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
+from glrt.view.panels.inspector import draw_inspector
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
@@ -191,6 +192,7 @@ _SECTIONS = (
     ("Camera", _camera, _OPEN),
     ("Object", draw_object, _OPEN),
     ("Compare", draw_compare, _OPEN),
+    ("Inspect", draw_inspector, 0),
     ("Background", draw_background, 0),
     ("Sun", draw_sun, 0),
     ("Frame", _frame, 0),

@@ -6,12 +6,14 @@ from collections.abc import Callable
 
 from imgui_bundle import ImVec2, imgui
 
-from glrt.view.app import App, Rectangle
+from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.gizmo import draw_gizmo, is_held
+from glrt.view.panels.inspector import told_pixel
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.legend import draw_legend
 from glrt.view.state.keys import Action, Move
+from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
 
 _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
@@ -26,6 +28,9 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key do
     "home": lambda app: app.home(),
     "frame": lambda app: app.frame_selected(),
     "pause": lambda app: app.pause(),
+    "fit": lambda app: app.zoom_to(None),
+    "one_to_one": lambda app: app.zoom_to(1.0),
+    "inspect": lambda app: app.inspect(),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
     "duplicate": lambda app: app.duplicate(),
@@ -46,41 +51,40 @@ _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 _NOTICE = (0.0, 0.0, 0.0, 0.65)
 
 
-def fitted(room: tuple[float, float], size: tuple[int, int]) -> Rectangle:
-    """Where a picture of a size lies, as large as fits and in the middle of the room."""
-    scale = min(room[0] / size[0], room[1] / size[1])
-    width, height = max(1.0, scale * size[0]), max(1.0, scale * size[1])
-    return ((room[0] - width) / 2, (room[1] - height) / 2, width, height)
-
-
 def draw_viewport(app: App) -> None:
     """The content of the window that holds the picture."""
     settings = app.session.settings
-    room = imgui.get_content_region_avail()
-    left, top, width, height = fitted((room.x, room.y), (settings.width, settings.height))
-    corner = imgui.get_cursor_screen_pos() + ImVec2(left, top)
+    here, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    left, top, width, height = app.zoom.placed((room.x, room.y), (settings.width, settings.height))
+    corner = here + ImVec2(left, top)
     app.rectangle = (corner.x, corner.y, width, height)
+    seen = common(app.rectangle, (here.x, here.y, max(room.x, 1.0), max(room.y, 1.0)))
     if app.picture.name:
-        imgui.set_cursor_screen_pos(corner)
-        texture = imgui.ImTextureRef(app.picture.name)
-        imgui.image(texture, ImVec2(width, height), uv0=(0, 1), uv1=(1, 0))  # OpenGL's row 0 is low
+        _image(app, seen, app.picture.name)
     is_wiped = bool(app.picture.kept_name) and app.show.drawn == "picture"
     if is_wiped:
-        _wipe(app)
+        _wipe(app, seen)
     _outline(app)
     draw_gizmo(app, corner.x, corner.y, width, height)
     if not is_held(app):  # a button below the handles would keep the mouse from them
         if is_wiped:
             _wipe_handle(app)
-        imgui.set_cursor_screen_pos(corner)
-        imgui.invisible_button("picture", ImVec2(width, height), _EVERY_BUTTON)
-        x, y = imgui.get_io().mouse_pos
-        _mouse(app)
-        _clicks(app, ((x - corner.x) / width, (y - corner.y) / height))
+        imgui.set_cursor_screen_pos(ImVec2(*seen[:2]))
+        imgui.invisible_button("picture", ImVec2(max(seen[2], 1), max(seen[3], 1)), _EVERY_BUTTON)
+        _mouse(app, here, room)
+        _clicks(app)
+    low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
-        draw_legend(app.show, app.camera, app.progress.last, corner + ImVec2(0, height), width)
+        draw_legend(app.show, app.camera, app.progress.last, low, seen[2])
     for line, notice in enumerate(filter(None, _notices(app))):
-        _notice(notice, corner + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+        _notice(notice, ImVec2(*seen[:2]) + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+
+
+def _share_under_mouse(app: App) -> tuple[float, float]:
+    """Where the mouse is in the picture, from (0, 0) upper left to (1, 1)."""
+    left, top, width, height = app.rectangle
+    x, y = imgui.get_io().mouse_pos
+    return (x - left) / width, (y - top) / height
 
 
 def _notices(app: App) -> tuple[str, ...]:
@@ -90,6 +94,7 @@ def _notices(app: App) -> tuple[str, ...]:
         "old picture, until the new one has a sample" if app.show.is_old else "",
         "paused" if app.session.paused else "",
         app.messages.recent(time.perf_counter()),
+        "\n".join(told_pixel(app, *_share_under_mouse(app))) if app.inspects else "",
     )
 
 
@@ -114,13 +119,28 @@ def _outline(app: App) -> None:
 _edges = kept_for_the_same(outline)
 
 
-def _wipe(app: App) -> None:
+def _image(app: App, seen: Rectangle, name: int) -> None:
+    """A picture, or the part of it that is seen: where it is magnified, with sharp pixels."""
+    (left, top, width, height), painter = app.rectangle, imgui.get_window_draw_list()
+    columns, rows = app.picture.size
+    if app.zoom.scale and app.zoom.scale > 1 and min(seen[2:]) >= 1:
+        across, down = columns / width, rows / height
+        part = (seen[0] - left) * across, (seen[1] - top) * down, seen[2] * across, seen[3] * down
+        is_kept = name == app.picture.kept_name
+        name = app.picture.part(part, (round(seen[2]), round(seen[3])), is_kept)
+        left, top, width, height = seen
+    end = (left + width, top + height)
+    painter.add_image(imgui.ImTextureRef(name), (left, top), end, (0, 1), (1, 0))  # row 0 is low
+
+
+def _wipe(app: App, seen: Rectangle) -> None:
     """The kept picture over the left part, and the line where it ends."""
     left, top, width, height = app.rectangle
     share = app.show.wipe
     painter, edge = imgui.get_window_draw_list(), math.floor(left + share * width) + 0.5
-    texture = imgui.ImTextureRef(app.picture.kept_name)
-    painter.add_image(texture, (left, top), (edge, top + height), (0, 1), (share, 0))
+    painter.push_clip_rect((left, top), (edge, top + height), True)
+    _image(app, seen, app.picture.kept_name)
+    painter.pop_clip_rect()
     black, white = (imgui.get_color_u32((c, c, c, 1.0)) for c in (0.0, 1.0))
     for color, thickness in ((black, 3.0), (white, 1.0)):  # seen on any picture
         painter.add_line((edge, top), (edge, top + height), color, thickness)
@@ -161,14 +181,24 @@ def draw_keys(app: App) -> None:
         app.session.history.settle()
 
 
-def _mouse(app: App) -> None:
-    """Left drags by the mode, right the other way, middle shifts; the wheel dollies."""
+def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
+    """Left drags by the mode, right the other way, middle shifts; the wheel dollies.
+
+    With Ctrl, the wheel and drags are those of the zoom.
+    """
     io = imgui.get_io()
-    if imgui.is_item_hovered() and io.mouse_wheel:
+    if imgui.is_item_hovered() and io.mouse_wheel and io.key_ctrl:
+        at = (io.mouse_pos.x - here.x, io.mouse_pos.y - here.y)
+        size, factor = app.session.settings.size, 2 ** (0.5 * io.mouse_wheel)
+        app.zoom = app.zoom.about((room.x, room.y), size, at, factor)
+    elif imgui.is_item_hovered() and io.mouse_wheel:
         app.wheel(io.mouse_wheel)
     if imgui.is_item_activated():  # in a slow frame the way to the button's press is in it, too
         return
     if not imgui.is_item_active() or (io.mouse_delta.x == 0 and io.mouse_delta.y == 0):
+        return
+    if io.key_ctrl:
+        app.zoom = app.zoom.shifted(app.session.settings.size, io.mouse_delta.x, io.mouse_delta.y)
         return
     across, down = io.mouse_delta.x / io.display_size.x, io.mouse_delta.y / io.display_size.y
     if imgui.is_mouse_down(imgui.MouseButton_.middle):
@@ -178,9 +208,9 @@ def _mouse(app: App) -> None:
         app.turn(across, down, about_camera=(app.preferences.mode == "fly") != is_right)
 
 
-def _clicks(app: App, share: tuple[float, float]) -> None:
+def _clicks(app: App) -> None:
     """A click selects, with Alt it focuses; a double click sets the pivot."""
-    left = imgui.MouseButton_.left.value
+    left, share = imgui.MouseButton_.left.value, _share_under_mouse(app)
     if not imgui.is_item_hovered() or imgui.is_mouse_dragging(left):
         return
     if imgui.is_mouse_double_clicked(left):

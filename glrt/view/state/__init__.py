@@ -17,6 +17,8 @@ Modules, each importing only what stands above it:
 - layer_limits: whether a driver has room for layers
 - idle_compile: a kernel compiled ahead by another process
 - idle_kernel: when the faster kernel takes over
+- zoom: how much of the picture is seen
+- histogram: how bright it is
 - session: the scene, its settings and the renderer that follows them
 - costs: what an edit costs at present
 - reference_image: the picture kept to compare with

@@ -11,6 +11,7 @@ from glrt.error.reliability import is_doubtful
 from glrt.methods.light_layers import Weights, are_trivial
 from glrt.rendering.film import Film
 from glrt.rendering.weighting import mixed
+from glrt.view.state.histogram import DARK, Histogram, histogram
 from glrt.view.state.session import Session
 
 GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
@@ -28,6 +29,7 @@ class Look(NamedTuple):
     mean: float = 1.0  # radiance, over pixels and channels
     nonfinite: int = 0  # samples that were dropped
     is_doubtful: bool | None = None  # whether the error is not to be believed; None: not known
+    histogram: Histogram = DARK
 
     @property
     def error(self) -> float:
@@ -44,7 +46,7 @@ def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
     mean = float(radiance.mean(dtype=np.float64))
     observations = film.samples // film.extent.block
     doubt = is_doubtful(radiance, stderr, observations) if are_trivial(weights) else None
-    return Look(film.samples, seconds, band, mean, film.dropped(), doubt)
+    return Look(film.samples, seconds, band, mean, film.dropped(), doubt, histogram(radiance))
 
 
 class Progress:

@@ -8,6 +8,7 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
+    | Literal["fit", "one_to_one", "inspect"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -22,6 +23,9 @@ DEFAULTS: Bindings = {
     "home": ("home",),
     "frame": ("f",),
     "pause": ("space",),
+    "fit": ("0",),
+    "one_to_one": ("1",),
+    "inspect": ("i",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -41,6 +45,9 @@ MEANING: dict[Action, str] = {
     "home": "go to the first view",
     "frame": "frame the selection",
     "pause": "pause, continue",
+    "fit": "show the whole picture",
+    "one_to_one": "zoom to 1:1",
+    "inspect": "show pixel values",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

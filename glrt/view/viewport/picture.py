@@ -7,7 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.rendering.display import Display
+from glrt.rendering.magnifier import Magnifier
 from glrt.settings import Settings
+
+Part = tuple[float, float, float, float]  # left, top, width, height, in pixels from the upper left
 
 
 class Picture:
@@ -19,6 +22,7 @@ class Picture:
         self._display = Display(gl)
         self._texture: moderngl.Texture | None = None
         self._kept: moderngl.Texture | None = None
+        self._magnifiers = Magnifier(gl), Magnifier(gl)
 
     @property
     def name(self) -> int:
@@ -52,6 +56,13 @@ class Picture:
         width, height = self.size
         return np.frombuffer(self._texture.read(), np.uint8).reshape(height, width, 4)
 
+    def part(self, part: Part, size: tuple[int, int], is_kept: bool = False) -> int:
+        """OpenGL's name of a texture of a part of the picture, or of the kept one, magnified."""
+        texture = self._kept if is_kept else self._texture
+        assert texture
+        magnifier = self._magnifiers[is_kept]
+        return magnifier.draw(texture, part, size).glo
+
     @property
     def kept_name(self) -> int:
         """OpenGL's name of the picture that is kept to compare with, 0 if there is none."""
@@ -81,6 +92,8 @@ class Picture:
     def release(self) -> None:
         """Free what the driver holds."""
         self._display.release()
+        for magnifier in self._magnifiers:
+            magnifier.release()
         self.forget()
         self._free()
 

@@ -1,0 +1,63 @@
+"""Part of a picture larger than it is, with sharp pixels: Dear ImGui's textures are smoothed."""
+
+import moderngl
+
+from glrt.gpu.glsl import Source
+from glrt.gpu.program import drawing
+
+_VERSION = "410 core"
+
+
+class Magnifier:
+    """Draws parts of textures into one of its own."""
+
+    def __init__(self, gl: moderngl.Context) -> None:
+        """Nothing is compiled before it is needed."""
+        self._gl = gl
+        self._program: moderngl.Program | None = None
+        self._texture: moderngl.Texture | None = None
+
+    def draw(
+        self,
+        picture: moderngl.Texture,
+        part: tuple[float, float, float, float],
+        size: tuple[int, int],
+    ) -> moderngl.Texture:
+        """A part (left, top, width, height in pixels, from the upper left) on so many pixels.
+
+        The texture that is returned is valid until the next call; its row 0 is the lowest.
+        """
+        program = self._program or self._compile()
+        if self._texture is None or self._texture.size != size:
+            self._allocate(size)
+        assert self._texture
+        picture.use(0)
+        program["picture"] = 0
+        program["corner"], program["extent"] = part[:2], part[2:]
+        with self._gl.scope(self._target):
+            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
+        return self._texture
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._free()
+        if self._program:
+            self._quad.release()
+            self._program.release()
+
+    def _compile(self) -> moderngl.Program:
+        stages = (Source(name, version=_VERSION) for name in ("display.vert", "magnify.frag"))
+        self._program = drawing(self._gl, *stages)
+        self._quad = self._gl.vertex_array(self._program, [])
+        return self._program
+
+    def _allocate(self, size: tuple[int, int]) -> None:
+        self._free()
+        self._texture = self._gl.texture(size, 4)
+        self._target = self._gl.framebuffer([self._texture])
+
+    def _free(self) -> None:
+        if self._texture:
+            self._target.release()
+            self._texture.release()
+        self._texture = None
