@@ -170,6 +170,12 @@ def test_each_line_of_a_message_is_led_back() -> None:
     assert source.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
 
 
+OFTEN = [  # each of the others differs from "everything" by a feature, and takes as long
+    pytest.param(name, marks=pytest.mark.slow) if name.startswith("all but") else name
+    for name in FEATURE_SETS
+]
+
+
 # --- what the driver thinks ----------------------------------------------------------------
 
 
@@ -269,7 +275,7 @@ def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -
         )
 
 
-@pytest.mark.parametrize("features", FEATURE_SETS)
+@pytest.mark.parametrize("features", OFTEN)
 def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) -> None:
     vertex, fragment = sources("fragment", FEATURE_SETS[features], WRITTEN)
     FragmentKernel(ctx, vertex, fragment).release()

@@ -61,6 +61,10 @@ SETS = {
     **{f"smallest with {flag}": smallest_with(flag) for flag in sorted(FLAGS)},
     **{f"all but {flag}": all_but(flag) for flag in sorted(FLAGS)},
 }
+OFTEN = [  # each of the others differs from "everything" by a feature, and takes as long
+    pytest.param(name, marks=pytest.mark.slow) if name.startswith("all but") else name
+    for name in SETS
+]
 _CHECKER = {"checker": [0.25, 0.75]}
 MATERIALS: dict[str, dict[str, Any]] = {
     "matte": MATTE,
@@ -204,7 +208,7 @@ def test_a_scene_asks_for_the_features_that_it_uses(name: str) -> None:
 
 
 @pytest.mark.usefixtures("probed")
-@pytest.mark.parametrize("name", SETS)
+@pytest.mark.parametrize("name", OFTEN)
 def test_a_feature_is_compiled_in_exactly_if_the_scene_uses_it(
     ctx: moderngl.Context, name: str
 ) -> None:

@@ -154,7 +154,9 @@ def sheets(count: int) -> list[dict[str, Any]]:
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize(("count", "alpha"), [(1, 0.5), (3, 0.25), (100, 0.02)])
+@pytest.mark.parametrize(
+    ("count", "alpha"), [(1, 0.5), (3, 0.25), pytest.param(100, 0.02, marks=pytest.mark.slow)]
+)
 def test_layers_let_light_through_one_by_one(
     context: Context, method: str, count: int, alpha: float
 ) -> None:
