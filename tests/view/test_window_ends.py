@@ -54,6 +54,8 @@ def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path:
         *((name, 143) for name in ("compiling", "dragging", "choosing", "saving", "resting")),
         ("saving_when_killed", -signal.SIGKILL),
         ("closing", 0),
+        ("closing_with_edits", 0),
+        ("terminated_with_edits", 143),
     ],
 )
 def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, code: int) -> None:

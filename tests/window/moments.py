@@ -94,6 +94,24 @@ def closing(_window: Window, frame: int) -> None:
         glfw.set_window_should_close(glfw.get_current_context(), True)
 
 
+def closing_with_edits(window: Window, frame: int) -> None:
+    """The cross is pressed; the window asks, and goes when the edits are given up."""
+    if frame == FRAMES:
+        window.app.add("sphere")
+        glfw.set_window_should_close(glfw.get_current_context(), True)
+    question = window.app.messages.question
+    if frame > FRAMES + 3:
+        assert question, "it asks, and stays"
+        question.answers["do not save"]()
+
+
+def terminated_with_edits(window: Window, frame: int) -> None:
+    """A signal is not asked back."""
+    if frame == FRAMES:
+        window.app.add("sphere")
+        terminate()
+
+
 naps: list[float] = []  # since the last frame
 
 
@@ -128,7 +146,17 @@ def move_mouse() -> None:
 
 MOMENTS: dict[str, Act] = {
     act.__name__: act
-    for act in (compiling, dragging, choosing, saving, saving_when_killed, resting, closing)
+    for act in (
+        compiling,
+        dragging,
+        choosing,
+        saving,
+        saving_when_killed,
+        resting,
+        closing,
+        closing_with_edits,
+        terminated_with_edits,
+    )
 }
 
 
