@@ -8,8 +8,8 @@ layout(local_size_x = 32) in;
 
 layout(std430) buffer Replay {
     ivec2 place;         // of the pixel in the full frame
-    uint vertex_count;   // records that there are, more than `most` of them are not written
-    uint light_count;
+    uint vertices_seen;   // records that there are, more than `most` of them are not written
+    uint lights_seen;
     uint most_vertices;  // 0: none is wanted
     uint most_lights;
     uint spare_a;        // fill the row
@@ -21,15 +21,16 @@ layout(std430) writeonly buffer Lights { LightRecord lights[]; };
 layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 
 // Of the vertex that the path is at, and of the light that it finds next.
-precise VertexRecord here;
-precise LightRecord light_here;
+precise VertexRecord here = VertexRecord(
+    vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), EVENT_ENDED, vec3(0.0), 0.0, 0.0, 1.0, 0, 0);
+precise LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0);
 int vertex_number = -1;
 int light_number = 0;
 int end_reason = END_CUT_LOOP;
 
 void write_vertex() {
     if (vertex_number < 0) return;
-    uint row = atomicAdd(vertex_count, 1u);
+    uint row = atomicAdd(vertices_seen, 1u);
     if (row < most_vertices) vertices[row] = here;
 }
 
@@ -88,7 +89,7 @@ void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added
         light_here.object = object;
         light_here.pdf = pdf;
         light_number += 1;
-        uint row = atomicAdd(light_count, 1u);
+        uint row = atomicAdd(lights_seen, 1u);
         if (row < most_lights) lights[row] = light_here;
     }
     begin_light();
@@ -107,7 +108,6 @@ void main() {
     int index = frame.first_sample + offset;
     here.sample_index = index;
     light_here.sample_index = index;
-    begin_light();
     precise Sampler rng = sampler_at(place, index, frame.seed);
     precise Path path = camera_path(place, rng);
     record_vertex(path.ray.origin, frame.camera.forward, frame.camera.forward, NO_SHAPE, 0.0, path.throughput);
