@@ -32,6 +32,7 @@ Modules, each importing only what stands above it:
 - path_values: paths of a pixel as values
 - path_records: what a replay writes down, read as such
 - path_replay: samples of single pixels traced again
+- path_file: paths as JSON, and where two of them differ
 - weighting: a film's layers under weights
 - display: the display pass
 - false_colors: numbers of pixels as colours

@@ -1,6 +1,7 @@
 """Records of a replay -> values: numbers of the kernel become those and names of the scene."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,7 @@ def object_name(scene: Scene, number: int) -> str:
 def _divided(records: Array, numbers: Sequence[int]) -> list[Array]:
     """Sorted records by the samples that they are of."""
     ends = np.searchsorted(records["sample_index"], [*numbers, numbers[-1] + 1])
-    return [records[start:end] for start, end in zip(ends[:-1], ends[1:], strict=True)]
+    return [records[start:end] for start, end in pairwise(ends)]
 
 
 class _Reader:
@@ -102,7 +103,11 @@ class _Reader:
             material=None if number is None else self._scene.objects[number].material,
             distance=float(record["way"]),
             throughput=_triple(record["throughput"]),
-            direction=arriving if event in _GOING_STRAIGHT else direction if any(direction) else None,
+            direction=arriving
+            if event in _GOING_STRAIGHT
+            else direction
+            if any(direction)
+            else None,
             pdf=float(record["pdf"]),
             survival=float(record["survival"]),
         )

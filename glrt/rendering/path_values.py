@@ -129,11 +129,17 @@ class PixelPaths:
         return running_mean(self.radiances)
 
     @property
+    def lost(self) -> int:
+        """How many samples are not finite, or lost to the loop limit of the driver."""
+        return int(np.sum(~np.isfinite(self.radiances).all(axis=1)))
+
+    @property
     def shares(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """The share of each sample of the light of all, (n,), by the sum of its channels."""
         light = self.radiances.astype(np.float64).sum(axis=1)
         light[~np.isfinite(light)] = 0.0
-        return light / total if (total := light.sum()) > 0 else light
+        shares: np.ndarray[Any, np.dtype[np.float64]] = light / max(light.sum(), 1e-300)
+        return shares
 
     def brightest(self, count: int) -> list[int]:
         """The samples that brought most light, with the brightest first; none that brought none."""
@@ -144,9 +150,9 @@ class PixelPaths:
 
 def running_mean(radiances: Array) -> Array:
     """The mean of samples, (n, 3), as `next_mean` of film/pixel.glsl takes it; not finite: none."""
-    mean, count = np.zeros(3, np.float32), 0
-    for radiance in radiances[np.isfinite(radiances).all(axis=1)]:
-        count += 1
+    mean = np.zeros(3, np.float32)
+    finite = radiances[np.isfinite(radiances).all(axis=1)]
+    for count, radiance in enumerate(finite, start=1):
         step = (radiance - mean) * (np.float32(1) / np.float32(count))
         last_place = (mean.view(np.uint32) & np.uint32(0x7F800000)).view(np.float32)
         turn = np.float32(((count * 0x9E3779B9) & 0xFFFFFFFF) >> 8) * np.float32(2.0**-24)

@@ -79,7 +79,8 @@ TRANSPORT = [
             ),
             Edit(
                 "shaders_glsl/integrators/path.glsl",
-                "    if (ROULETTE && roulette_ends(path.throughput, rng)) return goes_on(END_BY_ROULETTE);\n",
+                "    if (ROULETTE && roulette_ends(path.throughput, rng)) "
+                "return goes_on(END_BY_ROULETTE);\n",
                 "",
             ),
             Edit(
