@@ -23,7 +23,7 @@ layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 // Of the vertex that the path is at, and of the light that it finds next.
 precise VertexRecord here = VertexRecord(
     vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), EVENT_ENDED, vec3(0.0), 0.0, 0.0, 1.0, 0, 0);
-precise LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0);
+precise LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0, vec3(0.0), 0);
 int vertex_number = -1;
 int light_number = 0;
 int end_reason = END_CUT_LOOP;
@@ -38,6 +38,8 @@ void begin_light() {
     light_here.other_pdf = 0.0;
     light_here.weight = 1.0;
     light_here.is_hidden = 0;
+    light_here.distance = 0.0;
+    light_here.direction = vec3(0.0);
 }
 
 void record_vertex(vec3 position, vec3 normal, vec3 shading_normal, int object, float way, vec3 throughput) {
@@ -76,6 +78,11 @@ void record_weight(float other_pdf, float weight) {
 }
 
 void record_shadow() { light_here.is_hidden = 1; }
+
+void record_sample(vec3 direction, float distance) {
+    light_here.direction = direction;
+    light_here.distance = distance;
+}
 
 // What is dark is not written down, nor where nothing was sampled.
 void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {

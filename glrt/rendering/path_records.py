@@ -135,6 +135,8 @@ class _Reader:
             object=number,
             name=source if number is None else object_name(self._scene, number),
             radiance=_triple(record["radiance"]),
+            direction=_triple(record["direction"]) if record["distance"] else None,
+            distance=float(record["distance"]) or None if source == "object" else None,
             pdf=float(record["pdf"]),
             other_pdf=float(record["other_pdf"]),
             weight=float(record["weight"]),

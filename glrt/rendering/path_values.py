@@ -87,6 +87,8 @@ class Contribution(_Value):
     object: int | None = Field(description="its number among the objects of the scene, from 0")
     name: str = Field(description="of the object")
     radiance: Triple = Field(description="that shines there")
+    direction: Triple | None = Field(description="unit; from the vertex to what was sampled")
+    distance: float | None = Field(description="to a sampled point, in scene units")
     pdf: float = Field(description="density per solid angle with which it was found; 0: a delta")
     other_pdf: float = Field(
         description="density with which the other strategy would have; 0: never, or not asked"

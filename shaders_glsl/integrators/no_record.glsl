@@ -20,6 +20,9 @@ void record_weight(float other_pdf, float weight) {}
 // The light that is recorded next is hidden from where it was sampled.
 void record_shadow() {}
 
+// The light that is recorded next was sampled so far away in this direction.
+void record_sample(vec3 direction, float distance) {}
+
 // Light was found with the density `pdf`: `radiance` is what shines there, `added` what the pixel gets.
 void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {}
 

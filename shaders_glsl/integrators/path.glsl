@@ -152,6 +152,7 @@ void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, i
     if ((HAS_SMOOTH || HAS_NORMAL_MAP) && height * along <= 0.0) light.pdf = 0.0;
     precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light, path.rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
+    record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
     gather(path, direct, light.layer, path.depth + 1);
 }

@@ -35,5 +35,7 @@ struct LightRecord {
     float pdf;        // with which it was found, per solid angle; 0: by a delta, or seen by the camera
     float other_pdf;  // with which the other strategy would have found it; 0: it could not, or is not asked
     float weight;
-    float spare;      // fills the row
+    float distance;   // of what was sampled, from the vertex; 0: nothing was
+    vec3 direction;   // towards that, unit
+    int spare;        // fills the row
 };
