@@ -1,5 +1,6 @@
 // Traces samples of one pixel again, by the path text and the random numbers of trace.comp, and writes down each
-// vertex of their paths and each light that they find. Records come in any order: each tells its place.
+// vertex of their paths and each light that they find; or, OF_PARTICLES, as particles.comp does it, the particles that
+// reach the pixel. Records come in any order: each tells its place.
 
 layout(local_size_x = 32) in;
 
@@ -12,8 +13,8 @@ layout(std430) buffer Replay {
     uint lights_seen;
     uint most_vertices;  // 0: none is wanted
     uint most_lights;
-    uint spare_a;        // fill the row
-    uint spare_b;
+    int first_lane;      // of the particles that are followed
+    int end_lane;
     SampleRecord samples[];
 };
 layout(std430) writeonly buffer Vertices { VertexRecord vertices[]; };
@@ -29,7 +30,7 @@ int light_number = 0;
 int end_reason = END_CUT_LOOP;
 
 void write_vertex() {
-    if (vertex_number < 0) return;
+    if (vertex_number < 0 || most_vertices == 0u) return;
     uint row = atomicAdd(vertices_seen, 1u);
     if (row < most_vertices) vertices[row] = here;
 }
@@ -96,10 +97,15 @@ void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added
         light_here.object = object;
         light_here.pdf = pdf;
         light_number += 1;
-        uint row = atomicAdd(lights_seen, 1u);
+        uint row = most_lights > 0u ? atomicAdd(lights_seen, 1u) : 0u;
         if (row < most_lights) lights[row] = light_here;
     }
     begin_light();
+}
+
+void record_link(float pdf, float other_pdf, float weight) {
+    light_here.pdf = pdf;
+    record_weight(other_pdf, weight);
 }
 
 bool goes_on(int reason) {
@@ -109,7 +115,57 @@ bool goes_on(int reason) {
 
 #include "trace.glsl"
 
-void main() {
+const int PARTICLE_GROUP = 64;  // particles, as in particles.comp
+
+int lamp = 0;                        // object that a particle is from
+precise vec3 shining = vec3(0.0);    // radiance there
+
+// Of what a particle brings the frame, what it brings this pixel: a mean over the particles of a sample.
+void splat(vec2 film, vec3 radiance) {
+    if (ivec2(floor(film)) != place) {
+        begin_light();
+        return;
+    }
+    precise vec3 added = radiance / frame.particles;
+    record_light(BY_PARTICLE, lamp, light_here.pdf, shining, added);
+}
+
+#include "integrators/particle_start.glsl"
+#include "integrators/camera_links.glsl"
+#include "integrators/particles.glsl"
+
+vec3 lamp_normal(Light light, vec3 position) {
+    if (!is_of_sphere(light)) return quad_of(light).normal;
+    precise Sphere sphere = sphere_at(light.shape);
+    precise vec3 normal = (position - sphere.center) / sphere.radius;
+    return normal;
+}
+
+// One particle of the sample first_sample.
+void replay_particle() {
+    int lane = first_lane + int(gl_GlobalInvocationID.x);
+    if (lane >= end_lane) return;
+    here.sample_index = frame.first_sample;
+    light_here.sample_index = frame.first_sample;
+    light_here.lane = lane;
+    precise Sampler rng = sampler_at(ivec2(lane, -1), frame.first_sample, frame.seed);
+    precise Particle particle = start_particle(rng);
+    if (particle.power == vec3(0.0)) return;
+    precise Ray ray = particle.path.ray;
+    precise vec3 normal = lamp_normal(light_at(particle.light), ray.origin);
+    lamp = light_at(particle.light).shape;
+    shining = particle.power * (particle.emission / PI);
+    record_vertex(ray.origin, normal, normal, lamp, 0.0, particle.path.throughput);
+    here.event = EVENT_SENT;
+    here.direction = ray.direction;
+    here.pdf = particle.emission;
+    bool is_linked = lane / PARTICLE_GROUP < frame.linked_groups;
+    while (extend_particle(particle, is_linked, rng)) {}
+    write_vertex();
+    if (loop_was_cut) atomicAdd(lost_samples, 1u);
+}
+
+void replay_sample() {
     int offset = int(gl_GlobalInvocationID.x);
     if (offset >= frame.sample_count) return;
     int index = frame.first_sample + offset;
@@ -124,4 +180,9 @@ void main() {
     write_vertex();
     if (loop_was_cut) atomicAdd(lost_samples, 1u);
     samples[offset] = SampleRecord(path.radiance, loop_was_cut ? END_CUT_LOOP : end_reason);
+}
+
+void main() {
+    if (OF_PARTICLES) replay_particle();
+    else replay_sample();
 }

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from glrt.rendering.path_values import Contribution, Path, PathVertex, PixelPaths, Triple
+from glrt.rendering.path_values import Array, Contribution, Path, PathVertex, PixelPaths, Triple
 from glrt.text import counted, escaped
 
 LISTED = 5  # samples that are told with their share
@@ -11,7 +11,8 @@ TOTAL = 0.995  # of the light: a sample that brings as much brings all of it
 
 def report(found: PixelPaths, source: str) -> str:
     """All lines; `source` is what the scene is called."""
-    return "\n".join([*_head(found, source), *_ranking(found), *_paths(found)])
+    parts = _head(found, source), _ranking(found), _told(found.paths), _particles(found)
+    return "\n".join(line for part in parts for line in part)
 
 
 def _head(found: PixelPaths, source: str) -> Iterator[str]:
@@ -20,11 +21,12 @@ def _head(found: PixelPaths, source: str) -> Iterator[str]:
         f"{source}: pixel {x} {y} of {settings.width} x {settings.height}, "
         f"{counted(len(found.radiances), 'sample')} by {settings.method}"
     )
-    yield f"mean radiance {_triple(float(v) for v in found.mean)}"
+    yield f"mean radiance {_triple(found.mean)}"
+    if found.particles:
+        total = _triple(found.mean + found.particles.mean)
+        yield f"  by paths from the camera; {total} with particles, which are listed apart"
     if found.lost:
         yield f"{counted(found.lost, 'sample')} lost or not finite, and not in the mean"
-    if settings.caustics == "on":
-        yield "particles bring more, which is neither in this mean nor listed: see --caustics"
 
 
 def _ranking(found: PixelPaths) -> Iterator[str]:
@@ -36,7 +38,7 @@ def _ranking(found: PixelPaths) -> Iterator[str]:
     first = listed[0]
     yield f"Sample {first} carries {_percent(shares[first])} of this pixel's light."
     for number in listed:
-        radiance = _triple(float(value) for value in found.radiances[number])
+        radiance = _triple(found.radiances[number])
         yield f"  {f'sample {number}':<14} {_percent(shares[number]):>7}   radiance {radiance}"
     bringing = int((shares > 0).sum())
     if bringing > len(listed):
@@ -46,10 +48,25 @@ def _ranking(found: PixelPaths) -> Iterator[str]:
         yield f"  {counted(dark, 'sample')} brought none"
 
 
-def _paths(found: PixelPaths) -> Iterator[str]:
-    for path in found.paths:
+def _particles(found: PixelPaths) -> Iterator[str]:
+    particles = found.particles
+    if not particles:
+        return
+    yield ""
+    yield (
+        f"Particles: {counted(len(particles.numbers), 'particle')} of "
+        f"{counted(particles.samples, 'sample')} reached this pixel, "
+        f"and bring {_triple(particles.mean)}"
+    )
+    yield from _told(particles.paths)
+
+
+def _told(paths: Sequence[Path]) -> Iterator[str]:
+    for path in paths:
         yield ""
-        yield f"Sample {path.sample}: radiance {_triple(path.radiance)}, ended by: {path.end}"
+        which = "" if path.particle is None else f", particle {path.particle}"
+        radiance = _triple(path.radiance)
+        yield f"Sample {path.sample}{which}: radiance {radiance}, ended by: {path.end}"
         yield from _vertices(path.vertices)
         yield from _lights(path)
         if reason := explanation(path):
@@ -109,8 +126,15 @@ def explanation(path: Path) -> str:
         return ""
     light = max(path.contributions, key=lambda found: sum(found.added))
     share = sum(light.added) / sum(path.radiance)
+    way = _way if path.particle is None else _way_back
     much = "All" if share > TOTAL else _percent(share)
-    return f"{much} of it is from {_name(light)}, by {_way(path, light)}: {_finding(light)}."
+    return f"{much} of it is from {_name(light)}, by {way(path, light)}: {_finding(light)}."
+
+
+def _way_back(path: Path, light: Contribution) -> str:
+    """The names on the way of a particle from its lamp to the camera."""
+    names = [escaped(vertex.name) for vertex in path.vertices[: light.vertex + 1]]
+    return " - ".join([*names, "camera"])
 
 
 def _way(path: Path, light: Contribution) -> str:
@@ -126,6 +150,8 @@ def _name(light: Contribution) -> str:
 
 
 def _finding(light: Contribution) -> str:
+    if light.strategy == "particle":
+        return f"linked to the camera with weight {light.weight:.3g}"
     if light.strategy == "camera":
         return "the camera sees it"
     if light.strategy == "light sampling":
@@ -150,8 +176,8 @@ def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
         yield ("  " + "  ".join(cells)).rstrip()
 
 
-def _triple(values: Iterator[float] | Triple) -> str:
-    return " ".join(f"{value:.4g}" for value in values)
+def _triple(values: Triple | Array) -> str:
+    return " ".join(f"{float(value):.4g}" for value in values)
 
 
 def _percent(share: float) -> str:

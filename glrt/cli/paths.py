@@ -13,6 +13,11 @@ from glrt.image.sources import check_not_scene, files_read, recipe_of, shown
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from glrt.rendering.path_file import StoredPaths
+    from glrt.rendering.path_values import Path as PixelPath
+
 DESCRIPTION = (
     "Show the paths of a pixel's samples: which samples carry most of its light, where their paths "
     "went, and what each light on them added, found by which strategy with which weight."
@@ -120,12 +125,27 @@ def _replay(arguments: argparse.Namespace) -> int:
     """0 where all stored paths come out again, else 1."""
     if arguments.scene is not None or arguments.pixel is not None:
         raise UsageError("--replay FILE.json takes scene, pixel and settings from the file alone.")
-    from glrt.rendering.path_file import (
-        LARGEST,
-        TOLERANCE,
-        first_difference,
-        paths_from_json,
-    )
+    from glrt.rendering.path_file import TOLERANCE, first_difference
+
+    name = shown(arguments.replay)
+    stored, renderer, pairs = _traced_again(arguments)
+    tolerance = 0.0 if renderer == stored.recipe.renderer else TOLERANCE
+    for before, after in pairs:
+        if difference := first_difference(before, after, tolerance):
+            print(f"{name}: sample {before.sample} differs: {difference}", flush=True)
+            return DIFFERENT
+    how = "bit for bit"
+    if tolerance:
+        how = f"within {100 * TOLERANCE:g} %: another driver stored them"
+    print(f"{name}: {len(pairs)} of {len(pairs)} paths come out again, {how}.", flush=True)
+    return 0
+
+
+def _traced_again(
+    arguments: argparse.Namespace,
+) -> "tuple[StoredPaths, str, list[tuple[PixelPath, PixelPath | None]]]":
+    """What a file holds, the driver here, and each stored path with what it is now, if it is."""
+    from glrt.rendering.path_file import LARGEST, paths_from_json
     from glrt.rendering.path_replay import check_pixel, check_samples, path_replay
 
     name = arguments.replay
@@ -141,16 +161,12 @@ def _replay(arguments: argparse.Namespace) -> int:
     traced = recipe.scene, recipe.settings, arguments.context
     with path_replay(*traced, apart=recipe.apart) as (replay, now):
         found = replay.paths(stored.pixel, numbers)
-    tolerance = 0.0 if now.renderer == recipe.renderer else TOLERANCE
-    for before, after in zip(stored.paths, found, strict=True):
-        if difference := first_difference(before, after, tolerance):
-            print(f"{shown(name)}: sample {before.sample} differs: {difference}", flush=True)
-            return DIFFERENT
-    how = (
-        f"within {100 * TOLERANCE:g} %: another driver stored them" if tolerance else "bit for bit"
-    )
-    print(f"{shown(name)}: {len(found)} of {len(found)} paths come out again, {how}.", flush=True)
-    return 0
+        particles = [
+            replay.particle_path(stored.pixel, path.sample, path.particle or 0)
+            for path in stored.particles
+        ]
+    pairs = zip((*stored.paths, *stored.particles), (*found, *particles), strict=True)
+    return stored, now.renderer, list(pairs)
 
 
 def _tell(text: str) -> None:

@@ -9,7 +9,7 @@ from pydantic import Field, ValidationError
 
 from glrt.errors import SceneError
 from glrt.image.recipe import Recipe
-from glrt.rendering.path_values import Path, PixelPaths
+from glrt.rendering.path_values import Path, PixelParticles, PixelPaths
 from glrt.settings import Frozen
 
 FORMAT: Literal[1] = 1
@@ -24,11 +24,21 @@ class StoredPaths(NamedTuple):
     recipe: Recipe
     pixel: tuple[int, int]
     paths: tuple[Path, ...]
+    particles: tuple[Path, ...]
 
 
 class _Listed(Frozen):
     sample: int
     share: float
+
+
+class _Particles(Frozen):
+    """What `glrt_paths` tells of particles."""
+
+    samples: int = Field(ge=1)
+    arriving: int = Field(ge=0)
+    mean: tuple[float, float, float]
+    paths: tuple[Path, ...]
 
 
 class _File(Frozen):
@@ -41,6 +51,7 @@ class _File(Frozen):
     mean: tuple[float, float, float]
     brightest: tuple[_Listed, ...]
     paths: tuple[Path, ...]
+    particles: _Particles | None
 
 
 def paths_to_json(found: PixelPaths) -> str:
@@ -54,9 +65,19 @@ def paths_to_json(found: PixelPaths) -> str:
         "mean": [float(value) for value in found.mean],
         "brightest": [{"sample": n, "share": float(shares[n])} for n in found.brightest(LISTED)],
         "paths": [json.loads(path.model_dump_json()) for path in found.paths],
+        "particles": _particles_table(found.particles) if found.particles else None,
         "recipe": json.loads(found.recipe.to_json()),
     }
     return json.dumps(table, allow_nan=False)
+
+
+def _particles_table(found: PixelParticles) -> dict[str, Any]:
+    return {
+        "samples": found.samples,
+        "arriving": len(found.numbers),
+        "mean": [float(value) for value in found.mean],
+        "paths": [json.loads(path.model_dump_json()) for path in found.paths],
+    }
 
 
 def paths_from_json(text: str, source: str) -> StoredPaths:
@@ -74,7 +95,11 @@ def paths_from_json(text: str, source: str) -> StoredPaths:
         raise _damaged(source, f"{key}: {problem['msg'][:1].lower()}{problem['msg'][1:]}") from None
     if not isinstance(recipe, dict):
         raise _damaged(source, "recipe: it is missing")
-    return StoredPaths(Recipe.from_json(json.dumps(recipe), source), file.pixel, file.paths)
+    particles = file.particles.paths if file.particles else ()
+    if any(path.particle is None for path in particles):
+        raise _damaged(source, "particles.paths: one has no number")
+    recipe = Recipe.from_json(json.dumps(recipe), source)
+    return StoredPaths(recipe, file.pixel, file.paths, particles)
 
 
 def _table(text: str, source: str) -> dict[str, Any]:
@@ -99,11 +124,13 @@ def _damaged(source: str, problem: str) -> SceneError:
     )
 
 
-def first_difference(stored: Path, found: Path, tolerance: float) -> str | None:
+def first_difference(stored: Path, found: Path | None, tolerance: float) -> str | None:
     """Where a path differs from a stored one of the same sample, in words; None: nowhere.
 
     Numbers may differ by `tolerance` of the larger one, of vectors by their lengths; 0: by no bit.
     """
+    if found is None:
+        return f"particle {stored.particle} does not reach the pixel"
     return next(_differences(stored, found, tolerance), None)
 
 

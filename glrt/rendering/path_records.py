@@ -54,6 +54,19 @@ def paths_of(
     return tuple(reader.path(*part) for part in parts)
 
 
+def particle_of(scene: Scene, sample: int, number: int, vertices: Array, lights: Array) -> Path:
+    """The path of one particle up to its last link to the camera, by its records in any order."""
+    vertices = vertices[np.argsort(vertices["vertex"])]
+    lights = lights[np.argsort(lights["number"])]
+    end = int(lights["vertex"][-1]) + 1
+    result = np.zeros((), RECORDS["SampleRecord"])
+    for light in lights:
+        result["radiance"] += light["added"]
+    result["end"] = NUMBERS["END_LINKED"]
+    path = _Reader(scene).path(sample, result, vertices[:end], lights)
+    return path.model_copy(update={"particle": number})
+
+
 def object_name(scene: Scene, number: int) -> str:
     """What an object is called: by its name, or by its place in the file."""
     thing = scene.objects[number]
@@ -113,6 +126,8 @@ class _Reader:
         )
 
     def _event(self, event: int, number: int | None, pdf: float) -> Event:
+        if event == NUMBERS["EVENT_SENT"] and number is not None:
+            return "lamp"
         if event in _PASSING or number is None:
             return _PASSING[event]
         if event == NUMBERS["EVENT_CROSSED"]:
@@ -150,6 +165,8 @@ class _Reader:
 
 def _strategy(number: int, vertices: Sequence[PathVertex], source: Source) -> Strategy:
     """`vertices` up to the light; an object that shines is the last of them."""
+    if number == NUMBERS["BY_PARTICLE"]:
+        return "particle"
     if number == NUMBERS["BY_SAMPLING"]:
         return "light sampling"
     before = vertices[:-1] if source == "object" else vertices

@@ -6,26 +6,26 @@ of the pixel and number of the sample: on software drivers the same bits come ou
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from dataclasses import replace
+from typing import Any
 
-import moderngl
 import numpy as np
 
-from glrt.errors import ContextError, RenderError, UsageError
+from glrt.errors import ContextError, UsageError
 from glrt.gpu.context import Choice, Context, open_context
-from glrt.gpu.program import Images, Resource
+from glrt.image.particle_film import observations_of
 from glrt.image.recipe import Recipe
 from glrt.methods.combinations import check_render
 from glrt.methods.light_layers import Plan, plan_for
+from glrt.methods.particles import GROUP as PARTICLE_GROUP
+from glrt.methods.particles import particle_groups
 from glrt.methods.table import METHODS
 from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
-from glrt.rendering.passes import PATHS
-from glrt.rendering.path_records import RECORDS, paths_of
-from glrt.rendering.path_values import NUMBERS, Path, PixelPaths
+from glrt.rendering.passes import PARTICLE_PATHS, PATHS
+from glrt.rendering.path_recorder import TOGETHER, PathRecorder, Pixel
+from glrt.rendering.path_records import particle_of, paths_of
+from glrt.rendering.path_values import NUMBERS, Path, PixelParticles, PixelPaths
 from glrt.rendering.pipelines import KernelOptions, Tier
-from glrt.rendering.schedule import DispatchRange
 from glrt.rendering.tracer import dispatch_limits
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
@@ -33,33 +33,10 @@ from glrt.settings import Settings
 from glrt.version import VERSION
 
 Array = np.ndarray[Any, Any]
-Pixel = tuple[int, int]  # column and row in the full frame, from 0, row 0 on top
 
-GROUP = 32  # samples of a work group, as paths.comp has it
-TOGETHER = 512  # samples of a dispatch
-HEAD = 32  # bytes of the block before its samples
 LOST = NUMBERS["END_CUT_LOOP"]
-FIRST_ROWS = 4096  # of vertices and of lights, until more are needed
-
-
-class Batch(NamedTuple):
-    """Samples from number `first` on: their records, those of vertices and lights in any order."""
-
-    first: int
-    samples: Array
-    vertices: Array
-    lights: Array
-
-
-@dataclass
-class _Numbered:
-    """What a dispatch sees in place of a film: the number of its first sample."""
-
-    next_sample: int
-    samples: int = 0
-
-    def images(self) -> Images:
-        return {}
+FOLLOWED = 1 << 16  # particles of a dispatch
+MOST_PARTICLES = 64  # whose paths are read, unless it is said how many
 
 
 class PathReplay:
@@ -71,100 +48,74 @@ class PathReplay:
     def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
         """Compile; UsageError where paths are not recorded, RenderError as ever."""
         check_method(plan.settings)
-        self._context, self._plan, self._scene = context, plan, scene
-        self._buffers: dict[str, moderngl.Buffer] = {}
-        with ExitStack() as refused:
-            refused.callback(self._release_buffers)
-            self._reserve("Vertices", FIRST_ROWS)
-            self._reserve("Lights", FIRST_ROWS)
-            self._hold("Replay", HEAD + TOGETHER * RECORDS["SampleRecord"].itemsize)
-            shaders = scene.shaders_of(PATHS)
-            self._kernel: AnyKernel = ready(context, shaders, self._dispatch_none)
-            refused.pop_all()
+        self._plan = plan
+        self._paths = PathRecorder(context, plan, scene, PATHS)
+        self._particles: PathRecorder | None = None
+        if plan.settings.caustics == "on":
+            with ExitStack() as refused:
+                refused.callback(self._paths.release)
+                self._particles = PathRecorder(context, plan, scene, PARTICLE_PATHS)
+                refused.pop_all()
 
     def radiances(self, pixel: Pixel, samples: int) -> Array:
         """What the samples 0 to `samples` - 1 bring, (samples, 3) float32; NaN: it is lost."""
         found = np.empty((samples, 3), np.float32)
         for first in range(0, samples, TOGETHER):
             count = min(TOGETHER, samples - first)
-            records = self._replayed(pixel, first, count, wants_records=False).samples
-            is_lost = records["end"] == LOST
-            found[first : first + count] = np.where(is_lost[:, None], np.nan, records["radiance"])
+            batch = self._paths.records(pixel, first, count, vertices=False, lights=False)
+            is_lost = batch.samples["end"][:, None] == LOST
+            found[first : first + count] = np.where(is_lost, np.nan, batch.samples["radiance"])
         return found
 
     def paths(self, pixel: Pixel, numbers: Sequence[int]) -> tuple[Path, ...]:
         """The paths of the samples with these numbers, in this order."""
         found: dict[int, Path] = {}
         for first, count in _runs(sorted(set(numbers))):
-            batch = self._replayed(pixel, first, count, wants_records=True)
-            for path in paths_of(self._plan.scene, *batch):
+            batch = self._paths.records(pixel, first, count)
+            for path in paths_of(self._plan.scene, first, *batch):
                 found[path.sample] = path
         return tuple(found[number] for number in numbers)
 
+    def particles(self, pixel: Pixel) -> PixelParticles | None:
+        """All particles of all samples that reach the pixel, without their paths; None: none go.
+
+        They are those of whole observations, as in a render.
+        """
+        if self._particles is None:
+            return None
+        settings, found = self._plan.settings, []
+        samples = settings.block * observations_of(settings.samples, settings.block)
+        count = PARTICLE_GROUP * particle_groups(settings)
+        for sample in range(samples):
+            for lane in range(0, count, FOLLOWED):
+                lanes = lane, min(lane + FOLLOWED, count)
+                found.append(
+                    self._particles.records(pixel, sample, 1, lanes, vertices=False).lights
+                )
+        lights = np.concatenate(found)
+        lights = lights[np.isfinite(lights["added"]).all(axis=1)]
+        lights = lights[np.lexsort((lights["number"], lights["lane"], lights["sample_index"]))]
+        names = zip(lights["sample_index"].tolist(), lights["lane"].tolist(), strict=True)
+        brought: dict[tuple[int, int], Array] = {}
+        for name, light in zip(names, lights, strict=True):
+            brought[name] = brought.get(name, np.zeros(3, np.float32)) + light["added"]
+        radiances = np.array([*brought.values()], np.float32).reshape(-1, 3)
+        return PixelParticles(samples, tuple(brought), radiances, ())
+
+    def particle_path(self, pixel: Pixel, sample: int, number: int) -> Path | None:
+        """The path of a particle by its sample and its number; None: it does not arrive."""
+        if self._particles is None:
+            return None
+        batch = self._particles.records(pixel, sample, 1, (number, number + 1))
+        if not len(batch.lights):
+            return None
+        return particle_of(self._plan.scene, sample, number, batch.vertices, batch.lights)
+
     def release(self) -> None:
         """Free what the driver holds."""
-        self._kernel.release()
-        self._release_buffers()
-
-    def _replayed(self, pixel: Pixel, first: int, count: int, wants_records: bool) -> Batch:
-        """One dispatch, or two where there are more records than room for them."""
-        while True:
-            rows = [self._rows(name) if wants_records else 0 for name in _KINDS]
-            head = np.array([*pixel, 0, 0, *rows, 0, 0], np.uint32)
-            self._buffers["Replay"].write(head.tobytes())
-            self._dispatch(self._kernel, first, count, -(-count // GROUP))
-            self._context.finish()
-            counts = np.frombuffer(self._buffers["Replay"].read(HEAD), np.uint32)[2:4]
-            if not wants_records or all(counts <= rows):
-                break
-            for name, needed in zip(_KINDS, counts, strict=True):
-                if needed > self._rows(name):
-                    self._reserve(name, int(needed))
-        samples = self._read("Replay", "SampleRecord", count, HEAD)
-        if not wants_records:
-            counts = np.zeros(2, np.uint32)
-        read = (self._read(n, _KINDS[n], int(c)) for n, c in zip(_KINDS, counts, strict=True))
-        return Batch(first, samples, *read)
-
-    def _dispatch(self, kernel: AnyKernel, first: int, count: int, groups: int) -> None:
-        part = DispatchRange(count, 0, groups)
-        own: dict[str, Resource] = {**self._buffers}
-        self._scene.dispatch(kernel, _Numbered(first), self._plan, part, 1, own)
-
-    def _dispatch_none(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        self._dispatch(kernel, 0, part.samples, part.tiles)
-
-    def _rows(self, name: str) -> int:
-        return int(self._buffers[name].size) // RECORDS[_KINDS[name]].itemsize
-
-    def _reserve(self, name: str, rows: int) -> None:
-        self._hold(name, rows * RECORDS[_KINDS[name]].itemsize)
-
-    def _hold(self, name: str, size: int) -> None:
-        most = int(self._context.gl.info["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"])
-        if size > most:
-            raise RenderError(
-                f"no room for the records of paths: they take {size >> 20} MiB in one block, and "
-                f"this driver grants {most >> 20}. Ask for fewer samples, or fewer bounces."
-            )
-        with self._context.checked("the records of paths"):
-            buffer = self._context.gl.buffer(reserve=size)
-        if name in self._buffers:
-            self._buffers[name].release()
-        self._buffers[name] = buffer
-
-    def _read(self, name: str, record: str, rows: int, offset: int = 0) -> Array:
-        dtype = RECORDS[record]
-        if not rows:
-            return np.zeros(0, dtype)
-        return np.frombuffer(self._buffers[name].read(rows * dtype.itemsize, offset=offset), dtype)
-
-    def _release_buffers(self) -> None:
-        for buffer in self._buffers.values():
-            buffer.release()
-
-
-_KINDS = {"Vertices": "VertexRecord", "Lights": "LightRecord"}  # blocks, with what they hold
+        self._paths.release()
+        if self._particles:
+            self._particles.release()
 
 
 def check_method(settings: Settings) -> None:
@@ -249,7 +200,8 @@ def pixel_paths(
 ) -> PixelPaths:
     """What the samples of the settings bring to a pixel, and the paths of some of them.
 
-    Those with these `numbers` (default: all), or the `brightest` so many, the brightest first.
+    Those with these `numbers` (default: all), or the `brightest` so many, the brightest first; and
+    of as many particles.
     """
     check_pixel(pixel, settings)
     check_samples(numbers or (), settings)
@@ -259,7 +211,12 @@ def pixel_paths(
             wanted: Sequence[int] = found.brightest(brightest)
         else:
             wanted = range(settings.samples) if numbers is None else numbers
-        return PixelPaths(recipe, pixel, found.radiances, replay.paths(pixel, wanted))
+        particles = replay.particles(pixel)
+        if particles:
+            names = particles.brightest(brightest or MOST_PARTICLES)
+            traced = (replay.particle_path(pixel, *name) for name in names)
+            particles = replace(particles, paths=tuple(path for path in traced if path))
+        return replace(found, paths=replay.paths(pixel, wanted), particles=particles)
 
 
 def check_samples(numbers: Sequence[int], settings: Settings) -> None:

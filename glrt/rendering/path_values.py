@@ -17,6 +17,7 @@ Array = np.ndarray[Any, np.dtype[np.float32]]
 Triple = tuple[float, float, float]
 Event = Literal[
     "camera",
+    "lamp",
     "matte",
     "reflection",
     "specular reflection",
@@ -27,7 +28,7 @@ Event = Literal[
     "passes inside glass",
     "ends",
 ]
-Strategy = Literal["camera", "scattering", "light sampling"]
+Strategy = Literal["camera", "scattering", "light sampling", "particle"]
 Source = Literal["object", "background", "sun"]
 End = Literal[
     "left the scene",
@@ -36,8 +37,10 @@ End = Literal[
     "below the surface",
     "roulette",
     "loop limit of the driver",
+    "linked to the camera",
 ]
 
+MOST_NUMBER = 2**31 - 1  # of samples and particles, below which the kernel counts
 NUMBERS = read_constants(read("integrators/record_numbers.glsl"))
 ENDS: dict[int, End] = {
     NUMBERS["END_LEFT_SCENE"]: "left the scene",
@@ -46,6 +49,7 @@ ENDS: dict[int, End] = {
     NUMBERS["END_BELOW_SURFACE"]: "below the surface",
     NUMBERS["END_BY_ROULETTE"]: "roulette",
     NUMBERS["END_CUT_LOOP"]: "loop limit of the driver",
+    NUMBERS["END_LINKED"]: "linked to the camera",
 }
 
 
@@ -81,7 +85,8 @@ class Contribution(_Value):
 
     vertex: int = Field(description="number of the last vertex of the path when it was found")
     strategy: Strategy = Field(
-        description="how: seen by the camera, met by scattering, or sampled from the vertex"
+        description="how: seen by the camera, met by scattering, sampled from the vertex, or "
+        "brought there by a particle"
     )
     source: Source = Field(description="what shines")
     object: int | None = Field(description="its number among the objects of the scene, from 0")
@@ -91,7 +96,8 @@ class Contribution(_Value):
     distance: float | None = Field(description="to a sampled point, in scene units")
     pdf: float = Field(description="density per solid angle with which it was found; 0: a delta")
     other_pdf: float = Field(
-        description="density with which the other strategy would have; 0: never, or not asked"
+        description="density with which the other strategy would have, or for a particle a path "
+        "from the camera; 0: never, or not asked"
     )
     weight: float = Field(description="of this strategy among those that find it, 0 to 1")
     added: Triple = Field(description="what the sample got of it, weighted")
@@ -107,13 +113,42 @@ class Contribution(_Value):
 
 
 class Path(_Value):
-    """One sample of a pixel: its path, and the light on it in the order in which it was found."""
+    """One sample of a pixel: its path, and the light on it in the order in which it was found.
 
-    sample: int = Field(description="its number, from 0", ge=0)
+    Or the path of a particle that reaches the pixel, from its lamp to where it is linked.
+    """
+
+    sample: int = Field(description="its number, from 0", ge=0, lt=MOST_NUMBER)
     radiance: Triple = Field(description="that the pixel got: the sum of what was added")
+    particle: int | None = Field(
+        None,
+        description="of a particle: its number among those of all pixels for the sample",
+        ge=0,
+        lt=MOST_NUMBER,
+    )
     end: End = Field(description="why it ended")
     vertices: tuple[PathVertex, ...] = Field(description="from the camera on")
     contributions: tuple[Contribution, ...] = Field(description="light that it found")
+
+
+@dataclass(frozen=True)
+class PixelParticles:
+    """What particles from lamps bring to one pixel."""
+
+    samples: int  # whose particles were followed: whole blocks of them
+    numbers: tuple[tuple[int, int], ...]  # sample and number of each that arrives
+    radiances: Array  # (n, 3): what each brings, in the mean over the particles of its sample
+    paths: tuple[Path, ...]  # of those that were asked for
+
+    @property
+    def mean(self) -> Array:
+        """Their part of the pixel, (3,) float32, but for the fixed point in which a film sums."""
+        return np.asarray(self.radiances.astype(np.float64).sum(axis=0) / self.samples, np.float32)
+
+    def brightest(self, count: int) -> list[tuple[int, int]]:
+        """Those that bring most light, with the brightest first."""
+        order = np.argsort(-self.radiances.astype(np.float64).sum(axis=1), kind="stable")
+        return [self.numbers[index] for index in order[:count]]
 
 
 @dataclass(frozen=True)
@@ -124,10 +159,11 @@ class PixelPaths:
     pixel: tuple[int, int]  # column and row in the full frame, from 0, row 0 on top
     radiances: Array  # (n, 3) of the samples 0 to n - 1; of one that is lost NaN
     paths: tuple[Path, ...]  # of the samples that were asked for
+    particles: "PixelParticles | None" = None  # that reach the pixel, with --caustics on
 
     @property
     def mean(self) -> Array:
-        """The pixel, (3,) float32: the running mean of a film, to the bit on software drivers."""
+        """The pixel by paths from the camera, (3,) float32; to the bit on software drivers."""
         return running_mean(self.radiances)
 
     @property

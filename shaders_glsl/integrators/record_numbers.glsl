@@ -11,6 +11,7 @@ const int EVENT_PASSED_GLASS = 5;  // went on through a surface that lies in ano
 // How light was found.
 const int BY_SCATTERING = 0;  // the path met it
 const int BY_SAMPLING = 1;    // a point or a direction was sampled on it
+const int BY_PARTICLE = 2;    // a particle from there was linked to the camera
 
 // Where it shines, if not on an object of the scene.
 const int FROM_BACKGROUND = -1;
@@ -23,3 +24,4 @@ const int END_ABSORBED = 3;
 const int END_BELOW_SURFACE = 4;  // its direction lies on one side of the shading normal, and on the other of the surface
 const int END_BY_ROULETTE = 5;
 const int END_CUT_LOOP = 6;       // by the driver: the sample is lost
+const int END_LINKED = 7;         // of a particle: what follows brings the pixel nothing

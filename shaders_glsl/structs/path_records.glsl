@@ -37,5 +37,5 @@ struct LightRecord {
     float weight;
     float distance;   // of what was sampled, from the vertex; 0: nothing was
     vec3 direction;   // towards that, unit
-    int spare;        // fills the row
+    int lane;         // of a particle: its number among those of its sample
 };

@@ -74,7 +74,7 @@ def test_records_beyond_the_first_room_are_all_read(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = replayed(everything(), (9, 11), context)
-    monkeypatch.setattr("glrt.rendering.path_replay.FIRST_ROWS", 3)
+    monkeypatch.setattr("glrt.rendering.path_recorder.FIRST_ROWS", 3)
     assert replayed(everything(), (9, 11), context).paths == whole.paths
 
 
