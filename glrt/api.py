@@ -48,7 +48,8 @@ def paths(
 
     `pixel` is its column and row in the full frame, from 0, row 0 on top. `settings` are fields of
     Settings, the rest comes from the scene. The paths are those that `render` traces with the same
-    settings: their light adds up to its pixel, to the bit on software drivers.
+    settings: their light adds up to its pixel, to the bit on software drivers. With caustics "on"
+    `particles` of the result are those from lamps that reach the pixel, with the paths of 64.
 
     Raises UsageError for a pixel outside of the picture, a number beyond the samples or a lighting
     model before path tracing, ContextError without OpenGL 4.3, RenderError, and SceneError for a

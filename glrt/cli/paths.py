@@ -50,7 +50,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--brightest",
         type=int,
         metavar="N",
-        help="show the paths of the N samples that bring most light (default: 1)",
+        help="show the paths of the N samples that bring most light, and of as many particles "
+        "(default: 1)",
     )
     parser.add_argument(
         "--json", action="store_true", help="print the paths and their recipe as one line of JSON"
@@ -90,6 +91,7 @@ def _show(arguments: argparse.Namespace) -> int:
         brightest=0 if arguments.numbers else arguments.brightest or 1,
         context=arguments.context,
         apart=recipe.apart if recipe else "repeated",
+        particles=arguments.brightest or 1,
     )
     if arguments.output is not None:
         files.write_text(File(arguments.output), paths_to_json(found) + "\n")

@@ -36,7 +36,6 @@ Array = np.ndarray[Any, Any]
 
 LOST = NUMBERS["END_CUT_LOOP"]
 FOLLOWED = 1 << 16  # particles of a dispatch
-MOST_PARTICLES = 64  # whose paths are read, unless it is said how many
 
 
 class PathReplay:
@@ -85,7 +84,7 @@ class PathReplay:
             return None
         settings, found = self._plan.settings, []
         samples = settings.block * observations_of(settings.samples, settings.block)
-        count = PARTICLE_GROUP * particle_groups(settings)
+        count = self._particle_count
         for sample in range(samples):
             for lane in range(0, count, FOLLOWED):
                 lanes = lane, min(lane + FOLLOWED, count)
@@ -104,12 +103,17 @@ class PathReplay:
 
     def particle_path(self, pixel: Pixel, sample: int, number: int) -> Path | None:
         """The path of a particle by its sample and its number; None: it does not arrive."""
-        if self._particles is None:
+        if self._particles is None or number >= self._particle_count:
             return None
         batch = self._particles.records(pixel, sample, 1, (number, number + 1))
         if not len(batch.lights):
             return None
         return particle_of(self._plan.scene, sample, number, batch.vertices, batch.lights)
+
+    @property
+    def _particle_count(self) -> int:
+        """Of all pixels of the frame, for one sample."""
+        return PARTICLE_GROUP * particle_groups(self._plan.settings)
 
     def release(self) -> None:
         """Free what the driver holds."""
@@ -197,11 +201,12 @@ def pixel_paths(
     context: Context | Choice = "auto",
     tier: Tier = "baked",
     apart: Apart = "repeated",
+    particles: int = 64,
 ) -> PixelPaths:
     """What the samples of the settings bring to a pixel, and the paths of some of them.
 
     Those with these `numbers` (default: all), or the `brightest` so many, the brightest first; and
-    of as many particles.
+    those of so many `particles`, the brightest first.
     """
     check_pixel(pixel, settings)
     check_samples(numbers or (), settings)
@@ -211,12 +216,12 @@ def pixel_paths(
             wanted: Sequence[int] = found.brightest(brightest)
         else:
             wanted = range(settings.samples) if numbers is None else numbers
-        particles = replay.particles(pixel)
-        if particles:
-            names = particles.brightest(brightest or MOST_PARTICLES)
+        arriving = replay.particles(pixel)
+        if arriving:
+            names = arriving.brightest(particles)
             traced = (replay.particle_path(pixel, *name) for name in names)
-            particles = replace(particles, paths=tuple(path for path in traced if path))
-        return replace(found, paths=replay.paths(pixel, wanted), particles=particles)
+            arriving = replace(arriving, paths=tuple(path for path in traced if path))
+        return replace(found, paths=replay.paths(pixel, wanted), particles=arriving)
 
 
 def check_samples(numbers: Sequence[int], settings: Settings) -> None:

@@ -166,6 +166,24 @@ def test_a_picture_is_a_scene_with_its_settings(
         assert np.array_equal(np.array(told["mean"], np.float32), wanted)
 
 
+def test_particles_are_listed_apart_and_come_out_again(
+    context: Context, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "particles.json"
+    more = ["--caustics", "on", "-o", str(file), "--context", context.route]
+    assert main(["paths", "cornell", *PIXEL, *SMALL, *more]) == 0
+    out = capsys.readouterr().out
+    assert "with particles, which are listed apart" in out
+    assert "ended by: linked to the camera" in out
+    assert replay(file, context) == 0
+    told = json.loads(file.read_text())["particles"]
+    assert told["samples"] == 32
+    assert told["arriving"] > 50
+    other = changed(file, tmp_path / "a.json", ["particles", "paths", 0, "particle"], 2**31 - 2)
+    assert replay(other, context) == 1
+    assert "particle 2147483646 does not reach the pixel" in capsys.readouterr().out
+
+
 def test_it_is_a_function_of_the_package(context: Context) -> None:
     found = package.paths(
         package.load("cornell"), (11, 14), 20, [3], context, width=16, height=16, bounces=5
@@ -236,6 +254,6 @@ def test_a_damaged_file_is_refused(
 
 
 def test_an_old_driver_is_refused_by_name() -> None:
-    told = glrt("paths", "cornell", *PIXEL, **OLD_DRIVER)
+    told = glrt("paths", "cornell", *PIXEL, cwd=None, **OLD_DRIVER)
     assert told.returncode == 3
     assert "fragment pipeline" in told.stderr

@@ -8,6 +8,8 @@ _SUMS = "rendering/test_path_replay.py::test_lights_add_up_to_the_pixel"
 _TRUTHS = "rendering/test_path_truths.py"
 _LIGHT = "rendering/test_path_light.py"
 
+_PARTICLES = "rendering/test_path_particles.py"
+
 PATHS = [
     Mutant(
         "a replay draws the random numbers of another sample",
@@ -69,6 +71,20 @@ PATHS = [
             "    while (extend_path(path, rng)) {}\n",
         ),
         f"{_TRUTHS}::test_paths_end_for_the_reason_told",
+    ),
+    Mutant(
+        "a replay follows the particles of another sample",
+        edit(_RECORD, "ivec2(lane, -1), frame.first_sample,", "ivec2(lane, -1), 1,"),
+        f"{_PARTICLES}::test_both_films_add_up",
+    ),
+    Mutant(
+        "the densities told of a link are those of the other way round",
+        edit(
+            "integrators/camera_links.glsl",
+            "record_link(frame.particles * self.emission, pdf, weight);",
+            "record_link(pdf, frame.particles * self.emission, weight);",
+        ),
+        f"{_PARTICLES}::test_their_weight_is_against_both_ways_of_the_camera",
     ),
     Mutant(
         "what crosses a surface is told as reflected",

@@ -7,7 +7,8 @@ import pytest
 from glrt.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.path_replay import TOGETHER, _runs, path_replay
+from glrt.rendering.path_recorder import TOGETHER
+from glrt.rendering.path_replay import _runs, path_replay
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.mixed_scene import everything
