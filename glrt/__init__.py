@@ -35,12 +35,13 @@ TYPE_CHECKING = False  # importing `typing` takes 5 ms, in which Ctrl-C would en
 if TYPE_CHECKING:
     from typing import Any
 
-    from glrt.api import render
+    from glrt.api import paths, render
     from glrt.comparison.result import Comparison
     from glrt.comparison.verdict import compare
     from glrt.image.image import Image
     from glrt.image.merge import merge
     from glrt.image.sources import load
+    from glrt.rendering.path_values import Contribution, Path, PathVertex, PixelPaths
     from glrt.rendering.renderer import Renderer
     from glrt.scene.background import Background
     from glrt.scene.camera import Camera
@@ -63,6 +64,7 @@ __all__ = [
     "ClearSky",
     "Comparison",
     "Cone",
+    "Contribution",
     "Cylinder",
     "Dielectric",
     "Disk",
@@ -72,6 +74,9 @@ __all__ = [
     "Mesh",
     "Metal",
     "NormalTexture",
+    "Path",
+    "PathVertex",
+    "PixelPaths",
     "Plane",
     "Principled",
     "Quad",
@@ -85,6 +90,7 @@ __all__ = [
     "compare",
     "load",
     "merge",
+    "paths",
     "render",
 ]
 
@@ -98,6 +104,7 @@ _HOMES = {
     "Camera": "scene.camera",
     "Comparison": "comparison.result",
     "Cone": "scene.cone",
+    "Contribution": "rendering.path_values",
     "Cylinder": "scene.cylinder",
     "Dielectric": "scene.materials",
     "Disk": "scene.shapes",
@@ -107,6 +114,9 @@ _HOMES = {
     "Mesh": "scene.meshes",
     "Metal": "scene.materials",
     "NormalTexture": "scene.textures",
+    "Path": "rendering.path_values",
+    "PathVertex": "rendering.path_values",
+    "PixelPaths": "rendering.path_values",
     "Principled": "scene.materials",
     "Plane": "scene.shapes",
     "Quad": "scene.shapes",
@@ -118,6 +128,7 @@ _HOMES = {
     "compare": "comparison.verdict",
     "load": "image.sources",
     "merge": "image.merge",
+    "paths": "api",
     "render": "api",
 }
 

@@ -1,12 +1,15 @@
-"""`glrt.render`: a scene to a picture in one call."""
+"""`glrt.render`: a scene to a picture in one call; `glrt.paths`: the paths of one pixel of it."""
 
+from collections.abc import Sequence
 from typing import Unpack
 
 from glrt.gpu.context import Choice, Context
 from glrt.image.image import Image
+from glrt.rendering.path_replay import pixel_paths
+from glrt.rendering.path_values import PixelPaths
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.settings import FrameOptions
+from glrt.settings import FrameOptions, settings_for
 
 
 def render(
@@ -31,3 +34,26 @@ def render(
         return renderer.render().image()
     finally:
         renderer.release()
+
+
+def paths(
+    scene: Scene,
+    pixel: tuple[int, int],
+    samples: int = 64,
+    numbers: Sequence[int] | None = None,
+    context: Context | Choice = "auto",
+    **settings: Unpack[FrameOptions],
+) -> PixelPaths:
+    """The paths of the samples of a pixel: of all, or of those with these `numbers`, from 0.
+
+    `pixel` is its column and row in the full frame, from 0, row 0 on top. `settings` are fields of
+    Settings, the rest comes from the scene. The paths are those that `render` traces with the same
+    settings: their light adds up to its pixel, to the bit on software drivers. With caustics "on"
+    `particles` of the result are those from lamps that reach the pixel, with the paths of 64.
+
+    Raises UsageError for a pixel outside of the picture, a number beyond the samples or a lighting
+    model before path tracing, ContextError without OpenGL 4.3, RenderError, and SceneError for a
+    scene beyond the driver.
+    """
+    wanted = settings_for(scene.render, samples=samples, **settings)
+    return pixel_paths(scene, wanted, pixel, numbers, context=context)

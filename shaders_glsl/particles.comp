@@ -3,6 +3,7 @@
 
 layout(local_size_x = 64) in;
 
+#include "integrators/no_record.glsl"
 #include "trace.glsl"
 #include "film/splat_unit.glsl"
 

@@ -4,6 +4,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "integrators/no_record.glsl"
 #include "trace.glsl"
 #include "passes/tiles.glsl"
 

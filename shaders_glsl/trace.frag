@@ -1,6 +1,7 @@
 // The kernel of trace.comp for OpenGL 4.1, which has no compute shaders: a fragment is a pixel of
 // the tiles that trace.vert draws, and the target textures are those of a framebuffer.
 
+#include "integrators/no_record.glsl"
 #include "trace.glsl"
 
 uniform sampler2D source_mean;      // as in trace.comp

@@ -19,6 +19,7 @@ COMMANDS = {  # name, and what `glrt --help` says of it
     "compare": "say whether two renders differ",
     "scenes": "list the scenes that come with glrt",
     "inspect": "show what a scene holds and needs",
+    "paths": "show the paths of a pixel's samples",
     "chart": "measure error against time",
     "stress": "test where methods fail",
     "doctor": "test which OpenGL routes work",

@@ -87,12 +87,13 @@ class Probe:
 
 
 _SHAPES = "shapes/all_shapes.glsl"  # a part of the table of contents
+_NO_RECORD = "integrators/no_record.glsl"  # which entry files put in front of it
 
 
 def path_files() -> list[str]:
     """The shader files that trace a path, in the order in which they build on each other."""
     text = read("trace.glsl").replace(f'#include "{_SHAPES}"', read(_SHAPES))
-    return re.findall(r'#include "([\w/]+\.glsl)"', text)
+    return [_NO_RECORD, *re.findall(r'#include "([\w/]+\.glsl)"', text)]
 
 
 def _plain(values: Any) -> Array:

@@ -29,6 +29,11 @@ Modules, each importing only what stands above it:
 - aov_tracer: gathers AOVs as the picture grows
 - particle_tracer: gathers what particles from lamps bring
 - tracer: adds samples to a film, a dispatch at a time
+- path_values: paths of a pixel as values
+- path_records: what a replay writes down, read as such
+- path_recorder: the kernel that writes it down
+- path_replay: samples of single pixels traced again
+- path_file: paths as JSON, and where two of them differ
 - weighting: a film's layers under weights
 - display: the display pass
 - false_colors: numbers of pixels as colours

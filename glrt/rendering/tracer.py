@@ -46,7 +46,7 @@ class Tracer:
         `before` has lost no more than the frame that it had begun.
         """
         self._context, self._plan, self._options, gl = context, plan, options, context.gl
-        self._rounds, self.most_samples = _limits(context, plan)
+        self._rounds, self.most_samples = dispatch_limits(context, plan)
         self._tiers: set[Tier] = set()  # of the kernels that added samples
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
@@ -280,7 +280,7 @@ class Tracer:
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles)
 
 
-def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
+def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     """How many rounds of loops a dispatch may take, None: any; and how many samples.
 
     SceneError if not one.

@@ -43,6 +43,7 @@ void link_straight(Particle self, Vertex vertex, Ray ray, Eye eye) {
     if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance);
     precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
+    record_link(frame.particles * self.emission, pdf, weight);
     splat(place, value);
 }
 
@@ -99,6 +100,7 @@ void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise
     precise vec3 value = flux * (vertex.material.color / PI) * (frame.particles * rho * weight);
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
     if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
+    record_link(self.emission, rho, weight);
     splat(place, value);
 }
 

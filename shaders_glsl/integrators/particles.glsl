@@ -21,6 +21,8 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
     facing *= side;
     if (HAS_ATTENUATION) absorb(self.path, material, side < 0.0, hit.distance);
+    record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
+                  self.path.throughput);
     if (!carries_particles(material)) return false;
     precise mat3 around = frame_around(facing);
     precise Vertex vertex = vertex_of(around, to_local(around, -direction), material, side > 0.0);
@@ -31,6 +33,7 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     }
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(self.path, material, side > 0.0) : vec3(0.0);
     precise Scattering next = sample_material(vertex, rng);
+    record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
     self.path.throughput *= next.weight;
     if (self.path.throughput == vec3(0.0)) return false;
     if (ROULETTE && ends_at_random(self.path.throughput, KEEP, rng)) return false;

@@ -24,7 +24,9 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
     if (!is_sampled(light, ray)) return 1.0;
     precise float light_pdf = pdf_light(light, ray, hit.distance, lamps);
-    return WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
+    precise float weight = WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
+    record_weight(light_pdf, weight);
+    return weight;
 }
 
 // Direct light from one sampled point, scattered towards wo; `rho` as Path has it.
@@ -35,59 +37,23 @@ vec3 direct_light(Vertex vertex, LightSample light, float rho) {
     if (wi.z <= 0.0 && !crosses) return vec3(0.0);
     if (crosses) light.ray.inward = !light.ray.inward;
     precise vec3 weight = eval_material(vertex, wi) / light.pdf;
-    if (WEIGHT_BOTH) weight *= weight_of_sample(light, pdf_material(vertex, wi), rho);
-    if (occluded(light.ray, light.distance, light.shape)) return vec3(0.0);
+    if (WEIGHT_BOTH) {
+        precise float scattered = pdf_material(vertex, wi);
+        precise float share = weight_of_sample(light, scattered, rho);
+        record_weight(scattered, share);
+        weight *= share;
+    }
+    if (occluded(light.ray, light.distance, light.shape)) {
+        record_shadow();
+        return vec3(0.0);
+    }
     precise vec3 radiance = weight * light.radiance;
     return radiance;
-}
-
-// Divides the survivors' throughput by their chance: another variance, the same mean. It applies
-// once the throughput is below 1 / keep. Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
-// meet exactly.
-const float CHANCES = 65536.0;
-
-bool ends_at_random(precise inout vec3 throughput, float keep, precise inout Sampler rng) {
-    precise float brightest = max(throughput.x, max(throughput.y, throughput.z));
-    precise float survival = min(ceil(keep * CHANCES * brightest) / CHANCES, 1.0);
-    if (next_1d(rng) >= survival) return true;
-    throughput /= survival;
-    return false;
 }
 
 // Of paths from the camera: to end those below 1/4 saves more time than it adds variance (docs/results/speed.md).
 bool roulette_ends(precise inout vec3 throughput, precise inout Sampler rng) {
     return ends_at_random(throughput, 4.0, rng);
-}
-
-struct Path {
-    Ray ray;          // its next segment
-    vec3 throughput;
-    float scale;      // of radiance by refraction, which roulette ignores
-    vec3 radiance;    // gathered so far
-    float pdf;        // of the last scattering; 0 if it was a delta, or none yet
-    float lamps;      // weight of all that are sampled, where it scattered last
-    int depth;        // scattering events so far
-    vec3 absorption;  // of the glass that its next segment lies in
-    uint counts;      // of the glasses with a priority there
-    uint holes;       // that this segment has passed
-    Ray start;        // it, where it left the vertex, if it has
-    float way;        // from there to the last hole
-    float rho;        // what particles are weighed against (integrators/particle_weights.glsl); 0: they do not come
-    Chain chain;      // of what it met first
-    vec3 layers[MOST_LAYERS];  // the radiance by layers
-};
-
-Path start_path(Ray ray) {
-    precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
-    uint counts = HAS_NESTED ? frame.camera_counts : 0u;
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, start_chain(ray),
-                NO_LAYERS);
-}
-
-// Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
-void gather(precise inout Path path, vec3 light, int group, int length) {
-    path.radiance += light;
-    if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
 }
 
 // Where a model of the classic models ends: the light of the lamps and of an unhidden sky.
@@ -147,6 +113,7 @@ bool passes(precise inout Path path, Surface surface, Material material, bool en
     if (!is_medium(material)) return false;
     uint beyond = counts_beyond(path.counts, material.details, enters);
     if (medium_of(beyond) != medium_of(path.counts)) return false;
+    record_passing(EVENT_PASSED_GLASS);
     path.counts = beyond;
     path.ray = Ray(surface.position, path.ray.direction, surface.shape, enters);
     path.pdf = 0.0;
@@ -156,6 +123,7 @@ bool passes(precise inout Path path, Surface surface, Material material, bool en
 // Whether a segment goes on through a hole of a surface.
 bool passes_hole(precise inout Path path, Surface surface, Material material, float distance) {
     if (!is_hole(material, path.holes)) return false;
+    record_passing(EVENT_PASSED_HOLE);
     path.holes += 1u;
     path.way += distance;
     path.ray = beyond(path.ray, surface);
@@ -167,7 +135,9 @@ float weight_of_emission(Path path, Hit hit, int light) {
     if (HAS_PARTICLES && path.rho > 0.0 && light != NO_LIGHT) {
         precise float kappa = 0.0;
         if (path.pdf > 0.0) kappa = pdf_light(light, path.ray, hit.distance, path.lamps) / path.pdf;
-        return emission_beside_particles(path.ray, hit, light, kappa, path.rho);
+        precise float weight = emission_beside_particles(path.ray, hit, light, kappa, path.rho);
+        record_weight(kappa * path.pdf, weight);
+        return weight;
     }
     if (!HAS_HOLE) return emission_weight(path.ray, hit, light, path.pdf, path.lamps);
     precise Hit met = Hit(path.way + hit.distance, hit.shape);
@@ -175,13 +145,15 @@ float weight_of_emission(Path path, Hit hit, int light) {
 }
 
 // Light of a sample, scattered at a vertex. `facing`: the true normal on the side of wo; `behind`: what the
-// other side absorbs.
-void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, vec3 facing, vec3 behind) {
+// other side absorbs; `source`: the object that shines, or FROM_BACKGROUND or FROM_SUN.
+void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, int source, vec3 facing, vec3 behind) {
     precise float height = dot(light.ray.direction, facing);
     precise float along = dot(light.ray.direction, vertex.frame[2]);
     if ((HAS_SMOOTH || HAS_NORMAL_MAP) && height * along <= 0.0) light.pdf = 0.0;
     precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light, path.rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
+    record_sample(light.ray.direction, light.distance);
+    record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
     gather(path, direct, light.layer, path.depth + 1);
 }
 
@@ -202,7 +174,9 @@ float sky_weight(Path path) {
     if (path.pdf == 0.0) return 1.0;
     precise float light_pdf = pdf_sky(path.ray.direction);
     if (light_pdf == 0.0) return 1.0;
-    return WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
+    precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
+    record_weight(light_pdf, weight);
+    return weight;
 }
 
 // The sun, where a path that meets nothing meets it.
@@ -210,7 +184,12 @@ void gather_sun(precise inout Path path) {
     if (!meets_sun(path.ray.direction)) return;
     precise vec3 light = path.scale * path.throughput * frame.sun_radiance;
     if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
-    if (SAMPLE_SUN && path.pdf > 0.0) light *= WEIGHT_BOTH ? power_heuristic(path.pdf, pdf_sun()) : 0.0;
+    if (SAMPLE_SUN && path.pdf > 0.0) {
+        precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, pdf_sun()) : 0.0;
+        record_weight(pdf_sun(), weight);
+        light *= weight;
+    }
+    record_light(BY_SCATTERING, FROM_SUN, path.pdf, frame.sun_radiance, light);
     gather(path, light, SUN_LAYER, path.depth);
 }
 
@@ -239,23 +218,26 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
-        gather_sampled(path, vertex, light, facing, behind);
+        gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
     }
     if (SAMPLE_SKY && !is_delta(material)) {
         precise LightSample light = sample_sky(ray, rng);
-        gather_sampled(path, vertex, light, facing, behind);
+        gather_sampled(path, vertex, light, FROM_BACKGROUND, facing, behind);
     }
     if (SAMPLE_SUN && !is_delta(material)) {
         precise LightSample light = sample_sun(ray, rng);
-        gather_sampled(path, vertex, light, facing, behind);
+        gather_sampled(path, vertex, light, FROM_SUN, facing, behind);
     }
     precise Scattering next = sample_material(vertex, rng);
+    record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
     if (LINKED != 0) follow_chain(path.chain, surface.shape, vertex, next.crosses);
-    if ((HAS_SMOOTH || HAS_NORMAL_MAP) && (dot(next.direction, facing) < 0.0) != next.crosses) return false;
+    if ((HAS_SMOOTH || HAS_NORMAL_MAP) && (dot(next.direction, facing) < 0.0) != next.crosses) {
+        return goes_on(END_BELOW_SURFACE);
+    }
     path.throughput *= next.weight;
-    if (path.throughput == vec3(0.0)) return false;
+    if (path.throughput == vec3(0.0)) return goes_on(END_ABSORBED);
     if (HAS_DIELECTRIC) path.scale *= next.scale;
-    if (ROULETTE && roulette_ends(path.throughput, rng)) return false;
+    if (ROULETTE && roulette_ends(path.throughput, rng)) return goes_on(END_BY_ROULETTE);
     ray.direction = next.direction;
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
@@ -279,21 +261,25 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
             precise vec3 sky = path.scale * path.throughput * background(path.ray.direction);
             if (HAS_ATTENUATION) sky *= share_left_of_sky(path.absorption);
             if (SAMPLE_SKY) sky *= sky_weight(path);
+            record_light(BY_SCATTERING, FROM_BACKGROUND, path.pdf, background(path.ray.direction), sky);
             gather(path, sky, BACKGROUND_LAYER, path.depth);
         }
         if (HAS_SUN) gather_sun(path);
-        return false;
+        return goes_on(END_LEFT_SCENE);
     }
     precise Surface surface = surface_at(path.ray, hit);
     precise Material material = material_of(path.ray, surface);
     precise float share = weight_of_emission(path, hit, surface.light);
     bool facing = dot(path.ray.direction, true_normal(surface)) < 0.0;
     if (HAS_ATTENUATION) absorb(path, material, !facing, hit.distance);
+    record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
+                  path.scale * path.throughput);
     if (HAS_NESTED && passes(path, surface, material, facing)) return true;
     if (HAS_HOLE && passes_hole(path, surface, material, hit.distance)) return true;
     precise vec3 emission = emitted(material, -path.ray.direction, facing);
     precise vec3 light = path.scale * path.throughput * emission * share;
+    record_light(BY_SCATTERING, object_number(surface.shape), path.pdf, emission, light);
     gather(path, light, material.layer, path.depth);
-    if (path.depth == frame.bounces) return false;
+    if (path.depth == frame.bounces) return goes_on(END_BOUNCE_LIMIT);
     return scatter_path(path, surface, material, rng);
 }

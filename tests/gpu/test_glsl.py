@@ -13,7 +13,7 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, files_anew, read, shader_files
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.rendering.passes import PARTICLES, SPLATS, RenderPass, aov_pass
+from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, RenderPass, aov_pass
 from glrt.rendering.pipelines import sources
 from glrt.resources import folder
 from glrt.settings import Aov
@@ -189,7 +189,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"),
         *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
-        "trace.comp",
+        *("trace.comp", "paths.comp", "structs/path_records.glsl"),
         "passes/tiles.glsl",
         "passes/tonemap.glsl",
         "sampling/other_hash.glsl",
@@ -244,9 +244,11 @@ def test_aovs_compile_without_a_warning(
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 
-@pytest.mark.parametrize("render_pass", [PARTICLES, SPLATS], ids=["followed", "added"])
+@pytest.mark.parametrize(
+    "render_pass", [PARTICLES, SPLATS, PATHS], ids=["followed", "added", "told"]
+)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
-def test_particles_compile_without_a_warning(
+def test_other_passes_compile_without_a_warning(
     ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
     assert ctx.version_code >= 430
@@ -259,10 +261,10 @@ def test_particles_compile_without_a_warning(
 
 def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:
     number = plant(shaders / "sampling/warp.glsl", "float odd() { float x; return x; }")
-    text = (shaders / "integrators/path.glsl").read_text()
+    text = (shaders / "integrators/path_state.glsl").read_text()
     use = "return Path(ray, vec3(1.0)"
     assert text.count(use) == 1
-    (shaders / "integrators/path.glsl").write_text(
+    (shaders / "integrators/path_state.glsl").write_text(
         text.replace(use, use.replace("vec3(1.0)", "vec3(odd())"))
     )
     source = Source("trace.comp", EVERYTHING, texts=WRITTEN)

@@ -5,6 +5,7 @@ from tests.mutation.mutant import Edit, Mutant, edit
 _ROUGH = "bsdfs/rough_dielectric.glsl"
 _MEDIA = "integrators/media.glsl"
 _PATH = "integrators/path.glsl"
+_STATE = "integrators/path_state.glsl"
 _SHADERS = "shaders/test_rough_dielectric.py"
 _TRUTHS = "truths/test_media.py"
 
@@ -70,7 +71,7 @@ GLASS = [
     ),
     Mutant(
         "a camera in tinted glass is in air",
-        edit(_PATH, "HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0)", "vec3(0.0)"),
+        edit(_STATE, "HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0)", "vec3(0.0)"),
         f"{_TRUTHS}::test_a_camera_in_glass_sees_through_what_is_before_it",
     ),
     Mutant(
@@ -90,7 +91,7 @@ GLASS = [
     ),
     Mutant(
         "a camera in nested glass is in air",
-        edit(_PATH, "HAS_NESTED ? frame.camera_counts : 0u", "0u"),
+        edit(_STATE, "HAS_NESTED ? frame.camera_counts : 0u", "0u"),
         f"{_TRUTHS}::test_a_camera_under_water_looks_out_through_glass",
     ),
     Mutant(

@@ -14,6 +14,7 @@ from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
 from tests.mutation.particles import PARTICLES
+from tests.mutation.paths import PATHS
 from tests.mutation.principled import PRINCIPLED
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
@@ -40,4 +41,5 @@ MUTANTS = [
     *AOVS,
     *MERGING,
     *COMPARING,
+    *PATHS,
 ]

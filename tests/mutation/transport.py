@@ -24,7 +24,7 @@ TRANSPORT = [
     ),
     Mutant(
         "survivors of roulette are not weighed",
-        edit("integrators/path.glsl", "    throughput /= survival;\n", ""),
+        edit("integrators/roulette.glsl", "    throughput /= survival;\n", ""),
         "truths/test_roulette.py::test_roulette_raises_the_variance_and_leaves_the_mean",
     ),
     Mutant(
@@ -79,7 +79,8 @@ TRANSPORT = [
             ),
             Edit(
                 "shaders_glsl/integrators/path.glsl",
-                "    if (ROULETTE && roulette_ends(path.throughput, rng)) return false;\n",
+                "    if (ROULETTE && roulette_ends(path.throughput, rng)) "
+                "return goes_on(END_BY_ROULETTE);\n",
                 "",
             ),
             Edit(

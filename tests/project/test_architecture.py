@@ -28,6 +28,7 @@ ENTRIES = {
     "aov.frag",
     "particles.comp",
     "splats.comp",
+    "paths.comp",
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 NOT_OF_A_PATH = {
     *ENTRIES,

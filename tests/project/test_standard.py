@@ -10,7 +10,7 @@ import pytest
 
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.struct_arrays import MOST_UNIFORM_BYTES
-from glrt.rendering.passes import PARTICLES, SPLATS, Resolved, aov_pass
+from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, Resolved, aov_pass
 from glrt.rendering.pipelines import Tier, sources
 from glrt.settings import Aov
 from tests.support.builders import EVERYTHING, FEATURE_SETS
@@ -85,9 +85,9 @@ def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
     assert [line for shader in shaders for line in objections(shader)] == []
 
 
-def test_particles_are() -> None:
+def test_particles_and_records_of_paths_are() -> None:
     constants = {**EVERYTHING, "CASTERS": 5, "LINKED": 5}
-    for render_pass in (PARTICLES, SPLATS):
+    for render_pass in (PARTICLES, SPLATS, PATHS):
         (shader,) = sources("compute", constants, written_for(), render_pass)
         assert list(objections(shader)) == []
 

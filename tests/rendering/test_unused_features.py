@@ -24,6 +24,7 @@ _FORMATS, _LENGTH = 0x87FE, 0x8741  # NUM_PROGRAM_BINARY_FORMATS, PROGRAM_BINARY
 AROUND = 320  # bytes: beside the hash of the source lies a struct with holes, which are not written
 COMMENTED = "sampling/hash.glsl"  # a file that every kernel has
 TRIES = 3  # until a program is as long as another of the same text
+TELLING = ("path.glsl", "roulette.glsl")  # files in which a path tells what happens
 UNDEFINED = 8  # other bytes of a hundred thousand that hold what was in memory before, now and then
 
 # A file of functions, a scene that leaves them out, and the settings with which it does.
@@ -113,11 +114,35 @@ def differing(programs: Iterable[Any]) -> Any:
     return known
 
 
+def untold(glsl: str) -> str:
+    """A file without what a path tells on its way."""
+    text = re.sub(r"^ *record_\w+\([^;]*\);\n", "", glsl, flags=re.MULTILINE)
+    return re.sub(r"goes_on\(\w+\)", "false", text)
+
+
 @pytest.mark.parametrize("file", UNUSED)
 def test_functions_that_a_scene_leaves_out_change_no_byte(context: Context, file: str) -> None:
     scene, settings = UNUSED[file]
+    assert_same_program(context, scene, {file: emptied(read(file))}, **settings)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scene", "method"),
+    [("cornell", "naive"), ("lamps", "nee"), ("metals", "mis"), ("sky", "mis"), ("weekend", "mis")],
+)
+def test_what_a_path_tells_changes_no_byte(context: Context, scene: str, method: str) -> None:
+    texts = {name: untold(read(f"integrators/{name}")) for name in TELLING}
+    assert all("record_" not in text and "goes_on" not in text for text in texts.values())
+    texts = {f"integrators/{name}": text for name, text in texts.items()}
+    assert_same_program(context, scene, texts, method=method)
+
+
+def assert_same_program(
+    context: Context, scene: str, texts: dict[str, str], **settings: Any
+) -> None:
+    """The driver makes the same of a kernel with these files as without."""
     plain, *others = equally_long(lambda: program_of(context, scene, {}, **settings), 4)
-    texts = {file: emptied(read(file))}
     compiled = (program_of(context, scene, texts, **settings) for _ in range(TRIES))
     found = next((each for each in compiled if len(each) == len(plain)), None)
     assert found is not None, "all are longer or shorter"

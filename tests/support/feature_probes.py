@@ -97,7 +97,11 @@ PROBES = {
         "1.0 / (4.0 * frame",
         "{} / (4.0 * frame",
     ),
-    "ROULETTE": ("integrators/path.glsl", "throughput /= survival", "throughput /= {} + survival"),
+    "ROULETTE": (
+        "integrators/roulette.glsl",
+        "throughput /= survival",
+        "throughput /= {} + survival",
+    ),
 }
 ALWAYS = ("film/pixel.glsl", "1.0 / count", "{} / count")
 NEEDED_TOO = {

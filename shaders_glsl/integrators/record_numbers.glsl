@@ -1,0 +1,27 @@
+// What a record of a path says by numbers.
+
+// What happened at a vertex.
+const int EVENT_ENDED = 0;         // nothing more: the path ends there
+const int EVENT_SENT = 1;          // by the camera
+const int EVENT_REFLECTED = 2;     // scattered to the side that it came from
+const int EVENT_CROSSED = 3;       // scattered through the surface
+const int EVENT_PASSED_HOLE = 4;   // went on through a hole of the surface
+const int EVENT_PASSED_GLASS = 5;  // went on through a surface that lies in another glass
+
+// How light was found.
+const int BY_SCATTERING = 0;  // the path met it
+const int BY_SAMPLING = 1;    // a point or a direction was sampled on it
+const int BY_PARTICLE = 2;    // a particle from there was linked to the camera
+
+// Where it shines, if not on an object of the scene.
+const int FROM_BACKGROUND = -1;
+const int FROM_SUN = -2;
+
+// Why a path ended.
+const int END_LEFT_SCENE = 1;
+const int END_BOUNCE_LIMIT = 2;
+const int END_ABSORBED = 3;
+const int END_BELOW_SURFACE = 4;  // its direction lies on one side of the shading normal, and on the other of the surface
+const int END_BY_ROULETTE = 5;
+const int END_CUT_LOOP = 6;       // by the driver: the sample is lost
+const int END_LINKED = 7;         // of a particle: what follows brings the pixel nothing

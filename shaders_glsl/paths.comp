@@ -1,0 +1,188 @@
+// Traces samples of one pixel again, by the path text and the random numbers of trace.comp, and writes down each
+// vertex of their paths and each light that they find; or, OF_PARTICLES, as particles.comp does it, the particles that
+// reach the pixel. Records come in any order: each tells its place.
+
+layout(local_size_x = 32) in;
+
+#include "structs/path_records.glsl"
+#include "integrators/record_numbers.glsl"
+
+layout(std430) buffer Replay {
+    ivec2 place;         // of the pixel in the full frame
+    uint vertices_seen;   // records that there are, more than `most` of them are not written
+    uint lights_seen;
+    uint most_vertices;  // 0: none is wanted
+    uint most_lights;
+    int first_lane;      // of the particles that are followed
+    int end_lane;
+    SampleRecord samples[];
+};
+layout(std430) writeonly buffer Vertices { VertexRecord vertices[]; };
+layout(std430) writeonly buffer Lights { LightRecord lights[]; };
+layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
+
+// Of the vertex that the path is at, and of the light that it finds next.
+precise VertexRecord here = VertexRecord(
+    vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), EVENT_ENDED, vec3(0.0), 0.0, 0.0, 1.0, 0, 0);
+precise LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0, vec3(0.0), 0);
+int vertex_number = -1;
+int light_number = 0;
+int end_reason = END_CUT_LOOP;
+
+void write_vertex() {
+    if (vertex_number < 0 || most_vertices == 0u) return;
+    uint row = atomicAdd(vertices_seen, 1u);
+    if (row < most_vertices) vertices[row] = here;
+}
+
+void begin_light() {
+    light_here.other_pdf = 0.0;
+    light_here.weight = 1.0;
+    light_here.is_hidden = 0;
+    light_here.distance = 0.0;
+    light_here.direction = vec3(0.0);
+}
+
+void record_vertex(vec3 position, vec3 normal, vec3 shading_normal, int object, float way, vec3 throughput) {
+    write_vertex();
+    vertex_number += 1;
+    here.position = position;
+    here.normal = normal;
+    here.shading_normal = shading_normal;
+    here.vertex = vertex_number;
+    here.object = object;
+    here.throughput = throughput;
+    here.event = EVENT_ENDED;
+    here.direction = vec3(0.0);
+    here.pdf = 0.0;
+    here.way = way;
+    here.survival = 1.0;
+}
+
+void record_scattering(vec3 shading_normal, vec3 direction, float pdf, bool crosses) {
+    here.shading_normal = shading_normal;
+    here.direction = direction;
+    here.pdf = pdf;
+    here.event = crosses ? EVENT_CROSSED : EVENT_REFLECTED;
+}
+
+void record_passing(int event) {
+    here.event = event;
+    begin_light();  // what shines there is not gathered
+}
+
+void record_survival(float survival) { here.survival = survival; }
+
+void record_weight(float other_pdf, float weight) {
+    light_here.other_pdf = other_pdf;
+    light_here.weight = weight;
+}
+
+void record_shadow() { light_here.is_hidden = 1; }
+
+void record_sample(vec3 direction, float distance) {
+    light_here.direction = direction;
+    light_here.distance = distance;
+}
+
+// What is dark is not written down, nor where nothing was sampled.
+void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {
+    bool is_nothing = strategy == BY_SAMPLING && pdf == 0.0;
+    if (radiance != vec3(0.0) && !is_nothing) {
+        light_here.radiance = radiance;
+        light_here.added = added;
+        light_here.number = light_number;
+        light_here.vertex = vertex_number;
+        light_here.strategy = strategy;
+        light_here.object = object;
+        light_here.pdf = pdf;
+        light_number += 1;
+        uint row = most_lights > 0u ? atomicAdd(lights_seen, 1u) : 0u;
+        if (row < most_lights) lights[row] = light_here;
+    }
+    begin_light();
+}
+
+void record_link(float pdf, float other_pdf, float weight) {
+    light_here.pdf = pdf;
+    record_weight(other_pdf, weight);
+}
+
+bool goes_on(int reason) {
+    end_reason = reason;
+    return false;
+}
+
+#include "trace.glsl"
+
+const int PARTICLE_GROUP = 64;  // particles, as in particles.comp
+
+int lamp = 0;                        // object that a particle is from
+precise vec3 shining = vec3(0.0);    // radiance there
+
+// Of what a particle brings the frame, what it brings this pixel: a mean over the particles of a sample.
+void splat(vec2 film, vec3 radiance) {
+    if (ivec2(floor(film)) != place) {
+        begin_light();
+        return;
+    }
+    precise vec3 added = radiance / frame.particles;
+    record_light(BY_PARTICLE, lamp, light_here.pdf, shining, added);
+}
+
+#include "integrators/particle_start.glsl"
+#include "integrators/camera_links.glsl"
+#include "integrators/particles.glsl"
+
+vec3 lamp_normal(Light light, vec3 position) {
+    if (!is_of_sphere(light)) return quad_of(light).normal;
+    precise Sphere sphere = sphere_at(light.shape);
+    precise vec3 normal = (position - sphere.center) / sphere.radius;
+    return normal;
+}
+
+// One particle of the sample first_sample.
+void replay_particle() {
+    int lane = first_lane + int(gl_GlobalInvocationID.x);
+    if (lane >= end_lane) return;
+    here.sample_index = frame.first_sample;
+    light_here.sample_index = frame.first_sample;
+    light_here.lane = lane;
+    precise Sampler rng = sampler_at(ivec2(lane, -1), frame.first_sample, frame.seed);
+    precise Particle particle = start_particle(rng);
+    if (particle.power == vec3(0.0)) return;
+    precise Ray ray = particle.path.ray;
+    precise vec3 normal = lamp_normal(light_at(particle.light), ray.origin);
+    lamp = light_at(particle.light).shape;
+    shining = particle.power * (particle.emission / PI);
+    record_vertex(ray.origin, normal, normal, lamp, 0.0, particle.path.throughput);
+    here.event = EVENT_SENT;
+    here.direction = ray.direction;
+    here.pdf = particle.emission;
+    bool is_linked = lane / PARTICLE_GROUP < frame.linked_groups;
+    while (extend_particle(particle, is_linked, rng)) {}
+    write_vertex();
+    if (loop_was_cut) atomicAdd(lost_samples, 1u);
+}
+
+void replay_sample() {
+    int offset = int(gl_GlobalInvocationID.x);
+    if (offset >= frame.sample_count) return;
+    int index = frame.first_sample + offset;
+    here.sample_index = index;
+    light_here.sample_index = index;
+    precise Sampler rng = sampler_at(place, index, frame.seed);
+    precise Path path = camera_path(place, rng);
+    record_vertex(path.ray.origin, frame.camera.forward, frame.camera.forward, NO_SHAPE, 0.0, path.throughput);
+    here.event = EVENT_SENT;
+    here.direction = path.ray.direction;
+    while (extend_path(path, rng)) {}
+    write_vertex();
+    if (loop_was_cut) atomicAdd(lost_samples, 1u);
+    samples[offset] = SampleRecord(path.radiance, loop_was_cut ? END_CUT_LOOP : end_reason);
+}
+
+void main() {
+    if (OF_PARTICLES) replay_particle();
+    else replay_sample();
+}
