@@ -2,6 +2,7 @@
 
 Modules, each importing only what stands above it:
 
+- path_report: paths of a pixel as text
 - reference: the true radiance, as well as it is known
 - variants: the methods and settings that are compared
 - plot: the style of charts

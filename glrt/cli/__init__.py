@@ -16,7 +16,6 @@ Modules, each importing only what stands above it:
 - compare: `glrt compare`
 - scenes: `glrt scenes`
 - inspect: `glrt inspect`
-- path_report: paths of a pixel as text
 - paths: `glrt paths`
 - chart: `glrt chart`
 - stress: `glrt stress`

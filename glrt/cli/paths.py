@@ -98,7 +98,7 @@ def _show(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(paths_to_json(found), flush=True)
         return 0
-    from glrt.cli.path_report import report
+    from glrt.analysis.path_report import report
 
     print(report(found, shown(arguments.scene)), flush=True)
     return 0

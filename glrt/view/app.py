@@ -22,6 +22,7 @@ from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
 from glrt.view.state.new_objects import with_model, with_new
+from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.scene_edits import found_again, with_duplicate, without_object
 from glrt.view.state.session import Session
@@ -54,6 +55,8 @@ class App:
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
     zoom: Zoom = FIT
     inspects: bool = False  # the pixel under the mouse
+    paths: PathExplorer = field(init=False)
+    outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
     frame_seconds: float = 0.0
     progress: Progress = field(default_factory=Progress)
     shown_problem: str = ""  # what went wrong, as the panel told it last
@@ -63,6 +66,7 @@ class App:
 
     def __post_init__(self, source: str) -> None:
         """Know what was opened."""
+        self.paths = PathExplorer(self.session.context)
         recent = self.preferences_file.with_name("recent.json")
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model
@@ -163,6 +167,17 @@ class App:
         """Show what the pixel under the mouse holds, or no more."""
         self.inspects = not self.inspects
 
+    def choose_paths(self) -> None:
+        """Let the next clicks choose a pixel, or select objects again."""
+        self.paths.is_choosing = not self.paths.is_choosing
+
+    def ask_paths(self, x: float, y: float) -> None:
+        """Show the paths of the pixel at a place of the picture, from (0, 0) to (1, 1)."""
+        session = self.session
+        if 0 <= x < 1 and 0 <= y < 1:
+            pixel = int(x * session.settings.width), int(y * session.settings.height)
+            self.paths.ask(session.scene, session.settings, pixel, session.samples)
+
     def pause(self) -> None:
         """Stop gathering samples, or go on."""
         self.session.paused = not self.session.paused
@@ -217,6 +232,7 @@ class App:
         try:
             self.show.advance(self.session, self.pace.seconds, self.preferences.samples_per_frame)
             self.show.draw(self.session)
+            self.paths.advance()
         except GlrtError as error:  # no room for a second film, or a shader that somebody edits
             self.show.view = "picture"
             self.messages.complain(str(error))

@@ -8,9 +8,11 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from glrt.errors import GlrtError
-from glrt.files import printable, unused
+from glrt.files import printable, unused, write_text
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
+from glrt.rendering.path_file import paths_to_json
+from glrt.rendering.path_values import PixelPaths
 from glrt.scene.catalog import MODELS
 from glrt.scene.scene import Scene
 from glrt.scene.toml_writer import scene_with, write_scene
@@ -209,6 +211,13 @@ class Files:
         self.dialogs.ask_save(
             "Save the picture", self.picture_path, PICTURE, ".png", self.ask_save_picture
         )
+
+    def save_paths(self, found: PixelPaths) -> None:
+        """Write the paths of a pixel, which `glrt paths --replay` traces again."""
+        path = Path(unused("paths.json"))
+        with self.messages.telling():
+            write_text(path, paths_to_json(found) + "\n")
+            self.messages.tell(f"Saved {_where(path)}")
 
     def close(self, leave: Then) -> None:
         """Leave; where that would lose edits, ask first."""

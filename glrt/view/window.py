@@ -171,7 +171,7 @@ class Window:
         """Whether a frame would show what is on the screen."""
         now = time.perf_counter()
         self._poll(now)
-        is_done = self.app.show.is_done(self.app.session)
+        is_done = self.app.show.is_done(self.app.session) and not self.app.paths.is_waiting
         return is_done and not self._interruption.signal and self._tells(now) == self._told
 
     def _tells(self, now: float) -> tuple[object, ...]:
@@ -212,6 +212,7 @@ class Window:
     def _close(self) -> None:
         self.app.keep_preferences()
         self.app.show.release()
+        self.app.paths.release()
         self.app.files.dialogs.close()
         self.app.session.release()
 

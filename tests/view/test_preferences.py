@@ -26,7 +26,13 @@ def test_no_file_means_defaults(tmp_path: Path) -> None:
 
 
 BROKEN = ["{", '{"mode": "swim"}', "[]", '{"nose": 1}', "\ud800", "", "null", "[" * 100_000]
-BINDINGS = ['{"home": ["w"]}', '{"home": ["nose"]}', '{"dance": ["x"]}', '{"home": "h"}', "3"]
+BINDINGS = [
+    '{"home": ["w"], "forward": ["w"]}',
+    '{"home": ["nose"]}',
+    '{"dance": ["x"]}',
+    '{"home": "h"}',
+    "3",
+]
 
 
 @pytest.mark.parametrize("text", [*BROKEN, *(f'{{"bindings": {text}}}' for text in BINDINGS)])
@@ -51,6 +57,13 @@ def test_what_is_right_in_a_file_is_used(tmp_path: Path) -> None:
 def test_keys_that_a_file_does_not_name_are_the_usual_ones() -> None:
     bindings = Preferences(bindings={"home": ("h",), "frame": ()}).bindings
     assert bindings == {**keys.DEFAULTS, "home": ("h",), "frame": ()}
+
+
+def test_a_usual_key_that_was_chosen_for_something_else_leaves_its_action() -> None:
+    """As Ctrl-S, which saved pictures once, in files of then."""
+    bindings = Preferences(bindings={"save": ("ctrl+s",), "home": ("w",)}).bindings
+    assert (bindings["save"], bindings["save_scene"]) == (("ctrl+s",), ())
+    assert (bindings["home"], bindings["forward"]) == (("w",), ("up_arrow",))
 
 
 def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path) -> None:

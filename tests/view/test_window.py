@@ -20,6 +20,7 @@ ON_OLD_DRIVERS = (
     "a_compilation_is_announced_while_the_old_picture_stays",
     "an_object_is_edited_in_the_panel",
     "views_cost_no_sample_and_have_a_legend",
+    "paths_are_shown_or_refused_by_name",
 )
 
 

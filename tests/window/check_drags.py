@@ -86,7 +86,7 @@ def is_whole_again(hand: Hand) -> bool:
 
     def is_fresh() -> bool:
         image = session.image()
-        fresh = Renderer(session.scene, session.settings, session._context)
+        fresh = Renderer(session.scene, session.settings, session.context)
         expected = fresh.render(image.samples).image().radiance
         fresh.release()
         return bool((expected == image.radiance).all())
@@ -112,8 +112,6 @@ def the_picture_follows_the_handles(hand: Hand) -> None:
 @check
 def the_picture_follows_sliders(hand: Hand) -> None:
     number, shape = ball(hand)
-    hand.window.app.selected = number
-    hand.ctx.yield_(3)
     for reference, across in (
         ("bounces", -60),
         ("fov", 60),
@@ -121,6 +119,8 @@ def the_picture_follows_sliders(hand: Hand) -> None:
         (f"color##material {shape.material}/##X", -120),
     ):
         hand.begin()
+        hand.window.app.selected = number
+        hand.ctx.yield_(3)
         before = hand.session.state
         with slowly(hand):
             hand.ctx.mouse_move(f"//Controls/{reference}")

@@ -16,7 +16,7 @@ from tests.window.hand import SMALL, Hand, check
 @check
 def the_driver_decides_on_the_pipeline(hand: Hand) -> None:
     """Without compute shaders there are no layers: another intensity restarts."""
-    has_compute = hand.session._context.has_compute
+    has_compute = hand.session.context.has_compute
     assert hand.session.pipeline == ("compute" if has_compute else "fragment")
     restarts = hand.session.restarts
     move(hand, "intensity##lamp", 2.0)
@@ -39,7 +39,7 @@ def a_relit_picture_is_that_of_a_fresh_render(hand: Hand) -> None:
 
     def render() -> Any:
         session = hand.session
-        fresh = Renderer(session.scene, session.settings, session._context)
+        fresh = Renderer(session.scene, session.settings, session.context)
         codes = fresh.render().display()
         fresh.release()
         return codes

@@ -12,7 +12,7 @@ from glrt.scene.cone import Cone
 from glrt.scene.materials import Opaque
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
-from glrt.view.panels import objects, plots, widgets
+from glrt.view.panels import materials, objects, plots, widgets
 from glrt.view.panels.gizmo import is_held
 from glrt.view.state.controls import Control
 from glrt.view.viewport.orbit import axes
@@ -138,12 +138,12 @@ def what_edits_of_an_object_cost_stands_beside_them(hand: Hand) -> None:
         return inner(control, value, name)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(objects, "edited", seen)
+        patch.setattr(materials, "edited", seen)
         patch.setattr(objects, "tag", handles.append)
         hand.window.app.selected = number
         hand.ctx.yield_(2)
-    assert costs == {"material": Cost.RECOMPILE}
-    assert set(handles) == {Cost.RESTART}
+    assert costs == {"material": Cost.RECOMPILE, "type": Cost.RECOMPILE}
+    assert set(handles) == {Cost.RECOMPILE, Cost.RESTART}  # of new objects, and of the handles
     hand.ctx.set_ref("Controls")
     hand.ctx.combo_click("material/red")
     hand.settle()

@@ -86,7 +86,7 @@ def kept(file: Path) -> dict[str, Any]:
 @check
 def the_frame_rate_is_what_is_preferred(hand: Hand) -> None:
     app = hand.window.app
-    for wanted, expected in ((20, 20), (0, 10 if hand.session._context.is_software else 30)):
+    for wanted, expected in ((20, 20), (0, 10 if hand.session.context.is_software else 30)):
         hand.there(partial(app.prefer, replaced(app.preferences, frame_rate=wanted)))
         hand.ctx.yield_(2)
         assert app.pace.frames_per_second == expected

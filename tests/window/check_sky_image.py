@@ -59,7 +59,7 @@ def a_clear_sky_comes_with_its_sun_and_goes_without_a_change_of_it(hand: Hand) -
     restarts, session.last_cost = session.restarts, None
     move(hand, "scale##sky", 3.0)
     hand.settle()
-    if session._context.has_compute:
+    if session.context.has_compute:
         assert session.last_cost is Cost.RELIGHT
         assert session.restarts == restarts
     move(hand, "clear sky", None)

@@ -4,6 +4,7 @@ The engine runs a check on a thread of its own, in turns with the window's frame
 the window's thread: `Hand.there` runs something on that.
 """
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -96,7 +97,8 @@ class Hand:
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
             app.files.saved = self.session.scene
             app.files.dialogs.close()
-            app.messages.question = None
+            app.messages.question, app.messages.told = None, -math.inf
+            app.paths.forget()
             app.pivot, app.selected = app.camera.look_at, None
             app.zoom, app.inspects = FIT, False
             app.show.forget()
@@ -131,7 +133,7 @@ class Hand:
 
     @property
     def _gl(self) -> moderngl.Context:
-        return self.session._context.gl
+        return self.session.context.gl
 
 
 def _read(picture: Picture) -> NDArray[np.uint8]:

@@ -18,6 +18,8 @@ Modules, each importing only what stands above it:
 - files: open and save
 - background: light from infinity
 - sun: where the sun stands
+- path_overlay: paths over the picture, and from outside
+- pixel_paths: what the paths of a pixel tell
 - panel: all subjects of the panel
 - viewport: the picture, the mouse and the keys
 """

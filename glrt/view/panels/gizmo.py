@@ -16,7 +16,7 @@ from glrt.view.viewport.transform import (
 def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -> None:
     """Over the picture, which fills this rectangle of the screen; edits the selected object."""
     shape = app.selected_shape
-    if shape is None:
+    if shape is None or app.paths.is_choosing:  # a click there is for the pixel below
         return
     settings = app.session.settings
     im_guizmo.begin_frame()
@@ -41,4 +41,6 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
 
 def is_held(app: App) -> bool:
     """Whether the mouse is at the handles of the selected object, and not at the camera."""
-    return app.selected_shape is not None and bool(im_guizmo.is_using() or im_guizmo.is_over())
+    if app.selected_shape is None or app.paths.is_choosing:
+        return False
+    return bool(im_guizmo.is_using() or im_guizmo.is_over())

@@ -20,6 +20,7 @@ from glrt.view.panels.inspector import draw_inspector
 from glrt.view.panels.key_table import draw_key_table
 from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
+from glrt.view.panels.pixel_paths import draw_pixel_paths
 from glrt.view.panels.sun import draw_sun
 from glrt.view.panels.widgets import COLORS, beside, button, edited, edited_fields, legend
 from glrt.view.state.controls import Control, controls_of, replaced, switch
@@ -53,7 +54,9 @@ def draw_panel(app: App) -> None:
     _commands(app)
     _cautions(app)
     for title, section, flags in _SECTIONS:
-        if section is draw_object and app.is_to_be_seen:
+        if (section is draw_object and app.is_to_be_seen) or (
+            section is draw_pixel_paths and app.paths.is_new
+        ):
             imgui.set_next_item_open(True)
         if imgui.collapsing_header(title, flags):
             section(app)
@@ -193,6 +196,7 @@ _SECTIONS = (
     ("Object", draw_object, _OPEN),
     ("Compare", draw_compare, _OPEN),
     ("Inspect", draw_inspector, 0),
+    ("Paths of a pixel", draw_pixel_paths, 0),
     ("Background", draw_background, 0),
     ("Sun", draw_sun, 0),
     ("Frame", _frame, 0),

@@ -12,6 +12,7 @@ from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import told_pixel
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.legend import draw_legend
+from glrt.view.panels.path_overlay import draw_outside, draw_paths
 from glrt.view.state.keys import Action, Move
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
@@ -31,6 +32,7 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key do
     "fit": lambda app: app.zoom_to(None),
     "one_to_one": lambda app: app.zoom_to(1.0),
     "inspect": lambda app: app.inspect(),
+    "paths": lambda app: app.choose_paths(),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
     "duplicate": lambda app: app.duplicate(),
@@ -47,6 +49,7 @@ _EVERY_BUTTON = int(
     | imgui.ButtonFlags_.mouse_button_middle
 )
 _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
+_CHOOSE = "click a pixel to see its paths"
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 _NOTICE = (0.0, 0.0, 0.0, 0.65)
 
@@ -65,7 +68,9 @@ def draw_viewport(app: App) -> None:
     if is_wiped:
         _wipe(app, seen)
     _outline(app)
+    draw_paths(app, seen)
     draw_gizmo(app, corner.x, corner.y, width, height)
+    draw_outside(app, seen)
     if not is_held(app):  # a button below the handles would keep the mouse from them
         if is_wiped:
             _wipe_handle(app)
@@ -91,6 +96,7 @@ def _notices(app: App) -> tuple[str, ...]:
     """What is told in the picture, a line each; "" for nothing."""
     return (
         app.show.notice(app.session),
+        app.paths.busy or _CHOOSE * app.paths.is_choosing,
         "old picture, until the new one has a sample" if app.show.is_old else "",
         "paused" if app.session.paused else "",
         app.messages.recent(time.perf_counter()),
@@ -217,6 +223,9 @@ def _clicks(app: App) -> None:
         if picked := app.pick(*share):
             app.turn_about(picked.point)
     elif imgui.is_mouse_released(left) and not _was_dragged():
+        if app.paths.is_choosing:
+            app.ask_paths(*share)
+            return
         picked = app.pick(*share)
         if picked and imgui.get_io().key_alt:
             app.focus_on(picked.point)

@@ -8,7 +8,7 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
-    | Literal["fit", "one_to_one", "inspect"]
+    | Literal["fit", "one_to_one", "inspect", "paths"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -26,6 +26,7 @@ DEFAULTS: Bindings = {
     "fit": ("0",),
     "one_to_one": ("1",),
     "inspect": ("i",),
+    "paths": ("p",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -48,6 +49,7 @@ MEANING: dict[Action, str] = {
     "fit": "show the whole picture",
     "one_to_one": "zoom to 1:1",
     "inspect": "show pixel values",
+    "paths": "choose a pixel for its paths",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

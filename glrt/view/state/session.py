@@ -58,7 +58,7 @@ class Session:
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
         self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
-        self._context = context
+        self.context = context
         self._clock = clock
         self._announced = 0
         self._preview = Preview(clock)
@@ -191,7 +191,7 @@ class Session:
 
     def _open(self, state: State) -> Renderer:
         ways: dict[str, Any] = {"pipeline": self.pipeline, "layering": self.layering}
-        return Renderer(state.scene, state.settings, self._context, apart="moved", **ways)
+        return Renderer(state.scene, state.settings, self.context, apart="moved", **ways)
 
     def image(self) -> Image:
         """The picture, error and recipe, without AOVs of the view; UsageError for a preview."""

@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - orbit: moves of the camera
 - pick: what lies under a point
 - outline: where an object ends in the picture
+- path_lines: paths as lines, and a camera outside
 - transform: moves of shapes
 - picture_view: a view, and the kept picture beside it
 """

@@ -51,7 +51,7 @@ def outline(shape: Shape, camera: Camera, aspect: float) -> Segments:
         faces = _faces_of(shape)
         ends = faces.vertices[faces.edges[_is_outer(faces, eye)]]
     near = _NEAR * max(float(np.linalg.norm(np.array(shape.middle) - eye)), 1e-9)
-    return _projected(ends, camera, aspect, near)
+    return projected(ends, camera, aspect, near)
 
 
 def _circle_seen(center: Array, radius: float, eye: Array) -> Array:
@@ -84,8 +84,8 @@ def _is_outer(faces: Faces, eye: Array) -> NDArray[np.bool_]:
     return outer
 
 
-def _projected(ends: Array, camera: Camera, aspect: float, near: float) -> Segments:
-    """Segments in the picture, cut where they come behind the camera."""
+def projected(ends: Array, camera: Camera, aspect: float, near: float) -> Segments:
+    """Segments (n, 2, 3) in the picture, cut where they come nearer than `near` to its plane."""
     frame = {name: np.asarray(value) for name, value in pack_camera(camera, aspect).items()}
     axes = np.stack([frame[name] for name in ("right", "up", "forward")], axis=1)
     seen = (ends - np.array(camera.position)) @ axes

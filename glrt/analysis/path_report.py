@@ -21,9 +21,9 @@ def _head(found: PixelPaths, source: str) -> Iterator[str]:
         f"{source}: pixel {x} {y} of {settings.width} x {settings.height}, "
         f"{counted(len(found.radiances), 'sample')} by {settings.method}"
     )
-    yield f"mean radiance {_triple(found.mean)}"
+    yield f"mean radiance {triple(found.mean)}"
     if found.particles:
-        total = _triple(found.mean + found.particles.mean)
+        total = triple(found.mean + found.particles.mean)
         yield f"  by paths from the camera; {total} with particles, which are listed apart"
     if found.lost:
         yield f"{counted(found.lost, 'sample')} lost or not finite, and not in the mean"
@@ -36,13 +36,13 @@ def _ranking(found: PixelPaths) -> Iterator[str]:
         yield "No sample brings any light."
         return
     first = listed[0]
-    yield f"Sample {first} carries {_percent(shares[first])} of this pixel's light."
+    yield f"Sample {first} carries {percent(shares[first])} of this pixel's light."
     for number in listed:
-        radiance = _triple(found.radiances[number])
-        yield f"  {f'sample {number}':<14} {_percent(shares[number]):>7}   radiance {radiance}"
+        radiance = triple(found.radiances[number])
+        yield f"  {f'sample {number}':<14} {percent(shares[number]):>7}   radiance {radiance}"
     bringing = int((shares > 0).sum())
     if bringing > len(listed):
-        rest = _percent(1 - shares[listed].sum())
+        rest = percent(1 - shares[listed].sum())
         yield f"  {f'{bringing - len(listed)} others':<14} {rest:>7}"
     if dark := len(shares) - bringing:
         yield f"  {counted(dark, 'sample')} brought none"
@@ -56,7 +56,7 @@ def _particles(found: PixelPaths) -> Iterator[str]:
     yield (
         f"Particles: {counted(len(particles.numbers), 'particle')} of "
         f"{counted(particles.samples, 'sample')} reached this pixel, "
-        f"and bring {_triple(particles.mean)}"
+        f"and bring {triple(particles.mean)}"
     )
     yield from _told(particles.paths)
 
@@ -65,20 +65,23 @@ def _told(paths: Sequence[Path]) -> Iterator[str]:
     for path in paths:
         yield ""
         which = "" if path.particle is None else f", particle {path.particle}"
-        radiance = _triple(path.radiance)
+        radiance = triple(path.radiance)
         yield f"Sample {path.sample}{which}: radiance {radiance}, ended by: {path.end}"
-        yield from _vertices(path.vertices)
+        yield from _table(vertex_rows(path))
         yield from _lights(path)
         if reason := explanation(path):
             yield ""
             yield reason
 
 
-def _vertices(vertices: Sequence[PathVertex]) -> Iterator[str]:
-    rows = [("", "event", "object", "material", "distance", "throughput", "density", "survives")]
-    for number, vertex in enumerate(vertices):
+def vertex_rows(path: Path) -> list[tuple[str, ...]]:
+    """The cells of a table of the vertices of a path, headings first."""
+    rows: list[tuple[str, ...]] = [
+        ("", "event", "object", "material", "distance", "throughput", "density", "survives")
+    ]
+    for number, vertex in enumerate(path.vertices):
         rows.append((str(number), vertex.event, *_seen(vertex)))
-    yield from _table(rows)
+    return rows
 
 
 def _seen(vertex: PathVertex) -> tuple[str, str, str, str, str, str]:
@@ -89,7 +92,7 @@ def _seen(vertex: PathVertex) -> tuple[str, str, str, str, str, str]:
         escaped(vertex.name),
         escaped(vertex.material or ""),
         f"{vertex.distance:.4g}",
-        _triple(vertex.throughput),
+        triple(vertex.throughput),
         (f"{vertex.pdf:.4g}" if vertex.pdf else "delta") if scatters else "",
         f"{100 * vertex.survival:.3g} %" if scatters and vertex.survival < 1 else "",
     )
@@ -99,25 +102,32 @@ def _lights(path: Path) -> Iterator[str]:
     if not path.contributions:
         yield "  no light"
         return
+    yield ""
+    yield from _table(light_rows(path))
+
+
+def light_rows(path: Path) -> list[tuple[str, ...]]:
+    """The cells of a table of the light that a path found, headings first."""
     whole = sum(path.radiance)
-    rows = [("at", "light", "found by", "radiance", "density", "other", "weight", "added", "share")]
+    rows: list[tuple[str, ...]] = [
+        ("at", "light", "found by", "radiance", "density", "other", "weight", "added", "share")
+    ]
     for light in path.contributions:
-        share = _percent(sum(light.added) / whole) if whole else ""
+        share = percent(sum(light.added) / whole) if whole else ""
         rows.append(
             (
                 str(light.vertex),
                 escaped(light.name),
                 light.strategy,
-                _triple(light.radiance),
+                triple(light.radiance),
                 f"{light.pdf:.4g}" if light.pdf else "delta",
                 f"{light.other_pdf:.4g}" if light.other_pdf else "-",
                 f"{light.weight:.3g}",
-                "hidden" if light.hidden else _triple(light.added),
+                "hidden" if light.hidden else triple(light.added),
                 "" if light.hidden else share,
             )
         )
-    yield ""
-    yield from _table(rows)
+    return rows
 
 
 def explanation(path: Path) -> str:
@@ -127,7 +137,7 @@ def explanation(path: Path) -> str:
     light = max(path.contributions, key=lambda found: sum(found.added))
     share = sum(light.added) / sum(path.radiance)
     way = _way if path.particle is None else _way_back
-    much = "All" if share > TOTAL else _percent(share)
+    much = "All" if share > TOTAL else percent(share)
     return f"{much} of it is from {_name(light)}, by {way(path, light)}: {_finding(light)}."
 
 
@@ -176,9 +186,11 @@ def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
         yield ("  " + "  ".join(cells)).rstrip()
 
 
-def _triple(values: Triple | Array) -> str:
+def triple(values: Triple | Array) -> str:
+    """Three numbers, four digits each."""
     return " ".join(f"{float(value):.4g}" for value in values)
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """A share, three digits."""
     return f"{100 * share:.3g} %"

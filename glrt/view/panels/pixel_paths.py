@@ -1,0 +1,98 @@
+"""The part of the panel that tells the paths of a pixel, and why it is bright."""
+
+from imgui_bundle import hello_imgui, imgui
+
+from glrt.analysis.path_report import explanation, light_rows, percent, triple, vertex_rows
+from glrt.rendering.path_values import Path, PixelPaths
+from glrt.settings import Cost
+from glrt.view.app import App
+from glrt.view.panels.path_overlay import COLORS
+from glrt.view.panels.widgets import beside, button, edited, tip
+from glrt.view.state.controls import Control, switch
+
+CHOOSING = switch(
+    "choose_a_pixel",
+    "a click in the picture traces the samples of that pixel again, and shows their paths",
+    Cost.FREE,
+)
+SAMPLE = Control("sample", "integer", "which sample is shown, from 0", Cost.FREE, "", 0, None, None)
+_LEGEND = {
+    "path": "the path",
+    "escape": "leaves the scene",
+    "sampled": "to a point on a lamp",
+    "hidden": "to one that is hidden",
+}
+
+
+def draw_pixel_paths(app: App) -> None:
+    """Choose a pixel; its samples by the light that they carry, and one of them in full."""
+    paths = app.paths
+    if paths.is_new:
+        imgui.set_scroll_here_y(0.0)
+        paths.is_new = False
+    wanted = edited(CHOOSING, paths.is_choosing)
+    paths.is_choosing = paths.is_choosing if wanted is None else wanted
+    if paths.busy:
+        imgui.text_disabled(paths.busy)
+    found, path = paths.found, paths.shown
+    if not found or not path:
+        imgui.text_disabled("no pixel is chosen")
+        return
+    _pixel(app, found)
+    _samples(app, found)
+    sample = edited(SAMPLE, path.sample)
+    if sample is not None:
+        paths.show(min(sample, len(found.radiances) - 1))
+    _path(path)
+
+
+def _pixel(app: App, found: PixelPaths) -> None:
+    x, y = found.pixel
+    imgui.text(f"pixel {x}, {y}: {len(found.radiances)} samples")
+    imgui.text(f"mean {triple(found.mean)}")
+    if not app.paths.is_of(app.session.scene):
+        imgui.text_wrapped("The scene has changed since; click the pixel again.")
+    if button("save as a test"):
+        app.files.save_paths(found)
+    tip("A JSON file with these paths: glrt paths --replay FILE tells whether they are the same")
+    beside("forget")
+    if button("forget##paths"):
+        app.paths.forget()
+
+
+def _samples(app: App, found: PixelPaths) -> None:
+    """Those that carry most light; a click shows one."""
+    for path in found.paths:
+        share = percent(found.shares[path.sample])
+        is_shown = app.paths.shown is path
+        if imgui.selectable(f"sample {path.sample}: {share}##{path.sample}", is_shown)[0]:
+            app.paths.show(path.sample)
+
+
+def _path(path: Path) -> None:
+    imgui.separator_text(f"sample {path.sample}")
+    imgui.text_wrapped(f"radiance {triple(path.radiance)}, ended by: {path.end}")
+    if told := explanation(path):
+        imgui.text_wrapped(told)
+    _table("vertices", vertex_rows(path), (0, 1, 2, 5, 6))
+    if path.contributions:
+        _table("lights", light_rows(path), (0, 1, 2, 3, 4, 6, 7))
+    for kind, meaning in _LEGEND.items():
+        imgui.text_colored(COLORS[kind], "---")  # type: ignore[index]
+        imgui.same_line(hello_imgui.em_size(2.5))
+        imgui.text_disabled(meaning)
+
+
+def _table(name: str, rows: list[tuple[str, ...]], columns: tuple[int, ...]) -> None:
+    """Some columns of a table, that scrolls where the panel is narrow."""
+    flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
+    flags |= imgui.TableFlags_.scroll_x
+    height = (len(rows) + 0.6) * imgui.get_text_line_height_with_spacing() + 14
+    if not imgui.begin_table(name, len(columns), int(flags), (0.0, height)):
+        return
+    for row in rows:
+        imgui.table_next_row()
+        for column in columns:
+            imgui.table_next_column()
+            imgui.text_unformatted(row[column])
+    imgui.end_table()

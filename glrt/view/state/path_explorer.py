@@ -1,0 +1,114 @@
+"""The paths of one pixel, asked for in the window and traced again by the kernel that records."""
+
+from contextlib import ExitStack
+
+from glrt.gpu.context import Context
+from glrt.image.recipe import Recipe
+from glrt.rendering.path_replay import PathReplay, path_replay
+from glrt.rendering.path_values import Path, PixelPaths
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+
+MOST = 4096  # samples of a pixel that are traced again
+SHOWN = 8  # the brightest of them are listed
+ANNOUNCED = 2  # frames that say what is about to stop them
+Asked = tuple[Scene, Settings, tuple[int, int], int]
+
+
+class PathExplorer:
+    """At most one pixel at a time, of the scene and settings as they were when it was asked for."""
+
+    def __init__(self, context: Context) -> None:
+        """Nothing is compiled before a pixel is asked for."""
+        self._context = context
+        self._replay: PathReplay | None = None
+        self._recipe: Recipe | None = None
+        self._held = ExitStack()
+        self._asked: Asked | None = None
+        self._frames = 0
+        self.is_choosing = False  # whether a click in the picture asks for its pixel
+        self.found: PixelPaths | None = None
+        self.shown: Path | None = None  # one of them
+        self.is_new = False  # since the panel showed them last
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether a pixel was asked for that is not traced yet."""
+        return self._asked is not None
+
+    @property
+    def busy(self) -> str:
+        """What the next frame waits for; "" for nothing."""
+        is_new = self._asked and not self._is_open(*self._asked[:2])
+        return "Compiling the kernel that records paths" if is_new else ""
+
+    def ask(self, scene: Scene, settings: Settings, pixel: tuple[int, int], samples: int) -> None:
+        """Trace so many samples of a pixel in one of the next frames; it is in the full frame."""
+        plain = settings_for(settings, aov=(), caustics="off", samples=1)
+        self._asked, self._frames = (scene, plain, pixel, min(max(samples, 1), MOST)), 0
+
+    def advance(self) -> bool:
+        """A frame's work; whether there was some. GlrtError where paths cannot be recorded."""
+        if not self._asked:
+            return False
+        self._frames += 1
+        if self.busy and self._frames <= ANNOUNCED:
+            return True
+        (scene, settings, pixel, samples), self._asked = self._asked, None
+        replay, recipe = self._opened(scene, settings)
+        radiances = replay.radiances(pixel, samples)
+        taken = settings_for(settings, samples=samples)
+        recipe = recipe.model_copy(update={"settings": taken, "samples": samples})
+        found = PixelPaths(recipe, pixel, radiances, ())
+        paths = replay.paths(pixel, found.brightest(SHOWN) or [0])
+        self.found, self.shown = PixelPaths(recipe, pixel, radiances, paths), paths[0]
+        self.is_new = True
+        return True
+
+    def show(self, sample: int) -> None:
+        """The path of a sample by its number."""
+        if self.found and self._replay and 0 <= sample < len(self.found.radiances):
+            known = {path.sample: path for path in self.found.paths}
+            (self.shown,) = (
+                (known[sample],)
+                if sample in known
+                else self._replay.paths(self.found.pixel, [sample])
+            )
+
+    def is_of(self, scene: Scene) -> bool:
+        """Whether the paths are those of a scene as it is now, whatever its camera."""
+        if not self.found:
+            return False
+        asked = self.found.recipe.scene
+        parts = ("objects", "materials", "background", "sun", "lights")
+        return all(getattr(asked, part) == getattr(scene, part) for part in parts)
+
+    def forget(self) -> None:
+        """Show no paths."""
+        self.found = self.shown = self._asked = None
+        self.is_choosing = False
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self.forget()
+        self._held.close()
+        self._replay = self._recipe = None
+
+    def _is_open(self, scene: Scene, settings: Settings) -> bool:
+        is_there = self._recipe and self._replay
+        return bool(
+            is_there
+            and self._recipe
+            and self._recipe.scene is scene
+            and self._recipe.settings == settings
+        )
+
+    def _opened(self, scene: Scene, settings: Settings) -> tuple[PathReplay, Recipe]:
+        if not self._is_open(scene, settings):
+            self._held.close()
+            self._replay = self._recipe = None
+            opened = path_replay(scene, settings, self._context, "generic", "moved")
+            self._replay, self._recipe = self._held.enter_context(opened)
+        assert self._replay
+        assert self._recipe
+        return self._replay, self._recipe

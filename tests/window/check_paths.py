@@ -1,0 +1,132 @@
+"""The paths of a pixel: asked for by a click, drawn, told, stored."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from imgui_bundle import imgui
+
+from glrt.rendering.path_file import paths_from_json
+from glrt.rendering.path_replay import path_replay
+from tests.window.gestures import press
+from tests.window.hand import SMALL, Hand, check
+
+PLACE = (0.645, 0.935)  # on the floor, under the glass ball
+
+
+def ask(hand: Hand, place: tuple[float, float] = PLACE) -> None:
+    """Click a pixel, after the key that says what a click means."""
+    app, ctx = hand.window.app, hand.ctx
+    if not app.paths.is_choosing:
+        press(hand, imgui.Key.p)
+    left, top, width, height = app.rectangle
+    before = app.paths.found
+    ctx.mouse_move_to_pos((left + place[0] * width, top + place[1] * height))
+    ctx.mouse_click(0)
+    hand.until(lambda: app.paths.found is not before or bool(hand.session.problem))
+    ctx.yield_(3)
+
+
+@check
+def paths_are_shown_or_refused_by_name(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    before = hand.screen()
+    ask(hand)
+    if session.pipeline == "fragment":
+        assert "4.3" in session.problem
+        assert app.paths.found is None
+        return
+    assert app.paths.found
+    assert app.paths.found.pixel == tuple(int(p * SMALL["width"]) for p in PLACE)
+    assert app.selected is None  # the click selected nothing
+    assert np.abs(hand.screen().astype(int) - before).max(axis=2).astype(bool).mean() > 0.05
+
+
+@check
+def replayed_samples_are_those_of_the_picture_to_the_bit(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    hand.until(lambda: session.samples >= 20)
+    session.paused = True
+    hand.ctx.yield_(2)
+    ask(hand)
+    found = app.paths.found
+    assert found
+    assert len(found.radiances) == session.samples
+    x, y = found.pixel
+    assert np.array_equal(found.mean, hand.there(session.image).radiance[y, x])
+    assert found.paths[0].sample == found.brightest(1)[0]
+
+
+@check
+def samples_are_stepped_through_and_more_pixels_compile_nothing(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    hand.until(lambda: hand.session.samples >= 20)
+    ask(hand)
+    ctx.set_ref("Controls")
+    ctx.item_input_value("sample", 7)
+    ctx.yield_(2)
+    assert app.paths.shown
+    assert app.paths.shown.sample == 7
+    first = app.paths.found
+    assert first
+    listed = first.paths[1].sample
+    hand.there(lambda: app.paths.show(listed))
+    assert app.paths.shown == first.paths[1]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("glrt.view.state.path_explorer.path_replay", None)
+        ask(hand, (0.2, 0.5))
+    assert not hand.session.problem
+    assert app.paths.found is not first
+
+
+@check
+def a_scene_that_changed_since_is_told_and_a_camera_that_moved_is_not(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    ask(hand)
+    press(hand, imgui.Key.w)
+    assert app.paths.is_of(session.scene)
+    hand.there(lambda: app.add("box"))
+    assert not app.paths.is_of(session.scene)
+    hand.settle()
+    ask(hand, (0.5, 0.5))
+    assert app.paths.is_of(session.scene)
+
+
+@check
+def the_view_from_outside_is_turned_by_a_drag(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    ask(hand)
+    camera, before = hand.session.scene.camera, app.outside
+    ctx.mouse_move("//Picture/outside")
+    x, y = imgui.get_io().mouse_pos
+    ctx.mouse_down(0)
+    ctx.mouse_move_to_pos((x + 40, y + 10))
+    ctx.mouse_up(0)
+    assert app.outside != before
+    assert hand.session.scene.camera == camera
+
+
+@check
+def paths_are_stored_as_a_test(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    hand.until(lambda: hand.session.samples >= 4)
+    ask(hand)
+    ctx.item_click("//Controls/save as a test")
+    ctx.yield_(2)
+    file = Path.cwd() / "paths.json"
+    stored = paths_from_json(file.read_text(), "paths.json")
+    found = app.paths.found
+    assert found
+    assert (stored.pixel, stored.paths) == (found.pixel, found.paths)
+    assert stored.recipe.scene == found.recipe.scene
+    assert "paths.json" in app.messages.last
+
+    def again() -> bool:
+        recipe = stored.recipe
+        with path_replay(recipe.scene, recipe.settings, hand.session.context) as (replay, _):
+            numbers = [path.sample for path in stored.paths]
+            return replay.paths(stored.pixel, numbers) == stored.paths
+
+    assert hand.there(again)
+    ctx.item_click("//Controls/forget##paths")
+    assert app.paths.found is None
