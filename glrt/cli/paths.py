@@ -5,7 +5,15 @@ import sys
 from pathlib import Path as File
 
 from glrt import files
-from glrt.cli.options import SCENE, add_context, add_files, add_pipeline, add_settings, file_rules
+from glrt.cli.options import (
+    SCENE,
+    add_context,
+    add_files,
+    add_pipeline,
+    add_settings,
+    file_rules,
+    settings_given,
+)
 from glrt.cli.request import scene_and_settings
 from glrt.errors import UsageError
 from glrt.files import reason
@@ -125,8 +133,12 @@ def _asked(arguments: argparse.Namespace) -> tuple[Scene, Settings, tuple[int, i
 
 def _replay(arguments: argparse.Namespace) -> int:
     """0 where all stored paths come out again, else 1."""
-    if arguments.scene is not None or arguments.pixel is not None:
-        raise UsageError("--replay FILE.json takes scene, pixel and settings from the file alone.")
+    asked = ("scene", "pixel", "numbers", "brightest", "json", "output", "lights")
+    if settings_given(arguments) or any(getattr(arguments, name) for name in asked):
+        raise UsageError(
+            "--replay FILE.json takes scene, pixel and settings from the file alone, and tells "
+            "whether its paths come out again: leave the others out."
+        )
     from glrt.rendering.path_file import TOLERANCE, first_difference
 
     name = shown(arguments.replay)

@@ -207,6 +207,7 @@ REFUSED: dict[str, tuple[list[str], int, str]] = {
     "a picture's name": (["cornell", *PIXEL, "-o", "a.png"], 2, "must end in .json"),
     "no folder": (["cornell", *PIXEL, "-o", "nowhere/a.json"], 2, "there is no folder"),
     "both": (["cornell", "--replay", "a.json"], 2, "from the file alone"),
+    "a setting": (["--replay", "a.json", "--samples", "3"], 2, "from the file alone"),
     "no file": (["--replay", "nowhere.json"], 2, "No such file"),
 }
 
