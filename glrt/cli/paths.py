@@ -101,10 +101,11 @@ def _show(arguments: argparse.Namespace) -> int:
         apart=recipe.apart if recipe else "repeated",
         particles=arguments.brightest or 1,
     )
-    if arguments.output is not None:
-        files.write_text(File(arguments.output), paths_to_json(found) + "\n")
+    text = paths_to_json(found) if arguments.json or arguments.output else ""
+    if arguments.output:
+        files.write_text(File(arguments.output), text + "\n")
     if arguments.json:
-        print(paths_to_json(found), flush=True)
+        print(text, flush=True)
         return 0
     from glrt.cli.path_report import report
 
