@@ -36,7 +36,8 @@ def _ranking(found: PixelPaths) -> Iterator[str]:
         yield "No sample brings any light."
         return
     first = listed[0]
-    yield f"Sample {first} carries {percent(shares[first])} of this pixel's light."
+    whose = "what paths from the camera bring" if found.particles else "this pixel's light"
+    yield f"Sample {first} carries {percent(shares[first])} of {whose}."
     for number in listed:
         radiance = triple(found.radiances[number])
         yield f"  {f'sample {number}':<14} {percent(shares[number]):>7}   radiance {radiance}"

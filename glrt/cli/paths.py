@@ -5,7 +5,15 @@ import sys
 from pathlib import Path as File
 
 from glrt import files
-from glrt.cli.options import SCENE, add_context, add_files, add_pipeline, add_settings, file_rules
+from glrt.cli.options import (
+    SCENE,
+    add_context,
+    add_files,
+    add_pipeline,
+    add_settings,
+    file_rules,
+    settings_given,
+)
 from glrt.cli.request import scene_and_settings
 from glrt.errors import UsageError
 from glrt.files import reason
@@ -93,10 +101,11 @@ def _show(arguments: argparse.Namespace) -> int:
         apart=recipe.apart if recipe else "repeated",
         particles=arguments.brightest or 1,
     )
-    if arguments.output is not None:
-        files.write_text(File(arguments.output), paths_to_json(found) + "\n")
+    text = paths_to_json(found) if arguments.json or arguments.output else ""
+    if arguments.output:
+        files.write_text(File(arguments.output), text + "\n")
     if arguments.json:
-        print(paths_to_json(found), flush=True)
+        print(text, flush=True)
         return 0
     from glrt.analysis.path_report import report
 
@@ -125,8 +134,12 @@ def _asked(arguments: argparse.Namespace) -> tuple[Scene, Settings, tuple[int, i
 
 def _replay(arguments: argparse.Namespace) -> int:
     """0 where all stored paths come out again, else 1."""
-    if arguments.scene is not None or arguments.pixel is not None:
-        raise UsageError("--replay FILE.json takes scene, pixel and settings from the file alone.")
+    asked = ("scene", "pixel", "numbers", "brightest", "json", "output", "lights")
+    if settings_given(arguments) or any(getattr(arguments, name) for name in asked):
+        raise UsageError(
+            "--replay FILE.json takes scene, pixel and settings from the file alone, and tells "
+            "whether its paths come out again: leave the others out."
+        )
     from glrt.rendering.path_file import TOLERANCE, first_difference
 
     name = shown(arguments.replay)

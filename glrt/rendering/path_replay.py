@@ -39,9 +39,10 @@ FOLLOWED = 1 << 16  # particles of a dispatch
 
 
 class PathReplay:
-    """Traces samples of a plan again; `scene` is that of the plan on the driver, and stays its own.
+    """Traces samples of a plan again.
 
-    The plan's crop is of no matter: pixels are numbered in the full frame.
+    `scene` is that of the plan on the driver, which whoever made it frees. The plan's crop is of no
+    matter: pixels are numbered in the full frame.
     """
 
     def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:

@@ -1,6 +1,8 @@
 """`glrt paths`: what it tells, stores and traces again, and what it refuses."""
 
 import json
+import re
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -205,6 +207,7 @@ REFUSED: dict[str, tuple[list[str], int, str]] = {
     "a picture's name": (["cornell", *PIXEL, "-o", "a.png"], 2, "must end in .json"),
     "no folder": (["cornell", *PIXEL, "-o", "nowhere/a.json"], 2, "there is no folder"),
     "both": (["cornell", "--replay", "a.json"], 2, "from the file alone"),
+    "a setting": (["--replay", "a.json", "--samples", "3"], 2, "from the file alone"),
     "no file": (["--replay", "nowhere.json"], 2, "No such file"),
 }
 
@@ -257,3 +260,14 @@ def test_an_old_driver_is_refused_by_name() -> None:
     told = glrt("paths", "cornell", *PIXEL, cwd=None, **OLD_DRIVER)
     assert told.returncode == 3
     assert "fragment pipeline" in told.stderr
+
+
+def test_the_guide_tells_what_the_command_tells(
+    context: Context, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if not context.is_software:
+        pytest.skip("bits are promised on software drivers alone")
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "paths.md").read_text()
+    command, told = re.findall(r"```(?:sh)?\n(.*?)```", page, re.DOTALL)[:2]
+    assert main([*shlex.split(command)[1:], "--context", context.route]) == 0
+    assert capsys.readouterr().out == told

@@ -31,6 +31,7 @@ layout(std430) buffer Data { vec4 data; };
 void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
+TOLD = pytest.param(PATHS, marks=pytest.mark.slow)
 DISPLAYS = (
     "display.frag",
     "weighting.frag",
@@ -240,7 +241,7 @@ def test_aovs_compile_without_a_warning(
 
 
 @pytest.mark.parametrize(
-    "render_pass", [PARTICLES, SPLATS, PATHS], ids=["followed", "added", "told"]
+    "render_pass", [PARTICLES, SPLATS, TOLD], ids=["followed", "added", "told"]
 )
 @pytest.mark.parametrize("features", ["everything", "nothing"])
 def test_other_passes_compile_without_a_warning(

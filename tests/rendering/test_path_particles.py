@@ -35,7 +35,11 @@ def found(context: Context) -> PixelPaths:
     return replayed(load("cornell"), PIXEL, context, **ON)
 
 
-@pytest.mark.parametrize("more", [{"linked": 0.5}, {"sampler": "independent"}], ids=str)
+@pytest.mark.parametrize(
+    "more",
+    [{"linked": 0.5}, pytest.param({"sampler": "independent"}, marks=pytest.mark.slow)],
+    ids=str,
+)
 def test_both_films_add_up(context: Context, more: dict[str, Any]) -> None:
     """That of particles but for the fixed point in which it sums."""
     told = replayed(load("cornell"), PIXEL, context, **ON, **more)

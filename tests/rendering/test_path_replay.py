@@ -37,7 +37,7 @@ def check(scene: Scene, context: Context, **settings: Any) -> None:
         assert_same_bits(found, picture(*pixel), str(pixel))
 
 
-@pytest.mark.parametrize("method", ["naive", "nee", "mis"])
+@pytest.mark.parametrize("method", ["naive", pytest.param("nee", marks=pytest.mark.slow), "mis"])
 def test_lights_add_up_to_the_pixel(context: Context, method: str) -> None:
     check(everything(), context, method=method)
 
@@ -45,8 +45,8 @@ def test_lights_add_up_to_the_pixel(context: Context, method: str) -> None:
 @pytest.mark.parametrize(
     "settings",
     [
-        {"sampler": "independent", "seed": 7},
-        {"roulette": False, "bounces": 20},
+        pytest.param({"sampler": "independent", "seed": 7}, marks=pytest.mark.slow),
+        pytest.param({"roulette": False, "bounces": 20}, marks=pytest.mark.slow),
         {"bounces": 0},
         {"tier": "generic", "crop": (2, 4, 12, 11), "width": 20},
     ],

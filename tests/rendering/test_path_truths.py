@@ -1,12 +1,14 @@
 """Where paths go and what happens on them is told as it is: checked in float64."""
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
+from glrt.image.sources import load
 from glrt.rendering.path_values import PathVertex, PixelPaths
 from tests.support.path_checks import (
     NEAR,
@@ -19,6 +21,7 @@ from tests.support.path_checks import (
     traced_with_roulette,
     vector,
 )
+from tests.support.pixel_paths import replayed
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +69,27 @@ def test_the_first_vertex_is_on_the_lens(mixed: list[PixelPaths]) -> None:
     away = [np.linalg.norm(start - camera.position) for start in starts]
     assert max(away) <= radius * (1 + NEAR)
     assert len(set(away)) > len(away) / 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scene", "pixel", "event"),
+    [("painted", (0, 2), "passes a hole"), ("water", (4, 2), "passes inside glass")],
+)
+def test_paths_go_straight_on_where_nothing_happens(
+    context: Context, scene: str, pixel: tuple[int, int], event: str
+) -> None:
+    """Through the hole of a surface, and through one that lies in another glass."""
+    found = replayed(load(scene), pixel, context)
+    passed = 0
+    for _, path in paths([found]):
+        for before, here in pairwise(path.vertices):
+            led = vector(before.position) + here.distance * vector(before.direction)
+            assert vector(here.position) == pytest.approx(led, abs=1e-4)
+            if here.event == event:
+                assert (here.direction, here.pdf) == (before.direction, 0)
+                passed += 1
+    assert passed > 0
 
 
 # --- what happens at them --------------------------------------------------------------------

@@ -33,7 +33,7 @@ def vertex(*place: float, **more: Any) -> PathVertex:
 def light(at: int, strategy: str, distance: float | None, hidden: bool = False) -> Contribution:
     return Contribution(
         vertex=at,
-        strategy=strategy,  # type: ignore[arg-type]
+        strategy=strategy,
         source="object",
         object=1,
         name="lamp",
@@ -53,7 +53,7 @@ def path(*lights: Contribution, end: str = "absorbed") -> Path:
     return Path(
         sample=3,
         radiance=(1, 1, 1),
-        end=end,  # type: ignore[arg-type]
+        end=end,
         vertices=vertices,
         contributions=lights,
     )
