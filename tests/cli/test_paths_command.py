@@ -16,8 +16,9 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.rendering.path_file import TOLERANCE, first_difference, paths_from_json
 from glrt.resources import folder
-from tests.support.drivers import OLD_DRIVER
+from tests.support.drivers import OLD_DRIVER, ZINK
 from tests.support.processes import glrt
+from tests.support.system_packages import needs_package
 
 PIXEL = ["--pixel", "11", "14"]
 SMALL = ["--width", "16", "--height", "16", "--samples", "20", "--bounces", "5"]
@@ -143,6 +144,14 @@ def test_numbers_of_another_driver_may_be_near(
     vertex["position"] = [place[0] + 2 * TOLERANCE * away, *place[1:]]
     foreign.write_text(json.dumps(table))
     assert replay(foreign, context) == 1
+
+
+@pytest.mark.slow
+def test_another_compiler_comes_near(stored: Path) -> None:
+    told = glrt("paths", "--replay", str(stored), cwd=None, **ZINK)
+    needs_package(told.returncode != 3, "mesa-vulkan-drivers")
+    assert told.returncode == 0, told.stderr
+    assert "2 of 2 paths come out again, within 0.1 %" in told.stdout
 
 
 def test_a_path_that_is_longer_differs(stored: Path) -> None:

@@ -9,17 +9,14 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering.path_recorder import TOGETHER
 from glrt.rendering.path_replay import _runs, path_replay
+from glrt.scene.catalog import scene_names
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.mixed_scene import everything
 from tests.support.pixel_paths import assert_same_bits, camera_picture, replayed
 
 PIXELS = [(3, 5), (9, 11), (12, 13)]
-ALL_SCENES = [
-    *("alloys", "cornell", "courtyard", "frosted", "gloss", "lamps", "lens", "metals", "painted"),
-    *("sky", "spot", "stage", "table", "water", "weekend", "methods/mesh"),
-    *("methods/daylight", "methods/spots", "methods/lattice"),
-]
+MORE_SCENES = ["methods/mesh", "methods/daylight", "methods/spots", "methods/lattice"]
 
 
 @pytest.fixture(autouse=True)
@@ -58,7 +55,7 @@ def test_whatever_the_settings(context: Context, settings: dict[str, Any]) -> No
 
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["naive", "nee", "mis"])
-@pytest.mark.parametrize("name", ALL_SCENES)
+@pytest.mark.parametrize("name", [*scene_names(), *MORE_SCENES])
 def test_of_every_kind_of_scene(context: Context, name: str, method: str) -> None:
     """Trees, meshes, holes, glass in glass, images, the sun and a sky among them."""
     check(load(name), context, method=method)
