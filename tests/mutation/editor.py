@@ -1,0 +1,81 @@
+"""Bugs of what the window edits, saves and draws over the picture."""
+
+from tests.mutation.merging import bug
+from tests.mutation.mutant import Mutant
+
+_OUTLINE = "view/viewport/outline.py"
+_EDITS = "view/state/scene_edits.py"
+_LISTS = "scene/toml_lists.py"
+
+EDITOR: list[Mutant] = [
+    bug(
+        "neighbours that are turned over part an outline",
+        _OUTLINE,
+        "((first != second) != faces.turned)",
+        "(first != second)",
+        "view/test_outline.py::test_faces_that_are_turned_over_change_nothing",
+    ),
+    bug(
+        "seams of a mesh are outlined",
+        _OUTLINE,
+        "same: NDArray[np.intp] = first[which.reshape(-1)]",
+        "same: NDArray[np.intp] = np.arange(len(which.reshape(-1)))",
+        "view/test_outline.py::test_seams_of_a_mesh_are_no_rims",
+    ),
+    bug(
+        "a ball is outlined by its equator",
+        _OUTLINE,
+        "share = radius**2 / square",
+        "share = 0.0 * radius",
+        "view/test_outline.py::test_rays_just_inside_meet_the_object_and_rays_just_outside_do_not",
+    ),
+    bug(
+        "an object that goes leaves its comment to the next",
+        _LISTS,
+        'while start and lines[start - 1].lstrip().startswith("#"):',
+        "while False:",
+        "scene/test_toml_lists.py::test_an_object_that_goes_takes_its_comment_and_no_other",
+    ),
+    bug(
+        "a material that is renamed loses the intensity of its light",
+        _EDITS,
+        "        lights[new] = lights.pop(old)\n",
+        "        lights.pop(old)\n",
+        "view/test_scene_edits.py::test_a_renamed_material_keeps_its_objects_place_and_intensity",
+    ),
+    bug(
+        "metal that was a lamp shines on",
+        _EDITS,
+        'if not material.emits or material.type == "light":',
+        "if not material.emits:",
+        "view/test_scene_edits.py::test_another_type_of_material_keeps_what_both_have",
+    ),
+    bug(
+        "what comes back by undo is not selected",
+        _EDITS,
+        "return new[0] if len(after) == len(before) + 1 and len(new) == 1 else None",
+        "return None if new else None",
+        "view/test_scene_edits.py::test_what_was_selected_is_found_again",
+    ),
+    bug(
+        "the wheel zooms about the middle",
+        "view/state/zoom.py",
+        "share = (at[0] - left) / width, (at[1] - top) / height",
+        "share = (room[0] / 2 - left) / width, (room[1] / 2 - top) / height",
+        "view/test_zoom.py::test_what_is_under_the_mouse_stays_there",
+    ),
+    bug(
+        "the values of a pixel are those of another row",
+        "rendering/weighting.py",
+        "row = film.read(slice(y, y + 1))",
+        "row = film.read(slice(max(y - 1, 0), max(y, 1)))",
+        "rendering/test_reading.py::test_each_pixel_is_read_as_it_is_in_the_picture",
+    ),
+    bug(
+        "a lamp that is hidden is drawn as seen",
+        "view/viewport/path_lines.py",
+        '"hidden" if light.hidden else "sampled"',
+        '"sampled"',
+        "view/test_path_lines.py::test_sampled_points_are_as_far_as_they_are",
+    ),
+]
