@@ -34,6 +34,8 @@ Modules, each importing only what stands above it:
 - false_colors: numbers of pixels as colours
 - aov_view: AOVs as colours
 - surface_view: the first surface under simple light
+- progress: what a render tells of itself
+- halver: keeps the first half of a render, for a denoiser
 - renderer: scene and settings to samples, step by step
 - stopping: render to a limit of samples, time or error
 - parts: a merged picture rendered again
