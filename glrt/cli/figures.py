@@ -87,7 +87,7 @@ def _noisy(image: Image) -> str | None:
 
 
 def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
-    renderer, settings = done.renderer, done.renderer.settings
+    renderer, settings, denoised = done.renderer, done.renderer.settings, done.image.denoising
     return {
         "scene": arguments.scene or arguments.resume,
         "width": settings.width,
@@ -104,7 +104,8 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "samples_per_second": round(done.rate, 1),
         "error": done.image.error,
         "error_doubtful": done.image.error_doubtful,
-        "denoised_error": done.image.denoising.error if done.image.denoising else None,
+        "denoised_error": denoised.error if denoised else None,
+        "denoised_error_high": denoised.error_high if denoised else None,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
         "triangles": contents_of(renderer.scene).triangles,

@@ -150,7 +150,7 @@ def _render(
     }
     if image is None:
         return fail(signals.NOTHING, _signal_code(interruption))
-    estimate = image.shown_error
+    estimate = image.error_to_reach
     autosave.keep(image)
     tell(arguments, Done(renderer, image, begun, seconds))
     if interruption.signal is not None:

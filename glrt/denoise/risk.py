@@ -14,6 +14,9 @@ The split is that of cross-validation; Rousselle, Knaus and Zwicker, "Adaptive S
 Reconstruction using Greedy Error Minimization" (2011), for estimates of error that drive filters.
 """
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -22,6 +25,8 @@ from glrt.denoise.windows import window_mean
 from glrt.error.estimate import DARK
 
 REGION = 8  # pixels: the map is taken over 17 x 17
+
+ONE_SIDED_95 = 1.644854  # standard deviations below which 95 % lie
 
 Squares = NDArray[np.float64]
 
@@ -42,15 +47,26 @@ def summed(halves: tuple[Half, Half], denoised: tuple[Pixels, Pixels]) -> Pixels
     return (first.share * a.astype(np.float64) + second.share * b).astype(np.float32)
 
 
-def relative_error(squares: Squares, radiance: Pixels) -> float:
-    """Relative RMS error of a picture: sqrt(mean(squares / (radiance^2 + 0.01 mean^2))).
+class Band(NamedTuple):
+    """A relative RMS error as estimated, and what it is below in 95 of 100 cases."""
 
-    As the error of plain pictures is taken. 0 where chance makes the mean negative.
+    error: float
+    high: float
+
+
+def relative_error(squares: Squares, radiance: Pixels) -> Band:
+    """Of a picture: sqrt(mean(squares / (radiance^2 + 0.01 mean(radiance)^2))).
+
+    As the error of plain pictures is taken. 0 where chance makes the mean negative; the upper end
+    tells how much that says, from the spread of pixels, whose noise is independent.
     """
     values = radiance.astype(np.float64)
     scale = np.square(values) + DARK * values.mean() ** 2
     parts = np.divide(squares, scale, out=np.zeros_like(squares), where=scale > 0)
-    return float(np.sqrt(max(parts.mean(), 0)))
+    pixels = parts.mean(axis=-1)
+    chance = ONE_SIDED_95 * pixels.std() / np.sqrt(pixels.size)
+    mean = float(pixels.mean())
+    return Band(math.sqrt(max(mean, 0)), math.sqrt(max(mean + chance, 0)))
 
 
 def error_map(squares: Squares) -> Pixels:

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from glrt.denoise.denoising import Denoised
 
-RADIANCE, ERROR = "denoised", "denoised_error"  # layers; the latter is an attribute, too
+RADIANCE, ERROR = "denoised", "denoised_error"  # layers
+FIGURES = ("denoised_error", "denoised_error_high")  # attributes
 
 
 def to_channels(denoised: Denoised) -> dict[str, NDArray[Any]]:
@@ -16,12 +17,18 @@ def to_channels(denoised: Denoised) -> dict[str, NDArray[Any]]:
     return {RADIANCE: denoised.radiance, ERROR: denoised.error_map}
 
 
+def to_attributes(denoised: Denoised) -> dict[str, float]:
+    """The error of the whole picture, for the header of the file."""
+    return dict(zip(FIGURES, (denoised.error, denoised.error_high), strict=True))
+
+
 def from_channels(
     header: Mapping[str, Any], channels: Mapping[str, NDArray[Any]], size: tuple[int, ...]
 ) -> Denoised | None:
-    """What `to_channels` was given, with the attribute of its error; None where it is not whole."""
-    error = header.get(ERROR)
-    if not isinstance(error, float) or not np.isfinite(error):
+    """What `to_channels` and `to_attributes` were given; None where it is not whole."""
+    errors = [header.get(name) for name in FIGURES]
+    known = [error for error in errors if isinstance(error, float) and np.isfinite(error)]
+    if len(known) < len(FIGURES):
         return None
     layers = []
     for layer in (RADIANCE, ERROR):
@@ -30,4 +37,4 @@ def from_channels(
         if len(found) < 3:
             return None
         layers.append(np.stack(found, axis=-1).astype(np.float32, copy=False))
-    return Denoised(layers[0], layers[1], error)
+    return Denoised(layers[0], layers[1], *known)

@@ -77,9 +77,12 @@ class Image:
         return self.radiance if self.denoising is None else self.denoising.radiance
 
     @property
-    def shown_error(self) -> float | None:
-        """Estimated relative RMS error of what is shown; None if it is unknown."""
-        return self.error if self.denoising is None else self.denoising.error
+    def error_to_reach(self) -> float | None:
+        """What a wanted error is held against; None if it is unknown.
+
+        The estimate; of a denoised picture, whose estimate is rough, what it is likely below.
+        """
+        return self.error if self.denoising is None else self.denoising.error_high
 
     @property
     def error_doubtful(self) -> bool | None:
@@ -161,7 +164,7 @@ class Image:
         channels |= aovs.to_channels(self.aovs)
         if self.denoising:
             channels |= denoised_channels.to_channels(self.denoising)
-            header[denoised_channels.ERROR] = self.denoising.error
+            header |= denoised_channels.to_attributes(self.denoising)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
         name = str(path)

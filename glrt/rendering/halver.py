@@ -28,34 +28,27 @@ class Halver:
         """Forget everything."""
         self._kept.clear()
 
+    def wants(self, settings: Settings, samples: int, target: int) -> bool:
+        """Whether the picture is to be kept as it is now, on its way to `target` samples."""
+        if (
+            settings.denoise == "none"
+            or samples >= target
+            or samples != _next_whole(samples, settings.block)
+        ):
+            return False
+        if any(kept.samples == samples for kept in self._kept):
+            return False
+        is_stop = samples in (_middle(settings, target), _doubled(settings, samples - 1))
+        return is_stop or not self._kept
+
     def next_stop(self, settings: Settings, samples: int, target: int) -> int:
         """Up to which sample count to render before the picture is kept, `target` at most."""
-        if settings.denoise == "none":
+        if settings.denoise == "none" or samples >= target:
             return target
-        doubled = LEAST * settings.block
-        while doubled <= samples:
-            doubled *= 2
-        middle = target // (2 * settings.block) * settings.block
-        stops = [middle, doubled, target]
+        stops = [_middle(settings, target), _doubled(settings, samples), target]
         if not self._kept:
             stops.append(_next_whole(samples + 1, settings.block))
         return min(stop for stop in stops if stop > samples)
-
-    def go_on(self, image: Image, settings: Settings) -> bool:
-        """Whether a picture that a render goes on from is to be kept.
-
-        UsageError where the rest of the samples would be too few for a half.
-        """
-        self.restart()
-        if settings.denoise == "none":
-            return False
-        needed = _next_whole(image.samples, settings.block) + LEAST * settings.block
-        if settings.samples < needed:
-            raise UsageError(
-                f"--denoise compares the samples to come with those that it has, "
-                f"{image.samples}: it needs --samples {needed} at least"
-            )
-        return image.samples % settings.block == 0 and image.samples >= LEAST * settings.block
 
     def keep(self, image: Image) -> None:
         """Keep the picture as it is now."""
@@ -78,6 +71,29 @@ class Halver:
         return min(fit, key=lambda kept: abs(2 * kept.samples - samples), default=None)
 
 
+def check_rest(settings: Settings, begun: int) -> None:
+    """UsageError where a picture of `begun` samples leaves too few of the settings' for a half."""
+    needed = _next_whole(begun, settings.block) + LEAST * settings.block
+    if settings.denoise != "none" and settings.samples < needed:
+        raise UsageError(
+            f"--denoise compares the samples to come with those that it has, {begun}: it needs "
+            f"--samples {needed} at least"
+        )
+
+
 def _next_whole(samples: int, block: int) -> int:
     """The least sample count from `samples` on that makes a half of whole observations."""
     return max(LEAST * block, -(-samples // block) * block)
+
+
+def _middle(settings: Settings, target: int) -> int:
+    """Half of the samples, in whole observations."""
+    return target // (2 * settings.block) * settings.block
+
+
+def _doubled(settings: Settings, samples: int) -> int:
+    """The first doubling of the least half that is more than `samples`."""
+    doubled = LEAST * settings.block
+    while doubled <= samples:
+        doubled *= 2
+    return doubled

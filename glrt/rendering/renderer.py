@@ -20,7 +20,7 @@ from glrt.image.resume import fitting
 from glrt.methods.combinations import check_render
 from glrt.methods.light_layers import ONE, Layering, Weights, plan_for
 from glrt.rendering.display import displayed
-from glrt.rendering.halver import Halver
+from glrt.rendering.halver import Halver, check_rest
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
@@ -190,10 +190,10 @@ class Renderer(Progress):
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
         while self.lacks(target):
+            if self._halver.wants(self.settings, self.samples, target):
+                self._halver.keep(self._whole_image(self.plan.weights))
             stop = self._halver.next_stop(self.settings, self.samples, target)
             self._work(stop - self.samples, HEADLESS)
-            if stop == self.samples < target:
-                self._halver.keep(self._whole_image(self.plan.weights))
             if goes_on and not goes_on(self):
                 break
         return self
@@ -216,8 +216,8 @@ class Renderer(Progress):
         film_state = fitting(image, self._recipe((ONE,)))
         with self.context.gl:
             self._tracer.resume(image.samples, image.radiance, film_state, image.particles)
-        if self._halver.go_on(image, self.settings):
-            self._halver.keep(self._whole_image(self.plan.weights))
+        self._halver.restart()
+        check_rest(self.settings, image.samples)
         return self
 
     def display(self) -> np.ndarray[Any, Any]:

@@ -1,7 +1,7 @@
 """`denoise`: the film goes on as ever, and half of it is kept as it passes by."""
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 import pytest
@@ -64,23 +64,38 @@ def test_aovs_that_are_asked_for_are_kept_beside(context: Context) -> None:
         assert same_bits(aov.value, without.aovs[name].value)
 
 
-def stops(settings: Settings, target: int) -> list[int]:
-    """Where a render stops on its way, as `Renderer.render` does."""
-    halver, samples, found = Halver(), 0, []
-    while samples < target:
-        samples = halver.next_stop(settings, samples, target)
-        found.append(samples)
-        halver.keep(FAKE[0])
+class Fake(NamedTuple):
+    """All that is asked of a picture that is kept."""
+
+    samples: int
+
+
+def kept(settings: Settings, *targets: int, begun: int = 0) -> list[int]:
+    """Where a render keeps its picture on its way to one target after the other."""
+    halver, samples, found = Halver(), begun, []
+    for target in targets:
+        while samples < target:
+            if halver.wants(settings, samples, target):
+                found.append(samples)
+                halver.keep(cast(Image, Fake(samples)))
+            samples = halver.next_stop(settings, samples, target)
     return found
 
 
-FAKE: list[Any] = [None]  # a picture that nobody looks at
+def test_a_render_keeps_its_middle_and_doublings() -> None:
+    assert kept(SETTINGS, 64) == [32]
+    assert kept(SETTINGS, 200) == [32, 64, 96, 128]
+    assert kept(SETTINGS.model_copy(update={"sampler": "independent"}), 10) == [2, 4, 5, 8]
 
 
-def test_a_render_stops_at_its_middle_and_at_doublings() -> None:
-    assert stops(SETTINGS, 64) == [32, 64]
-    assert stops(SETTINGS, 200) == [32, 64, 96, 128, 200]
-    assert stops(SETTINGS.model_copy(update={"sampler": "independent"}), 10) == [2, 4, 5, 8, 10]
+def test_looks_at_doublings_have_their_middle() -> None:
+    assert kept(SETTINGS, 64, 128, 256, 512) == [32, 64, 128, 256]
+    assert kept(SETTINGS, 1, 2, 3, 40, 41, 65) == [32, 64]
+
+
+def test_what_goes_on_is_kept_at_its_first_whole_observation() -> None:
+    assert kept(SETTINGS, 160, begun=90) == [96, 128]
+    assert kept(SETTINGS, 160, begun=112) == [112, 128]
 
 
 def test_without_a_denoiser_nothing_stops_it() -> None:
@@ -94,7 +109,9 @@ def test_a_render_that_ends_anywhere_is_denoised(context: Context) -> None:
     for samples in (40, 63, 64, 100, 150, 333):
         image = one.render(samples).image()
         assert (image.denoising is not None) == (samples >= 64), samples
-        assert image.shown_error == (image.denoising.error if image.denoising else image.error)
+        assert image.error_to_reach == (
+            image.denoising.error_high if image.denoising else image.error
+        )
     one.release()
 
 
@@ -116,8 +133,8 @@ def test_an_error_that_is_asked_for_is_that_of_what_is_shown(context: Context) -
     image = render_to_limit(one, Limits(1 << 14, error=wanted), Interruption())
     one.release()
     assert image
-    assert image.shown_error is not None
-    assert image.shown_error <= wanted
+    assert image.error_to_reach is not None
+    assert image.error_to_reach <= wanted
     assert image.error
     assert image.samples == 64 or image.error > wanted / 2
 

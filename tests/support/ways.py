@@ -254,7 +254,7 @@ def resume_denoised() -> None:
     found = rendered("--resume", "half.exr", "--samples", "128")
     assert same(found, whole)
     np.testing.assert_allclose(found.shown, whole.shown, rtol=1e-3, atol=1e-4)
-    assert found.shown_error == pytest.approx(whole.shown_error, rel=1e-2)
+    assert found.error_to_reach == pytest.approx(whole.error_to_reach, rel=1e-2)
 
 
 def denoised_in_time() -> None:
