@@ -57,11 +57,14 @@ class Band(NamedTuple):
 def relative_error(squares: Squares, radiance: Pixels) -> Band:
     """Of a picture: sqrt(mean(squares / (radiance^2 + 0.01 mean(radiance)^2))).
 
-    As the error of plain pictures is taken. 0 where chance makes the mean negative; the upper end
-    tells how much that says, from the spread of pixels, whose noise is independent.
+    As the error of plain pictures is taken, but a pixel brighter than the 3 x 3 about it counts as
+    bright as these: else what is much too bright would divide its own error. 0 where chance makes
+    the mean negative; the upper end tells how much that says, from the spread of pixels, whose
+    noise is independent.
     """
     values = radiance.astype(np.float64)
-    scale = np.square(values) + DARK * values.mean() ** 2
+    usual = np.minimum(values, window_mean(values, 1))
+    scale = np.square(usual) + DARK * values.mean() ** 2
     parts = np.divide(squares, scale, out=np.zeros_like(squares), where=scale > 0)
     pixels = parts.mean(axis=-1)
     chance = ONE_SIDED_95 * pixels.std() / np.sqrt(pixels.size)

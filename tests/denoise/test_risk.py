@@ -113,6 +113,15 @@ def test_the_relative_error_is_that_of_plain_pictures() -> None:
     assert relative_error(np.zeros((2, 2, 3)), np.zeros((2, 2, 3), np.float32)) == (0, 0)
 
 
+def test_what_is_much_too_bright_does_not_divide_its_own_error() -> None:
+    """One pixel of 100 times the rest, wrong by as much: relative to what is about it."""
+    radiance, squares = np.ones((9, 9, 3), np.float32), np.zeros((9, 9, 3))
+    radiance[4, 4], squares[4, 4] = 100, 99**2
+    usual, dark = (108 / 9) ** 2, 0.01 * (180 / 81) ** 2
+    expected = np.sqrt(99**2 / (usual + dark) / 81)
+    assert relative_error(squares, radiance).error == pytest.approx(expected)
+
+
 def test_the_upper_end_is_above_the_truth_in_95_of_100_cases() -> None:
     """Of squares that vary by chance: 1,000 pictures of 400 pixels, each channel alike."""
     rng, radiance = np.random.default_rng(11), np.ones((20, 20, 3), np.float32)
