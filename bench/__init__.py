@@ -22,6 +22,8 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - rivals: time to an error of 2 %, against other renderers
 - unseen: the lead over Mitsuba on scenes drawn from a hash of the program
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
+- denoised: what a denoiser gains, and whether it knows its error
+- denoised_sheet: the picture of docs/explanation/denoising.md
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - methods_compared: its false alarms between different methods

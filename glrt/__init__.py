@@ -18,6 +18,7 @@ Modules and packages, each importing only what stands above it:
 - methods: what a method and a scene need of a kernel, and what a method leaves out
 - accel: trees over shapes and groups of lamps; arrays in, arrays out
 - error: estimates of the error of a picture, and how far they can be believed
+- denoise: filters that know what they leave wrong
 - image: pictures in files, with their recipe and the state of their film
 - comparison: whether two pictures differ by more than their noise
 - rendering: a scene and settings in, samples on a film out

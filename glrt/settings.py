@@ -17,9 +17,11 @@ Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 Aov = Literal["albedo", "normal", "depth", "position", "object"]
+Denoise = Literal["none", "oidn", "nlm", "auto"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
+GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # of a denoiser
 
 
 class Cost(StrEnum):
@@ -129,6 +131,12 @@ class Settings(RenderSettings):
         description="what else EXR files tell of the first surface behind each pixel: "
         f"{', '.join(get_args(Aov))}",
     )
+    denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
+        "none",
+        description="filter the noise out of what files show, with an estimate of the error that "
+        "is left; oidn: Intel's Open Image Denoise, which `pip install 'glrt[denoise]'` brings; "
+        "nlm: non-local means; auto: oidn where it is installed, else nlm",
+    )
 
     @property
     def size(self) -> tuple[int, int]:
@@ -139,6 +147,12 @@ class Settings(RenderSettings):
     def block(self) -> int:
         """Samples of an observation; the error of a picture is taken over whole ones."""
         return BLOCKS[self.sampler]
+
+    @property
+    def gathered(self) -> tuple[Aov, ...]:
+        """The AOVs that a render gathers: those that are asked for, and guides of the denoiser."""
+        wanted = self.aov + (GUIDES if self.denoise != "none" else ())
+        return tuple(aov for aov in get_args(Aov) if aov in wanted)
 
     @field_validator("aov")
     @classmethod
@@ -174,6 +188,7 @@ class FrameOptions(TypedDict, total=False):
     exposure: float
     tonemap: ToneMap
     aov: tuple[Aov, ...]
+    denoise: Denoise
 
 
 class SettingOptions(FrameOptions, total=False):

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from glrt.cli.doubts import clipped, doubt
 from glrt.cli.process import file_names, peak_bytes, print_figures
+from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
 from glrt.methods.contents import contents_of
 from glrt.methods.omissions import left_out, omissions
@@ -21,7 +22,6 @@ class Done(NamedTuple):
     image: Image
     begun: int  # samples that each pixel had at the start
     seconds: dict[str, float]
-    error: float | None
 
     @property
     def new(self) -> int:
@@ -50,12 +50,11 @@ def tell(arguments: argparse.Namespace, done: Done) -> None:
     if arguments.json:
         print_figures(_figures(arguments, done), arguments.outputs)
     elif not arguments.quiet:
-        known = "" if done.error is None else f", estimated error {100 * done.error:.2g} %"
         more = f" ({new} of them new)" if begun else ""
         print(
             f"Wrote {file_names(arguments.outputs)}: {width} x {height}, "
             f"{counted(done.image.samples, 'sample')}{more} in {done.seconds['render']:.1f} s "
-            f"({done.rate / 1e6:.2f} million samples/s){known}.",
+            f"({done.rate / 1e6:.2f} million samples/s){_errors(done.image)}.",
             file=sys.stderr,
         )
         if dropped := done.dropped:
@@ -64,17 +63,31 @@ def tell(arguments: argparse.Namespace, done: Done) -> None:
                 "loop limit. If there are many, the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
-    doubts = (
-        [] if arguments.quiet else [clipped(renderer.lost_particles.clipped), doubt(done.image)]
-    )
-    for text in filter(None, doubts):
+    doubts = [clipped(renderer.lost_particles.clipped), doubt(done.image), _noisy(done.image)]
+    for text in filter(None, [] if arguments.quiet else doubts):
         print(f"glrt: caution: {text}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
         print(left_out(renderer.settings, missing), file=sys.stderr)
 
 
+def _errors(image: Image) -> str:
+    """What is known of the error, as the end of a sentence."""
+    plain = "" if image.error is None else f", estimated error {100 * image.error:.2g} %"
+    denoised = image.denoising
+    return plain if denoised is None else f"{plain}, denoised {100 * denoised.error:.2g} %"
+
+
+def _noisy(image: Image) -> str | None:
+    """What to say of a picture that ended before it could be denoised."""
+    settings = image.recipe.settings if image.recipe else None
+    if settings is None or settings.denoise == "none" or image.denoising:
+        return None
+    least = least_samples(settings.block)
+    return f"the picture is not denoised: that takes {counted(least, 'sample')} at least."
+
+
 def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
-    renderer, settings = done.renderer, done.renderer.settings
+    renderer, settings, denoised = done.renderer, done.renderer.settings, done.image.denoising
     return {
         "scene": arguments.scene or arguments.resume,
         "width": settings.width,
@@ -89,8 +102,10 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "renderer": renderer.context.renderer,
         "seconds": {name: round(value, 6) for name, value in done.seconds.items()},
         "samples_per_second": round(done.rate, 1),
-        "error": done.error,
+        "error": done.image.error,
         "error_doubtful": done.image.error_doubtful,
+        "denoised_error": denoised.error if denoised else None,
+        "denoised_error_high": denoised.error_high if denoised else None,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
         "triangles": contents_of(renderer.scene).triangles,

@@ -201,7 +201,7 @@ def error_limit(text: str) -> float:
 def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:
     """The settings that stand on the command line."""
     given = {name: v for name, v in vars(arguments).items() if name in Settings.model_fields}
-    return {name: value for name, value in given.items() if value != AUTO}
+    return {n: value for n, value in given.items() if value != AUTO or n not in _AUTO}
 
 
 def is_automatic(arguments: argparse.Namespace) -> bool:

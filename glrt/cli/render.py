@@ -150,9 +150,9 @@ def _render(
     }
     if image is None:
         return fail(signals.NOTHING, _signal_code(interruption))
-    estimate = image.error
+    estimate = image.error_to_reach
     autosave.keep(image)
-    tell(arguments, Done(renderer, image, begun, seconds, estimate))
+    tell(arguments, Done(renderer, image, begun, seconds))
     if interruption.signal is not None:
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))

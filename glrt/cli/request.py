@@ -10,6 +10,7 @@ from typing import get_args
 
 from glrt.cli.options import file_rules, is_automatic, settings_given
 from glrt.cli.process import since_start
+from glrt.denoise.filters import with_filter
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline
 from glrt.image.image import Image
@@ -182,7 +183,8 @@ def _limited(arguments: argparse.Namespace, order: Order) -> Order:
     seconds = arguments.time
     deadline = None if seconds is None else time.perf_counter() - since_start() + seconds
     limits = Limits(samples, deadline, arguments.error)
-    return replace(order, settings=settings_for(order.settings, samples=samples), limits=limits)
+    settings = with_filter(settings_for(order.settings, samples=samples))
+    return replace(order, settings=settings, limits=limits)
 
 
 def _order_to_go_on(arguments: argparse.Namespace) -> Order:

@@ -48,6 +48,9 @@ def run(arguments: argparse.Namespace) -> int:
     if settings.caustics == "on" and "caustics" not in arguments:
         settings = settings_for(settings, caustics="off")
         print("glrt: the window follows no particles: --caustics off.", file=sys.stderr)
+    if settings.denoise != "none":
+        settings = settings_for(settings, denoise="none")
+        print("glrt: the window shows the plain picture: --denoise none.", file=sys.stderr)
     scene = with_lights(scene, dict(arguments.lights))
     try:
         with handled(leave_at_once):

@@ -10,26 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt import files
+from glrt.denoise.denoising import Denoised
 from glrt.error.estimate import relative_error
 from glrt.error.reliability import is_doubtful
 from glrt.errors import SceneError, UsageError
-from glrt.image import aovs, particle_film
+from glrt.image import aovs, denoised_channels, particle_film
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.particle_film import ParticleFilm
+from glrt.image.picture_files import check_name, read_exr, read_png_metadata
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
 from glrt.settings import Aov, Settings, ToneMap
-from glrt.silence import silenced
-from glrt.text import escaped
 
 Pixels = NDArray[np.float32]
 
 SUFFIXES = (".exr", ".png", ".npy")
-MOST_PIXELS = 16384**2  # of the largest frame
 RECIPE_KEY = "glrt"  # of the EXR attribute and of the PNG chunk
-
-_EXR_MAGIC = b"\x76\x2f\x31\x01"
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +37,8 @@ class Image:
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
     recipe. `film_state` is what a render needs to continue from it, if that is known; `particles`
     are the two films of which a picture with particles is the sum. `aovs` are those that the
-    settings asked for, by name. Raises ValueError for arrays of another shape or type.
+    settings asked for, by name. `denoising` is the picture filtered, if that was asked for. Raises
+    ValueError for arrays of another shape or type.
     """
 
     radiance: Pixels
@@ -50,6 +48,7 @@ class Image:
     film_state: FilmState | None = None
     aovs: AovImages = field(default_factory=dict)
     particles: ParticleFilm | None = None
+    denoising: Denoised | None = None
 
     def __post_init__(self) -> None:
         for pixels in (self.radiance, self.stderr):
@@ -62,6 +61,28 @@ class Image:
     def error(self) -> float | None:
         """Estimated relative RMS error, of the noise alone; None if it is unknown."""
         return relative_error(self.radiance, self.stderr)
+
+    def denoised(self) -> Denoised:
+        """The picture filtered, with its error; UsageError where `denoise` did not ask for it."""
+        if self.denoising is None:
+            raise UsageError(
+                "this picture was not denoised: render it with denoise='auto', and as many samples "
+                "as that needs"
+            )
+        return self.denoising
+
+    @property
+    def shown(self) -> Pixels:
+        """What PNG and NPY files hold: the radiance, denoised if that was asked for."""
+        return self.radiance if self.denoising is None else self.denoising.radiance
+
+    @property
+    def error_to_reach(self) -> float | None:
+        """What a wanted error is held against; None if it is unknown.
+
+        The estimate; of a denoised picture, whose estimate is rough, what it is likely below.
+        """
+        return self.error if self.denoising is None else self.denoising.error_high
 
     @property
     def error_doubtful(self) -> bool | None:
@@ -98,7 +119,7 @@ class Image:
         writers: dict[str, Callable[[Path], None]] = {
             ".exr": self._write_exr,
             ".png": lambda file: self._write_png(file, exposure, tonemap),
-            ".npy": lambda file: np.save(file, self.radiance),
+            ".npy": lambda file: np.save(file, self.shown),
         }
         files.write_whole(Path(path), writers[_known_suffix(Path(path))])
 
@@ -109,7 +130,7 @@ class Image:
         The latter has no recipe, 0 samples, and NaN for `stderr`. Raises `UsageError` if there is
         no such image, `SceneError` for a damaged recipe.
         """
-        header, channels = _read_exr(Path(path))
+        header, channels = read_exr(Path(path))
         radiance = _stacked(channels, "")
         if radiance is None:
             names = ", ".join(sorted(channels)[:12])
@@ -125,7 +146,8 @@ class Image:
         film = from_channels(channels, stderr, recipe.samples, recipe.settings.block)
         found = aovs.from_channels(channels, recipe.settings.aov)
         two = particle_film.from_channels(channels, radiance.shape[:2])
-        return cls(radiance, stderr, recipe.samples, recipe, film, found, two)
+        shown = denoised_channels.from_channels(header, channels, radiance.shape[:2])
+        return cls(radiance, stderr, recipe.samples, recipe, film, found, two, shown)
 
     def _write_exr(self, path: Path) -> None:
         import OpenEXR  # type: ignore[import-not-found]
@@ -140,6 +162,9 @@ class Image:
         if self.particles:
             channels |= particle_film.to_channels(self.particles)
         channels |= aovs.to_channels(self.aovs)
+        if self.denoising:
+            channels |= denoised_channels.to_channels(self.denoising)
+            header |= denoised_channels.to_attributes(self.denoising)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
         name = str(path)
@@ -157,7 +182,7 @@ class Image:
 
         settings = self.recipe.settings if self.recipe else Settings()
         exposure = settings.exposure if exposure is None else exposure
-        codes = expose_and_encode(self.radiance, exposure, tonemap or settings.tonemap)
+        codes = expose_and_encode(self.shown, exposure, tonemap or settings.tonemap)
         metadata = PngInfo()
         metadata.add(b"sRGB", b"\x00")
         if self.recipe:
@@ -178,9 +203,9 @@ def read_recipe(path: str | Path) -> Recipe:
     """
     path = Path(path)
     if path.suffix.lower() == ".png":
-        text = _read_png_metadata(path).get(RECIPE_KEY)
+        text = read_png_metadata(path).get(RECIPE_KEY)
     else:
-        text = _read_exr(path, header_only=True)[0].get(RECIPE_KEY)
+        text = read_exr(path, header_only=True)[0].get(RECIPE_KEY)
     recipe = _parsed(text, path)
     if recipe is None:
         raise UsageError(
@@ -193,7 +218,7 @@ def read_recipe(path: str | Path) -> Recipe:
 def check_writable(path: str | Path) -> None:
     """Raise `UsageError` if `Image.save` could not write there; leaves nothing behind."""
     if _known_suffix(Path(path)) == ".exr":
-        _check_name(Path(path))
+        check_name(Path(path))
     files.check_writable(Path(path))
 
 
@@ -204,82 +229,6 @@ def _known_suffix(path: Path) -> str:
             f"Cannot write {path}: the name of an image must end in .exr, .png or .npy."
         )
     return suffix
-
-
-def _read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Header and channels by name, (H, W) each."""
-
-    if _first_bytes(path) != _EXR_MAGIC:
-        raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
-    header, channels = _opened_exr(path, True, "its header is damaged")
-    if not header_only:
-        _check_size(header["dataWindow"], path)
-        header, channels = _opened_exr(path, False, "its pixels are damaged, or it is cut off")
-    return header, channels
-
-
-def _opened_exr(
-    path: Path, header_only: bool, damage: str
-) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Header and channels; the library's own words say nothing of what is wrong."""
-    import OpenEXR
-
-    _check_name(path)
-    try:
-        with silenced():
-            file = OpenEXR.File(str(path), separate_channels=True, header_only=header_only)
-            channels = {name: channel.pixels for name, channel in file.channels().items()}
-            return file.header(), channels
-    except UnicodeError as error:
-        raise _unreadable(path, error) from None
-    except (RuntimeError, ValueError):
-        advice = "Copy it or render it again."
-        raise UsageError(f"{path}: cannot read this image: {damage}. {advice}") from None
-
-
-def _check_name(path: Path) -> None:
-    """Raise UsageError for a name of an EXR file that the library does not take."""
-    try:
-        str(path.absolute()).encode()
-    except UnicodeError:
-        advice = "OpenEXR takes only names in UTF-8; rename the file or its folder."
-        raise UsageError(f"{escaped(str(path))}: {advice}") from None
-
-
-def _check_size(window: Any, path: Path) -> None:
-    """Raise UsageError for a picture that no memory holds, as a few bytes can claim to be."""
-    low, high = (np.asarray(corner, float) for corner in window)
-    width, height = high - low + 1
-    if width * height > MOST_PIXELS:
-        raise UsageError(
-            f"{path}: {width:.0f} x {height:.0f} pixels are more than glrt reads, {MOST_PIXELS:,}."
-        )
-
-
-def _first_bytes(path: Path) -> bytes:
-    try:
-        files.check_regular(path)
-        with path.open("rb") as file:
-            return file.read(len(_EXR_MAGIC))
-    except OSError as error:
-        raise _unreadable(path, error) from None
-
-
-def _read_png_metadata(path: Path) -> Mapping[Any, Any]:
-    from PIL.PngImagePlugin import PngImageFile
-
-    try:
-        files.check_regular(path)
-        with PngImageFile(path) as file:
-            return file.info
-    except (OSError, SyntaxError, ValueError) as error:
-        raise _unreadable(path, error) from None
-
-
-def _unreadable(path: Path, error: BaseException) -> UsageError:
-    return UsageError(
-        f"{path}: cannot read this image: {files.reason(error)}. Check name and file."
-    )
 
 
 def _stacked(channels: Mapping[str, Any], prefix: str) -> Pixels | None:

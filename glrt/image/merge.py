@@ -3,10 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glrt.errors import UsageError
 from glrt.image.aovs import AovImage
@@ -17,6 +15,7 @@ from glrt.image.differences import (
     differing_settings,
     first_of,
 )
+from glrt.image.film_moments import NOTHING, PARTICLES, RADIANCE, moments_of
 from glrt.image.film_state import FilmState, error_of_mean
 from glrt.image.image import Image
 from glrt.image.moments import Moments, merged
@@ -29,9 +28,6 @@ from glrt.text import counted
 Recipes = Mapping[str, Recipe]  # by the names that messages call pictures
 
 _DRIVERS = ("renderer", "tier", "pipeline")  # by these, the last bits of samples may differ
-_RADIANCE = "radiance"
-_PARTICLES = "particles"
-_NOTHING = np.zeros((1, 1, 1))
 
 
 def merge(images: Sequence[Image], incomplete: bool = False) -> Image:
@@ -60,16 +56,19 @@ def merged_image(
         return load(order[0])
 
     def film_of(film: str, name: str) -> Mapping[str, Moments]:
-        return {film: _moments(name, load(name), film)}
+        found = moments_of(load(name), film)
+        if found is None:
+            raise _incomplete(name)
+        return {film: found}
 
     def whole(film: str) -> Moments:
         return merged([partial(film_of, film, name) for name in order])[film]
 
     recipe = _recipe_of([parts[name] for name in order])
-    image = _image(whole(_RADIANCE), recipe)
+    image = _image(whole(RADIANCE), recipe)
     if recipe.settings.caustics == "on":
-        image = _with_particles(image, whole(_PARTICLES), recipe)
-    objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(_NOTHING)
+        image = _with_particles(image, whole(PARTICLES), recipe)
+    objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(NOTHING)
     found = {a: objects if a == "object" else _aov_image(a, whole(a)) for a in aovs}
     return replace(image, aovs=found)
 
@@ -152,19 +151,6 @@ def _recipe_of(parts: Sequence[Recipe]) -> Recipe:
     return parts[0].model_copy(update={"partition": partition, "samples": samples, **drivers})
 
 
-def _moments(name: str, image: Image, film: str) -> Moments:
-    """What a picture has gathered on one of its films."""
-    aovs = {str(aov): found for aov, found in image.aovs.items()}
-    if film in aovs:
-        return _aov_moments(aovs[film])
-    if film == _PARTICLES and image.particles and image.recipe:
-        count = observations_of(image.samples, image.recipe.settings.block)
-        return _particle_moments(image.particles, count)
-    if film != _RADIANCE or image.film_state is None:
-        raise _incomplete(name)
-    return _radiance_moments(image, image.film_state)
-
-
 def _objects_of(name: str, image: Image) -> AovImage:
     """The numbers of objects, which are the same in each part."""
     if "object" not in image.aovs:
@@ -178,27 +164,6 @@ def _incomplete(name: str) -> UsageError:
     )
 
 
-def _radiance_moments(image: Image, state: FilmState) -> Moments:
-    begun, part = _NOTHING, _NOTHING  # of a film without an observation that has begun
-    if state.begun.any():
-        begun, part = _counts(state.begun), state.part.astype(np.float64)
-    return Moments(
-        _counts(image.samples - state.dropped),
-        (image.particles.camera if image.particles else image.radiance).astype(np.float64),
-        _counts(state.observations),
-        state.variance.astype(np.float64),
-        begun,
-        part,
-    )
-
-
-def _particle_moments(film: ParticleFilm, observations: int) -> Moments:
-    """Of what particles bring: a sample is an observation."""
-    mean, variance = film.mean.astype(np.float64), film.variance.astype(np.float64)
-    count = np.full((*mean.shape[:2], 1), observations, np.float64)
-    return Moments(count, mean, count, variance, _NOTHING, _NOTHING)
-
-
 def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
     """The picture of the camera's film, and what particles bring to it."""
     mean, variance = moments.mean.astype(np.float32), moments.variance.astype(np.float32)
@@ -206,24 +171,6 @@ def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
     observations = observations_of(recipe.samples, recipe.settings.block)
     radiance, stderr = summed(film, image.stderr, observations)
     return replace(image, radiance=radiance, stderr=stderr, particles=film)
-
-
-def _aov_moments(aov: AovImage) -> Moments:
-    """Of an AOV that is an estimate: it holds whole observations."""
-    assert aov.stderr is not None
-    assert aov.count is not None
-    assert aov.observations is not None
-    height, width = aov.count.shape
-    count, observations = _counts(aov.count), _counts(aov.observations)
-    value, stderr = (part.reshape(height, width, -1) for part in (aov.value, aov.stderr))
-    mean = np.where(count > 0, value, 0).astype(np.float64)
-    is_known = observations >= 2
-    variance = np.where(is_known, stderr, 0).astype(np.float64) ** 2 * (observations - 1)
-    return Moments(count, mean, observations, variance, _NOTHING, _NOTHING)
-
-
-def _counts(plane: NDArray[Any]) -> NDArray[np.float64]:
-    return plane[..., None].astype(np.float64)
 
 
 def _image(film: Moments, recipe: Recipe) -> Image:

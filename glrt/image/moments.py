@@ -57,6 +57,20 @@ def combined(a: Moments, b: Moments) -> Moments:
     return Moments(samples, mean, observations, _share(sums, observations), b.begun, b.part)
 
 
+def without(whole: Moments, first: Moments) -> Moments:
+    """The set that `combined` put after `first` to make `whole`.
+
+    Rounding may make a variance that is 0 negative by a trifle: it is 0 then.
+    """
+    samples, observations = whole.samples - first.samples, whole.observations - first.observations
+    mean = first.mean + (whole.mean - first.mean) * _share(whole.samples, samples)
+    rest = Moments(samples, mean, observations, whole.variance, whole.begun, whole.part)
+    apart = rest.whole_mean - first.whole_mean
+    between = apart * apart * _share(first.observations * observations, whole.observations)
+    sums = whole.variance * whole.observations - first.variance * first.observations - between
+    return rest._replace(variance=_share(np.maximum(sums, 0), observations))
+
+
 def _share(part: Array, whole: Array) -> Array:
     zeros = np.zeros(np.broadcast(part, whole).shape)
     share: Array = np.divide(part, whole, out=zeros, where=whole > 0)

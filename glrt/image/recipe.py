@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
+from glrt.denoise.filters import least_samples
 from glrt.errors import SceneError
 from glrt.image.partition import Partition
 from glrt.methods.light_layers import Layering, Plan, Weights, are_trivial
@@ -95,10 +96,16 @@ class Recipe(Frozen):
 
     @property
     def taken(self) -> Settings:
-        """The settings with the samples that were really taken; parts are those of all samples."""
+        """The settings with the samples that were really taken; parts are those of all samples.
+
+        A render that ended before it could be denoised was not.
+        """
         if self.partition:
             return self.settings
-        return self.settings.model_copy(update={"samples": self.samples or self.settings.samples})
+        taken = {"samples": self.samples or self.settings.samples}
+        if taken["samples"] < least_samples(self.settings.block):
+            return self.settings.model_copy(update={**taken, "denoise": "none"})
+        return self.settings.model_copy(update=taken)
 
     @property
     def assets(self) -> dict[str, str]:

@@ -31,6 +31,7 @@ class Way(StrEnum):
     CLASSIC = "a classic lighting model"
     PARTICLES = "--caustics on"
     PILOT = "--caustics auto"
+    DENOISE = "--denoise"
     AUTO = "--method auto"
     TIME = "--time"
     ERROR = "--error"
@@ -48,6 +49,7 @@ MEANINGS: dict[Way, str] = {
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
+    Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",
     Way.AUTO: "`--method auto`: the cheapest that reaches `--error`",
     Way.TIME: "`--time`: end after some seconds",
     Way.ERROR: "`--error`: end at an error",
@@ -74,14 +76,18 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.INDEPENDENT, Way.CLASSIC),
     ),
+    Way.DENOISE: (
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.CLASSIC),
+        *(Way.PARTICLES, Way.PILOT),
+    ),
     Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.AUTO),
+        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.AUTO, Way.TIME),
+        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO, Way.TIME),
     ),
 }
 
@@ -106,6 +112,10 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.TIME, Way.MERGED}): _LENGTH,
     frozenset({Way.ERROR, Way.PART}): _LENGTH,
     frozenset({Way.ERROR, Way.MERGED}): _LENGTH,
+    frozenset({Way.DENOISE, Way.PART}): "it compares halves of all samples: render without parts",
+    frozenset({Way.DENOISE, Way.MERGED}): "its parts do not tell halves of all samples",
+    frozenset({Way.DENOISE, Way.LAYERS}): "layers keep no variance of each half",
+    frozenset({Way.DENOISE, Way.AUTO}): "it chooses by the error of plain pictures: name a method",
 }
 _UNTRIED = "nobody has tried the two together"
 
@@ -153,5 +163,6 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PARTICLES: settings.caustics == "on",
+        Way.DENOISE: settings.denoise != "none",
     }
     return {way for way, is_asked in found.items() if is_asked}

@@ -40,6 +40,8 @@ Modules, each importing only what stands above it:
 - aov_view: AOVs as colours
 - magnifier: part of a picture with sharp pixels
 - surface_view: the first surface under simple light
+- progress: what a render tells of itself
+- halver: keeps the first half of a render, for a denoiser
 - renderer: scene and settings to samples, step by step
 - stopping: render to a limit of samples, time or error
 - parts: a merged picture rendered again

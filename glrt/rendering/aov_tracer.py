@@ -83,7 +83,7 @@ class AovTracer:
         Raises SceneError if an observation is beyond the driver's loop limit, and RenderError; then
         `before` is as it was.
         """
-        self.aovs = aovs = plan.settings.aov
+        self.aovs = aovs = plan.settings.gathered
         self._context, self._size, self._block = context, plan.settings.size, plan.settings.block
         self._stages: list[_Stage] = []
         known = before.kernels if before and before._block == self._block else {}
@@ -102,7 +102,7 @@ class AovTracer:
 
     def serve(self, settings: Settings) -> bool:
         """Whether films and kernels do for other settings, if the kernel of the scene does."""
-        wanted = settings.size, settings.block, settings.aov
+        wanted = settings.size, settings.block, settings.gathered
         return wanted == (self._size, self._block, self.aovs)
 
     def check(self, plan: Plan) -> None:

@@ -10,9 +10,9 @@ from typing import Any, Unpack
 import moderngl
 import numpy as np
 
+from glrt.denoise.filters import with_filter
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
-from glrt.gpu.glsl import Source
 from glrt.image.image import Image
 from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
@@ -20,19 +20,19 @@ from glrt.image.resume import fitting
 from glrt.methods.combinations import check_render
 from glrt.methods.light_layers import ONE, Layering, Weights, plan_for
 from glrt.rendering.display import displayed
-from glrt.rendering.film import Film
-from glrt.rendering.particle_tracer import Losses
+from glrt.rendering.halver import Halver, check_rest
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
+from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
 from glrt.rendering.weighting import Mixer, mixed
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
-from glrt.settings import Aov, Cost, SettingOptions, Settings, settings_for
+from glrt.settings import Cost, SettingOptions, Settings, settings_for
 from glrt.version import VERSION
 
 
-class Renderer:
+class Renderer(Progress):
     """Renders a scene a few samples at a time; what `update` costs is its class of cost."""
 
     def __init__(
@@ -63,7 +63,7 @@ class Renderer:
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
         self.scene = scene
-        self.settings = settings_for(settings or scene.render, **overrides)
+        self.settings = with_filter(settings_for(settings or scene.render, **overrides))
         self._decisions = decisions, self.settings
         self._part: Partition | None = one_part(*part, self.settings) if part else None
         wanted = scene, self.settings, layering, part is not None
@@ -81,11 +81,7 @@ class Renderer:
                 self._tracer = Tracer(self.context, self.plan, options)
             refused.pop_all()
         self._mixer = Mixer(self.context.gl)
-
-    @property
-    def samples(self) -> int:
-        """How many samples each pixel has."""
-        return self.film.samples
+        self._halver = Halver()
 
     @property
     def wanted_samples(self) -> int:
@@ -98,6 +94,7 @@ class Renderer:
         self._part = one_part(number, self._part.count, self.settings)
         self.plan = replace(self.plan, first_sample=self._samples.start)
         self._tracer.begin_at(self._samples.start)
+        self._halver.restart()
 
     @property
     def _samples(self) -> range:
@@ -112,49 +109,9 @@ class Renderer:
         return self.samples < samples or self._tracer.is_behind
 
     @property
-    def shown(self) -> tuple[int, int]:
-        """Samples of each pixel of the picture, and of its AOVs."""
-        return self.samples, self._tracer.aovs.samples
-
-    @property
-    def work(self) -> float:
-        """Samples a pixel, and the share that is done of those in the frame that has begun."""
-        return self._tracer.work
-
-    @property
     def size(self) -> tuple[int, int]:
         """Width and height of the picture or of the crop, in pixels."""
         return self.settings.size
-
-    @property
-    def film(self) -> Film:
-        """What has been gathered."""
-        return self._tracer.film
-
-    @property
-    def tier(self) -> Tier:
-        """Where the kernel that stays through edits finds its shapes."""
-        return self._tracer.device_scene.tier
-
-    @property
-    def shaders(self) -> list[Source]:
-        """The shaders of that kernel, as the driver got them; the last one traces paths."""
-        return self._tracer.device_scene.shaders
-
-    @property
-    def most_samples(self) -> int:
-        """How many samples a dispatch may take."""
-        return self._tracer.most_samples
-
-    @property
-    def seconds(self) -> dict[str, float]:
-        """What it took to `build` trees, to `pack` the scene, and to `compile` kernels."""
-        compiled = self._tracer.switch.compile_seconds + self._tracer.aovs.compile_seconds
-        return {**self._tracer.device_scene.seconds, "compile": compiled}
-
-    def aov_mean(self, aov: Aov) -> moderngl.Texture | None:
-        """An AOV so far, for the window; None if it is not gathered or empty."""
-        return self._tracer.aovs.mean(aov)
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """The film under weights, for the display pass: until the next call, in this context."""
@@ -163,6 +120,7 @@ class Renderer:
     def restart(self) -> None:
         """Begin to accumulate anew."""
         self._tracer.restart()
+        self._halver.restart()
 
     def update(
         self,
@@ -172,10 +130,11 @@ class Renderer:
     ) -> Cost | None:
         """Go on with another scene or other settings; returns what that cost, None for nothing."""
         layering = layering or self.plan.layering
-        after = scene or self.scene, settings_for(self.settings, **changes)
+        after = scene or self.scene, with_filter(settings_for(self.settings, **changes))
         if (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
         check_render(*after, layering, self._part is not None, self.pipeline == "fragment")
+        self._halver.restart()
         wanted = wanted_range(self._part, after[1])
         is_other_part = self._part is not None and wanted != self._samples
         relit = None if is_other_part else self.plan.relit(*after, layering)
@@ -199,11 +158,6 @@ class Renderer:
         """
         with self.context.gl:
             return self._tracer.bake()
-
-    @property
-    def is_baked(self) -> bool:
-        """Whether the kernel that runs has the shapes written into it."""
-        return self.tier == "baked" or self._tracer.switch.uses_fast_kernel
 
     def step(self, samples: int) -> None:
         """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
@@ -236,14 +190,21 @@ class Renderer:
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
         while self.lacks(target):
-            self._work(target - self.samples, HEADLESS)
+            if self._halver.wants(self.settings, self.samples, target):
+                self._halver.keep(self._whole_image(self.plan.weights))
+            stop = self._halver.next_stop(self.settings, self.samples, target)
+            self._work(stop - self.samples, HEADLESS)
             if goes_on and not goes_on(self):
                 break
         return self
 
     def image(self, weights: Weights | None = None) -> Image:
         """The picture so far, with its standard error and its recipe; `weights` show it so."""
-        weights = weights or self.plan.weights
+        image = self._whole_image(weights or self.plan.weights)
+        return self._halver.finished(image)
+
+    def _whole_image(self, weights: Weights) -> Image:
+        """With all AOVs that are gathered."""
         with self.context.gl:
             aovs = self._tracer.aov_images()
             mean, noise, state = mixed(self.film, weights)
@@ -255,6 +216,8 @@ class Renderer:
         film_state = fitting(image, self._recipe((ONE,)))
         with self.context.gl:
             self._tracer.resume(image.samples, image.radiance, film_state, image.particles)
+        self._halver.restart()
+        check_rest(self.settings, image.samples)
         return self
 
     def display(self) -> np.ndarray[Any, Any]:
@@ -266,11 +229,6 @@ class Renderer:
         """How many samples and particles were dropped because they were not finite."""
         with self.context.gl:
             return self.film.dropped() + self._tracer.lost_particles.refused
-
-    @property
-    def lost_particles(self) -> Losses:
-        """Of the particles that were linked to the camera."""
-        return self._tracer.lost_particles
 
     def release(self) -> None:
         """Free what the driver holds, the context too unless it was given."""

@@ -79,7 +79,7 @@ def render_to_limit(
             break
         if limits.error is not None:
             image = renderer.image()
-            if _is_reached(image.error, limits.error):
+            if _is_reached(image.error_to_reach, limits.error):
                 return image
     return renderer.image() if renderer.samples else None
 

@@ -131,7 +131,7 @@ class Tracer:
 
     def use_aovs(self, settings: Settings) -> None:
         """Gather other AOVs; on an error, which is as the constructor raises it, the same."""
-        if settings.aov != self.aovs.aovs:
+        if settings.gathered != self.aovs.aovs:
             after = self._aovs_for(settings, self)
             after.restart(self._plan)
             self.aovs.release(after)

@@ -30,6 +30,7 @@ VERDICTS = {
     "fireflies": 1,
     "frosted": 7,
     "seeds": 7,
+    "sparks": 6,
 }
 SWEEP = Sweep(
     parameter="size",

@@ -138,7 +138,7 @@ def recipe_of(image: Image, **changes: Any) -> Recipe:
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("samples", 1000), ("exposure", 2.0), ("tonemap", "aces")],
+    [("samples", 1000), ("exposure", 2.0), ("tonemap", "aces"), ("denoise", "nlm")],
 )
 def test_what_changes_no_sample_may_change(begun: Image, name: str, value: Any) -> None:
     assert fitting(begun, recipe_of(begun, **{name: value})) is begun.film_state
@@ -167,7 +167,7 @@ def test_what_changes_samples_is_refused_by_its_name(begun: Image, name: str, va
 
 def test_every_setting_is_free_or_refused(begun: Image) -> None:
     """A new setting must come into one of the two lists above."""
-    free = {"samples", "exposure", "tonemap", "aov"}
+    free = {"samples", "exposure", "tonemap", "aov", "denoise"}
     known = {"width", "height", "bounces", "method", "seed", "crop", "sampler", "roulette"}
     known |= {"caustics", "particles", "aimed", "linked"}
     assert set(Settings.model_fields) == free | known

@@ -10,6 +10,7 @@ def bug(name: str, file: str, old: str, new: str, test: str) -> Mutant:
 
 MOMENTS = "image/moments.py"
 MERGE = "image/merge.py"
+FILMS = "image/film_moments.py"
 PARTS = "image/partition.py"
 
 MERGING = [
@@ -57,7 +58,7 @@ MERGING = [
     ),
     bug(
         "variances of AOVs are those of n observations",
-        MERGE,
+        FILMS,
         "** 2 * (observations - 1)",
         "** 2 * observations",
         "image/test_merge.py::test_parts_together_hold_what_one_film_holds",
@@ -71,7 +72,7 @@ MERGING = [
     ),
     bug(
         "dropped samples count as samples",
-        MERGE,
+        FILMS,
         "_counts(image.samples - state.dropped)",
         "_counts(image.samples + 0 * state.dropped)",
         "image/test_merge.py::test_dropped_samples_and_empty_pixels_stay_what_they_are",

@@ -6,6 +6,7 @@ copy of the tree and runs its test, which must fail.
 
 from tests.mutation.aovs import AOVS
 from tests.mutation.comparing import COMPARING
+from tests.mutation.denoising import DENOISING
 from tests.mutation.editor import EDITOR
 from tests.mutation.film import FILM
 from tests.mutation.glass import GLASS
@@ -44,4 +45,5 @@ MUTANTS = [
     *COMPARING,
     *PATHS,
     *EDITOR,
+    *DENOISING,
 ]

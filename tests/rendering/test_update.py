@@ -70,6 +70,7 @@ CHANGES: dict[str, Any] = {
     "exposure": 1.5,
     "tonemap": "agx",
     "aov": ("normal",),
+    "denoise": "nlm",
 }
 
 

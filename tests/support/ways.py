@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 
 from glrt import Renderer, load, merge
 from glrt.cli.commands import run
@@ -25,6 +26,7 @@ OPTIONS: dict[Way, Options] = {
     Way.CLASSIC: ["--method", "phong"],
     Way.PARTICLES: ["--caustics", "on"],
     Way.PILOT: ["--caustics", "auto"],
+    Way.DENOISE: ["--denoise", "nlm"],
     Way.AUTO: ["--method", "auto", "--error", str(ASKED)],
     Way.TIME: ["--time", "0.1"],
     Way.ERROR: ["--error", str(ASKED)],
@@ -165,6 +167,15 @@ def pilot_law(render: Render) -> None:
     assert same(image, render([word for pair in zip(names, chosen, strict=True) for word in pair]))
 
 
+def denoise_law(render: Render) -> None:
+    """It changes no bit of the plain picture, and shows another beside it."""
+    image = render(OPTIONS[Way.DENOISE])
+    assert same(image, render([]))
+    assert image.denoised().error >= 0
+    assert np.isfinite(image.denoised().radiance).all()
+    assert not np.array_equal(image.shown, image.radiance)
+
+
 def auto_law(render: Render) -> None:
     image = render(OPTIONS[Way.AUTO])
     assert image.recipe
@@ -193,6 +204,7 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.CLASSIC: classic_law,
     Way.PARTICLES: particles_law,
     Way.PILOT: pilot_law,
+    Way.DENOISE: denoise_law,
     Way.AUTO: auto_law,
     Way.TIME: limit_law(Way.TIME),
     Way.ERROR: limit_law(Way.ERROR),
@@ -235,7 +247,27 @@ def resume_a_part() -> None:
     assert same(rendered("--resume", "begun.exr"), whole)
 
 
+def resume_denoised() -> None:
+    """The halves are those of one render, up to the rounding of float32."""
+    whole = plain([*OPTIONS[Way.DENOISE], "--samples", "128"])
+    plain(OPTIONS[Way.DENOISE]).save("half.exr")
+    found = rendered("--resume", "half.exr", "--samples", "128")
+    assert same(found, whole)
+    np.testing.assert_allclose(found.shown, whole.shown, rtol=1e-3, atol=1e-4)
+    assert found.error_to_reach == pytest.approx(whole.error_to_reach, rel=1e-2)
+
+
+def denoised_in_time() -> None:
+    """With fewer samples than it takes, the picture is the plain one."""
+    options = [*OPTIONS[Way.DENOISE], *OPTIONS[Way.TIME]]
+    image = plain(options)
+    assert (image.denoising is None) == (image.samples < 64)
+    assert same(image, plain(["--samples", str(image.samples)]))
+
+
 SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
     frozenset({Way.RESUME, Way.PART}): resume_a_part,
+    frozenset({Way.RESUME, Way.DENOISE}): resume_denoised,
+    frozenset({Way.DENOISE, Way.TIME}): denoised_in_time,
     frozenset({Way.MERGED, Way.PART}): part_of_a_merged_picture,
 }

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - spots: edges of cones, one spot among many
 - glass: refraction and caustics
 - particles: a caustic of a lamp of any size
+- denoising: the bias of a filter, and fireflies
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass keeps, a lamp inside it
 - plastic: the light that white plastic keeps

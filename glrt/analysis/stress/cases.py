@@ -1,6 +1,7 @@
 """Every case of `glrt stress`, by name."""
 
 from glrt.analysis.stress import (
+    denoising,
     glass,
     lamps,
     particles,
@@ -36,6 +37,8 @@ _ALL = (
     Case("focus", "A caustic of a lamp of any size", particles.focused),
     Case("mirrored", "A caustic that a mirror ball shows", particles.mirrored),
     Case("fireflies", "The brightest samples of a caustic", glass.fireflies),
+    Case("denoised", "A denoised picture, by its samples", denoising.samples),
+    Case("sparks", "Fireflies in a denoised picture", denoising.sparks),
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
     Case("plastic", "The light that white plastic keeps", plastic.grazing),

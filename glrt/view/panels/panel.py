@@ -28,7 +28,7 @@ from glrt.view.state.costs import reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
-SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop",))}
+SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed")
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")

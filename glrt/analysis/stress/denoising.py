@@ -1,0 +1,127 @@
+"""Denoising: whether the filter leaves a bias, and whether fireflies fool the estimate."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.analysis.stress.scenes import glass, lamp, matte, plane, scene_of, sphere
+from glrt.analysis.stress.sweep import SIGMAS, Lab, Sweep
+from glrt.denoise.blend import blended
+from glrt.denoise.denoising import denoise
+from glrt.denoise.filters import FILTERS, Filtered
+from glrt.denoise.half import Guide, Half
+from glrt.denoise.risk import squared_error, summed
+from glrt.denoise.windows import window_mean
+from glrt.image.halves import halves_of
+from glrt.settings import GUIDES
+
+Floats = NDArray[np.float64]
+
+SAMPLES = (4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096)
+SIDE, TRUE = 24, 1 << 15  # edge of the frame in pixels; samples a pixel, of the truth
+SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 4, "aov": GUIDES}
+WORSE = 1.3  # times the error of the plain picture, at most
+SHARES = (0.0, 0.001, 0.003, 0.01, 0.02, 0.05)  # of observations that are fireflies
+BRIGHT, DRAWS, COUNT = 50.0, 400, 4  # times as bright; pictures; observations a half
+SMALL = 24  # edge of those pictures in pixels
+
+
+def samples(lab: Lab) -> Sweep:
+    """Error of a ball of glass and its shadow, by samples.
+
+    From as few as there can be to so many that noise is less than what a filter gets wrong.
+    """
+    scene = scene_of(
+        [
+            plane([0, 0, 0], [0, 1, 0], "floor"),
+            sphere([0, 0.8, 0], 0.5, "glass"),
+            sphere([0.4, 3, 0.2], 0.5, "lamp"),
+        ],
+        {"floor": matte(0.7), "glass": glass(1.5), "lamp": lamp(9.0)},
+        {"position": [0, 1.5, 3.5], "look_at": [0, 0.4, 0], "fov": 40},
+    )
+    count = lab.count(TRUE, 8192)
+    truths = [lab.render(scene, count, seed=seed, **SETTINGS).radiance for seed in (8, 9)]
+    errors: dict[str, list[float]] = {"denoised by nlm": [], "the filter alone": [], "plain": []}
+    with lab.rendering(scene, **SETTINGS) as renderer:
+        first = renderer.render(SAMPLES[0] // 2).image()
+        for number in SAMPLES:
+            whole = renderer.render(number).image()
+            halves = halves_of(first, whole)
+            filters = (FILTERS["nlm"](half).radiance for half in halves)
+            alone = summed(halves, (next(filters), next(filters)))
+            shown = denoise(halves, "nlm").radiance, alone, whole.radiance
+            for name, radiance in zip(errors, shown, strict=True):
+                errors[name].append(_error(radiance, truths))
+            first = whole
+    name = next(iter(errors))
+    return Sweep(
+        parameter="samples a pixel",
+        measure="relative RMS error",
+        x=SAMPLES,
+        chosen=(name, errors.pop(name)),
+        others=errors,
+        promise=f"at most {WORSE:g} times that of the plain picture",
+        bound=[WORSE * error for error in errors["plain"]],
+    )
+
+
+def _error(radiance: NDArray[np.float32], truths: list[NDArray[np.float32]]) -> float:
+    """Against two renders, whose noise is independent."""
+    first, second = (truth.astype(np.float64) for truth in truths)
+    mean = (first + second) / 2
+    squares = (radiance - first) * (radiance - second)
+    return float(np.sqrt(max((squares / (mean**2 + 0.01 * mean.mean() ** 2)).mean(), 0)))
+
+
+def sparks(lab: Lab) -> Sweep:
+    """How far the estimated mean squared error lies from the true one, by the share of fireflies.
+
+    A wall and a shadow that no guide tells. The mean brightness is the same at each share.
+    """
+    draws, far = lab.count(DRAWS, 50), np.zeros((2, len(SHARES)))
+    for place, share in enumerate(SHARES):
+        rng = np.random.default_rng(place)
+        errors = np.array([_drawn(rng, share) for _ in range(draws)])
+        far[:, place] = np.abs(errors.mean(axis=0)) / errors.std(axis=0, ddof=1) * np.sqrt(draws)
+    return Sweep(
+        parameter="share of observations that are 50 times as bright",
+        measure="estimate less truth, in standard errors",
+        x=SHARES,
+        chosen=("two halves judge each other", far[0].tolist()),
+        others={"the distance of two halves": far[1].tolist()},
+        promise=f"the estimate is right on average: within {SIGMAS} standard errors",
+        bound=[SIGMAS] * len(SHARES),
+    )
+
+
+def _drawn(rng: np.random.Generator, share: float) -> Floats:
+    """Of one picture how far two estimates of its squared error lie from the truth.
+
+    The second takes the error for the variance of two independent results.
+    """
+    bright = np.where(np.arange(SMALL) < SMALL // 3, 1.0, 0.5)[None, :, None]
+    truth = bright * np.ones((SMALL, SMALL, 3))
+    halves = _half(rng, truth, share), _half(rng, truth, share)
+    first, second = (blended(half, _blurred(half)) for half in halves)
+    true = np.square(summed(halves, (first, second)) - truth).mean()
+    estimate = squared_error(halves, (first, second)).mean()
+    apart = np.square(first.astype(np.float64) - second).mean() / 4
+    return np.array([estimate - true, apart - true])
+
+
+def _blurred(half: Half) -> Filtered:
+    """Means over 5 x 5 pixels: a filter that is wrong at edges and quick."""
+    own = np.full(half.radiance.shape[:2], 1 / 25, np.float32)
+    return Filtered(window_mean(half.radiance, 2), own)
+
+
+def _half(rng: np.random.Generator, truth: Floats, share: float) -> Half:
+    """Observations of a gamma distribution, some of them much brighter."""
+    scale = truth / (1 + share * (BRIGHT - 1))
+    factor = np.where(rng.random((COUNT, *truth.shape[:2], 1)) < share, BRIGHT, 1)
+    seen = rng.gamma(4.0, 0.25, (COUNT, *truth.shape)) * scale * factor
+    none = Guide(*np.zeros((2, *truth.shape), np.float32))
+    mean, variance = seen.mean(axis=0), seen.var(axis=0, ddof=1) / COUNT
+    return Half(mean.astype(np.float32), variance.astype(np.float32), 0.5, none, none)

@@ -1,0 +1,67 @@
+"""What a picture has gathered on each of its films, as moments."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.image.aovs import AovImage
+from glrt.image.film_state import FilmState
+from glrt.image.image import Image
+from glrt.image.moments import Moments
+from glrt.image.particle_film import ParticleFilm, observations_of
+
+RADIANCE, PARTICLES = "radiance", "particles"  # films, beside those of AOVs
+NOTHING = np.zeros((1, 1, 1))
+
+
+def moments_of(image: Image, film: str) -> Moments | None:
+    """Of one film: radiance, particles, or an AOV; None where the picture lacks its state."""
+    aovs = {str(aov): found for aov, found in image.aovs.items()}
+    if film in aovs:
+        return _of_aov(aovs[film])
+    if film == PARTICLES and image.particles and image.recipe:
+        count = observations_of(image.samples, image.recipe.settings.block)
+        return _of_particles(image.particles, count)
+    if film != RADIANCE or image.film_state is None:
+        return None
+    return _of_radiance(image, image.film_state)
+
+
+def _of_radiance(image: Image, state: FilmState) -> Moments:
+    begun, part = NOTHING, NOTHING  # of a film without an observation that has begun
+    if state.begun.any():
+        begun, part = _counts(state.begun), state.part.astype(np.float64)
+    return Moments(
+        _counts(image.samples - state.dropped),
+        (image.particles.camera if image.particles else image.radiance).astype(np.float64),
+        _counts(state.observations),
+        state.variance.astype(np.float64),
+        begun,
+        part,
+    )
+
+
+def _of_particles(film: ParticleFilm, observations: int) -> Moments:
+    """Of what particles bring: a sample is an observation."""
+    mean, variance = film.mean.astype(np.float64), film.variance.astype(np.float64)
+    count = np.full((*mean.shape[:2], 1), observations, np.float64)
+    return Moments(count, mean, count, variance, NOTHING, NOTHING)
+
+
+def _of_aov(aov: AovImage) -> Moments:
+    """Of an AOV that is an estimate: it holds whole observations."""
+    assert aov.stderr is not None
+    assert aov.count is not None
+    assert aov.observations is not None
+    height, width = aov.count.shape
+    count, observations = _counts(aov.count), _counts(aov.observations)
+    value, stderr = (part.reshape(height, width, -1) for part in (aov.value, aov.stderr))
+    mean = np.where(count > 0, value, 0).astype(np.float64)
+    is_known = observations >= 2
+    variance = np.where(is_known, stderr, 0).astype(np.float64) ** 2 * (observations - 1)
+    return Moments(count, mean, observations, variance, NOTHING, NOTHING)
+
+
+def _counts(plane: NDArray[Any]) -> NDArray[np.float64]:
+    return plane[..., None].astype(np.float64)

@@ -1,0 +1,92 @@
+"""Channels and metadata of picture files, read; what is damaged is told in a paragraph."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glrt import files
+from glrt.errors import UsageError
+from glrt.silence import silenced
+from glrt.text import escaped
+
+MOST_PIXELS = 16384**2  # of the largest frame
+
+_EXR_MAGIC = b"\x76\x2f\x31\x01"
+
+
+def read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Header and channels by name, (H, W) each."""
+
+    if _first_bytes(path) != _EXR_MAGIC:
+        raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
+    header, channels = _opened_exr(path, True, "its header is damaged")
+    if not header_only:
+        _check_size(header["dataWindow"], path)
+        header, channels = _opened_exr(path, False, "its pixels are damaged, or it is cut off")
+    return header, channels
+
+
+def _opened_exr(
+    path: Path, header_only: bool, damage: str
+) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Header and channels; the library's own words say nothing of what is wrong."""
+    import OpenEXR  # type: ignore[import-not-found]
+
+    check_name(path)
+    try:
+        with silenced():
+            file = OpenEXR.File(str(path), separate_channels=True, header_only=header_only)
+            channels = {name: channel.pixels for name, channel in file.channels().items()}
+            return file.header(), channels
+    except UnicodeError as error:
+        raise _unreadable(path, error) from None
+    except (RuntimeError, ValueError):
+        advice = "Copy it or render it again."
+        raise UsageError(f"{path}: cannot read this image: {damage}. {advice}") from None
+
+
+def check_name(path: Path) -> None:
+    """Raise UsageError for a name of an EXR file that the library does not take."""
+    try:
+        str(path.absolute()).encode()
+    except UnicodeError:
+        advice = "OpenEXR takes only names in UTF-8; rename the file or its folder."
+        raise UsageError(f"{escaped(str(path))}: {advice}") from None
+
+
+def _check_size(window: Any, path: Path) -> None:
+    """Raise UsageError for a picture that no memory holds, as a few bytes can claim to be."""
+    low, high = (np.asarray(corner, float) for corner in window)
+    width, height = high - low + 1
+    if width * height > MOST_PIXELS:
+        raise UsageError(
+            f"{path}: {width:.0f} x {height:.0f} pixels are more than glrt reads, {MOST_PIXELS:,}."
+        )
+
+
+def _first_bytes(path: Path) -> bytes:
+    try:
+        files.check_regular(path)
+        with path.open("rb") as file:
+            return file.read(len(_EXR_MAGIC))
+    except OSError as error:
+        raise _unreadable(path, error) from None
+
+
+def read_png_metadata(path: Path) -> Mapping[Any, Any]:
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        files.check_regular(path)
+        with PngImageFile(path) as file:
+            return file.info
+    except (OSError, SyntaxError, ValueError) as error:
+        raise _unreadable(path, error) from None
+
+
+def _unreadable(path: Path, error: BaseException) -> UsageError:
+    return UsageError(
+        f"{path}: cannot read this image: {files.reason(error)}. Check name and file."
+    )

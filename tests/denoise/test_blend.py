@@ -1,0 +1,54 @@
+"""The plain picture wins where a filter errs by more than the noise."""
+
+import numpy as np
+
+from glrt.denoise.blend import blended, trust
+from glrt.denoise.filters import Filtered
+from tests.denoise.noisy_halves import drawn
+
+NO_WEIGHT = np.zeros((32, 32), np.float32)
+TRUTH = np.full((32, 32, 3), 0.5)
+
+
+def test_a_filter_that_is_right_is_believed() -> None:
+    half = drawn(np.random.default_rng(0), TRUTH, (16, 16)).halves[0]
+    found = Filtered(TRUTH.astype(np.float32), NO_WEIGHT)
+    alpha = trust(half, found)
+    assert alpha.shape == (32, 32)
+    assert alpha.mean() > 0.9
+    error = np.square(blended(half, found) - TRUTH).mean()
+    assert error < np.square(half.radiance - TRUTH).mean() / 20
+
+
+def test_a_filter_that_is_wrong_is_not_where_it_is_wrong() -> None:
+    half = drawn(np.random.default_rng(1), TRUTH, (16, 16)).halves[0]
+    bad = TRUTH.astype(np.float32).copy()
+    bad[:, 20:] += 1.0  # the variance is 1/128
+    found = Filtered(bad, NO_WEIGHT)
+    alpha = trust(half, found)
+    assert alpha[:, :16].mean() > 0.9
+    assert alpha[:, 24:].max() < 0.03
+    right = np.square(blended(half, found) - TRUTH)[:, 24:].mean()
+    assert right < 1.5 * np.square(half.radiance - TRUTH)[:, 24:].mean()
+
+
+def test_a_filter_that_changes_nothing_changes_nothing() -> None:
+    half = drawn(np.random.default_rng(2), TRUTH).halves[0]
+    found = Filtered(half.radiance, np.ones((32, 32), np.float32))
+    np.testing.assert_array_equal(blended(half, found), half.radiance)
+
+
+def test_without_noise_the_plain_picture_is_shown() -> None:
+    half = drawn(np.random.default_rng(3), TRUTH).halves[0]
+    half = half._replace(variance=np.zeros_like(half.variance))
+    found = Filtered(half.radiance + 1, NO_WEIGHT)
+    np.testing.assert_array_equal(blended(half, found), half.radiance)
+
+
+def test_own_weight_is_counted() -> None:
+    """A mean of 4 pixels lies as near to each as a wrong one may: its own part is in it."""
+    half = drawn(np.random.default_rng(4), np.full((64, 64, 3), 0.5), (16, 16)).halves[0]
+    blocks = half.radiance.reshape(32, 2, 32, 2, 3).mean(axis=(1, 3))
+    mean = blocks.repeat(2, axis=0).repeat(2, axis=1)
+    alpha = trust(half, Filtered(mean, np.full((64, 64), 0.25, np.float32)))
+    assert alpha.mean() > 0.9

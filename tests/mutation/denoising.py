@@ -1,0 +1,106 @@
+"""Bugs of denoising: what is estimated, from which half, and where the filter is believed."""
+
+from tests.mutation.mutant import Edit, Mutant
+
+
+def mutant(name: str, file: str, old: str, new: str, test: str) -> Mutant:
+    """One edit of a module of glrt."""
+    return Mutant(name, (Edit(f"glrt/{file}", old, new),), test)
+
+
+RISK, BLEND, NLM = "denoise/risk.py", "denoise/blend.py", "denoise/nlm.py"
+HALVER = "rendering/halver.py"
+
+DENOISING = [
+    mutant(
+        "the noise of the half that judges counts as error of the filter",
+        RISK,
+        "np.square(a - second.radiance) - second.variance",
+        "np.square(a - second.radiance)",
+        "denoise/test_risk.py::test_of_a_constant_it_is_the_squared_bias",
+    ),
+    mutant(
+        "the errors of both halves are taken for one",
+        RISK,
+        "second.share * of_second - between",
+        "second.share * of_second",
+        "denoise/test_risk.py::test_without_a_filter_it_is_the_variance_of_the_plain_picture",
+    ),
+    mutant(
+        "each half counts as much as the other",
+        RISK,
+        "first.share * of_first + second.share * of_second",
+        "0.5 * of_first + 0.5 * of_second",
+        "denoise/test_risk.py::test_of_a_blur_it_is_bias_and_variance_in_closed_form",
+    ),
+    mutant(
+        "a half is judged by itself",
+        RISK,
+        "np.square(a - second.radiance) - second.variance",
+        "np.square(a - first.radiance) - first.variance",
+        "denoise/test_risk.py::test_without_a_filter_it_is_the_variance_of_the_plain_picture",
+    ),
+    mutant(
+        "the second half holds the first one too",
+        "image/halves.py",
+        "without(all_, early)",
+        "all_",
+        "image/test_halves.py::test_each_half_is_a_render_of_its_samples",
+    ),
+    mutant(
+        "particles bring no variance to a half",
+        "image/halves.py",
+        "np.sum(variances, axis=0, dtype=np.float32)",
+        "variances[0]",
+        "image/test_halves.py::test_each_half_is_a_render_of_its_samples",
+    ),
+    mutant(
+        "the distance of the halves' means stays in the variance of the second",
+        "image/moments.py",
+        "first.variance * first.observations - between",
+        "first.variance * first.observations",
+        "image/test_halves.py::test_what_was_put_together_comes_apart",
+    ),
+    mutant(
+        "a filter is believed however wrong it is",
+        BLEND,
+        "np.maximum(apart - expected - SPARED * noise, 0)",
+        "0 * np.maximum(apart - expected - SPARED * noise, 0)",
+        "denoise/test_blend.py::test_a_filter_that_is_wrong_is_not_where_it_is_wrong",
+    ),
+    mutant(
+        "noise of colours counts as a difference",
+        NLM,
+        "np.square(color[here] - color[there]) - 2 * np.minimum(a, b)",
+        "np.square(color[here] - color[there])",
+        "denoise/test_nlm.py::test_it_is_the_mean_that_its_definition_gives",
+    ),
+    mutant(
+        "normals guide nothing",
+        NLM,
+        "zip(half.guides, spans, strict=True)",
+        "zip(half.guides[:1], spans[:1], strict=True)",
+        "denoise/test_nlm.py::test_it_is_the_mean_that_its_definition_gives",
+    ),
+    mutant(
+        "of a render that looks at its error at doublings the first half is kept alone",
+        HALVER,
+        "return is_stop or not self._kept",
+        "return not self._kept",
+        "rendering/test_halver.py::test_looks_at_doublings_have_their_middle",
+    ),
+    mutant(
+        "a render goes beyond its samples to keep a half",
+        HALVER,
+        "            or samples >= target\n",
+        "",
+        "rendering/test_halver.py::test_what_is_shown_is_made_of_the_middle_and_the_end",
+    ),
+    mutant(
+        "a render stops at an estimate that chance has made low",
+        "image/image.py",
+        "self.denoising.error_high",
+        "self.denoising.error",
+        "rendering/test_halver.py::test_a_render_that_ends_anywhere_is_denoised",
+    ),
+]
