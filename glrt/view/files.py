@@ -103,6 +103,10 @@ class Files:
         title = "Open a scene, a model or a picture"
         self.dialogs.ask_open(title, SCENES, self.ask_open)
 
+    def ask_paste(self) -> None:
+        """Take the recipe in the clipboard; where that would lose edits, ask first."""
+        self._unless_lost("Paste the recipe?", self.paste_recipe)
+
     def paste_recipe(self) -> None:
         """The scene, view and settings that a recipe in the clipboard tells."""
         with self.messages.telling():

@@ -74,7 +74,7 @@ def _recipe(files: Files, has_picture: bool) -> None:
     )
     imgui.same_line()
     if button("paste recipe"):
-        files.paste_recipe()
+        files.ask_paste()
 
 
 def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
