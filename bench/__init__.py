@@ -29,6 +29,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - methods_compared: its false alarms between different methods
 - changes_found: whether it finds changes of the size that it says it would have found
 - window_tour: frame times of the window, driven by a script
+- window_films: animations of the window for the documentation
 - drags: whether the picture in the window follows a drag
 - studio: principled balls under a studio map of a package
 - gallery: every scene that comes with glrt, as pictures and a page of them

@@ -32,14 +32,7 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
 TOLD = pytest.param(PATHS, marks=pytest.mark.slow)
-DISPLAYS = (
-    "display.frag",
-    "weighting.frag",
-    "false_colors.frag",
-    "aov_view.frag",
-    "first_surface.frag",
-    "magnify.frag",
-)
+DISPLAYS = ("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify")
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
 
@@ -213,7 +206,7 @@ def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
 @pytest.mark.parametrize("name", DISPLAYS)
 def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
     assert ctx.version_code >= 430
-    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(name).text)]
+    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(f"{name}.frag").text)]
     assert warnings(*stages) == []
 
 
