@@ -219,7 +219,7 @@ def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None
     window.params.ini_disable = True
 
     def with_defaults() -> Script:
-        window.app.preferences = Preferences()  # the defaults, not those of the user
+        window.app.preferences = Preferences(tour=False)  # the defaults, not those of the user
         yield from script(window)
 
     running = with_defaults()

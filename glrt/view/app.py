@@ -56,6 +56,7 @@ class App:
     zoom: Zoom = FIT
     inspects: bool = False  # the pixel under the mouse
     paths: PathExplorer = field(init=False)
+    tour_step: int | None = 0  # that is shown; None: closed until the next start
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
     frame_seconds: float = 0.0
     progress: Progress = field(default_factory=Progress)

@@ -25,6 +25,7 @@ from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.questions import draw_question
+from glrt.view.panels.tour import draw_tour
 from glrt.view.panels.viewport import draw_keys, draw_viewport
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
@@ -196,6 +197,7 @@ class Window:
 
     def _ask(self) -> None:
         """What stands above the parts of the window."""
+        draw_tour(self.app)
         draw_question(self.app)
         self.app.files.dialogs.poll(is_drawn=True)
 

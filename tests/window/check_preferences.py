@@ -27,6 +27,7 @@ CHOICES: dict[str, Any] = {
     "invert": True,
     "theme": "light",
     "scale": 1.25,
+    "tour": True,
 }
 
 

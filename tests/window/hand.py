@@ -41,7 +41,7 @@ class Hand:
     def __init__(self, window: Window) -> None:
         self.window = window
         self.ctx: imgui.test_engine.TestContext
-        self._preferences = Preferences(samples_per_frame=2)
+        self._preferences = Preferences(samples_per_frame=2, tour=False)
         self._errands: list[Callable[[], None]] = []
         self._wanted: list[list[NDArray[np.uint8]]] = []  # where pictures of the window go
         self._is_drawn = True

@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - slider_text: where the number of a slider stands
 - widgets: a widget for each kind of control
 - questions: what the window asks
+- tour: five steps for a newcomer
 - legend: what false colours mean
 - plots: figures and the error over time
 - gizmo: handles of the selected object

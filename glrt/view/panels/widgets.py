@@ -10,6 +10,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from glrt.settings import Cost
 from glrt.view.panels.slider_text import Slider, beside_grip, share_of
 from glrt.view.state.controls import MEANING, Control
+from glrt.view.state.explanations import explanation_of
 
 # Hue tells the classes apart in both themes; the word stands beside it.
 COLORS = {
@@ -100,7 +101,8 @@ def tooltip(control: Control) -> None:
     costs = (
         f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
     )
-    tip("\n".join([f"{help_text}{unit}", *costs]))
+    why = explanation_of(control)
+    tip("\n".join([f"{help_text}{unit}", *costs, *(["", why] if why else [])]))
 
 
 def legend() -> None:

@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - controls: what a widget must know of a value
+- explanations: what a control changes, with its equation
 - scene_edits: objects and materials added, copied, renamed, removed
 - new_objects: what is added, and where
 - keys: names of keys and what they mean

@@ -62,6 +62,9 @@ class Preferences(Frozen):
     scale: Annotated[float, Editable(FREE, slider=(0.75, 3))] = Field(
         1.0, description="size of the text", ge=0.5, le=4
     )
+    tour: Annotated[bool, Editable(FREE)] = Field(
+        True, description="show the five steps of the tour at the start"
+    )
     bindings: Bindings = Field(
         DEFAULTS, description="keys of each action that differ from the defaults"
     )

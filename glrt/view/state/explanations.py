@@ -1,0 +1,58 @@
+"""What a control changes of the light transport, in two or three sentences with the equation.
+
+L is radiance, f the reflectance of a surface (its BSDF), p a density, c the cosine at a surface.
+"""
+
+from glrt.view.state.controls import Control
+
+EXPLANATIONS: dict[str, str] = {
+    "method": (
+        "All of these estimate L = Le + integral of f L' c over directions, by samples weighted "
+        "f L' c / p. naive draws directions alone; nee draws points on lamps too, and counts lamps "
+        "by these alone; mis weighs both ways by p^2 / (p^2 + q^2), where q is the density of the "
+        "other one. phong, blinn, whitted and cook are models from before path tracing: they leave "
+        "light out."
+    ),
+    "sampler": (
+        "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "
+        "sobol: the samples of a pixel complete each other (scrambled Sobol' points), so that it "
+        "falls faster where light is smooth; the mean is the same."
+    ),
+    "roulette": (
+        "A path whose throughput is low ends with a chance of 1 - q, and one that goes on counts "
+        "1 / q times: q L / q = L, so the mean stays. Paths take less time, and a little more "
+        "noise."
+    ),
+    "bounces": (
+        "The largest number of scattering events B on a path; light that needs more is left out. "
+        "In a closed room that shines with Le everywhere and has the albedo a, a picture shows "
+        "Le (1 - a^(B+1)) / (1 - a) instead of Le / (1 - a)."
+    ),
+    "intensity": (
+        "Light adds up: a picture is the sum of those of its light groups, L = sum of w L(group). "
+        "So the film keeps each group apart, and another intensity w is another weight, not "
+        "another render."
+    ),
+    "emission": (
+        "The radiance Le of each point of the lamp, in all directions. As light is linear in it, "
+        "another colour is a factor of what the film keeps of this lamp."
+    ),
+    "samples": (
+        "A pixel is the mean of N samples. Its standard error is s / sqrt(n), s the spread of n "
+        "observations; half of the noise takes four times the samples."
+    ),
+    "exposure": "What is shown is tone(2^EV L): a step of 1 EV doubles the light. Files keep L.",
+    "roughness": (
+        "The spread of microfacets: alpha = roughness^2 in the distribution of Trowbridge and "
+        "Reitz (GGX). 0 is a mirror."
+    ),
+    "ior": (
+        "The index of refraction n, inside over outside: sin(t) = sin(i) / n. At right angles "
+        "((n - 1) / (n + 1))^2 of the light is reflected."
+    ),
+}
+
+
+def explanation_of(control: Control) -> str:
+    """Of a control by its name, or by the end of it as in "lamp emission"; "" for none."""
+    return EXPLANATIONS.get(control.name) or EXPLANATIONS.get(control.label.rpartition(" ")[2], "")

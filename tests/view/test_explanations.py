@@ -1,0 +1,32 @@
+"""Controls explain what they change."""
+
+import pytest
+
+from glrt.scene.materials import Metal
+from glrt.view.panels import lights, panel
+from glrt.view.state.controls import Control, controls_of
+from glrt.view.state.explanations import EXPLANATIONS, explanation_of
+
+
+@pytest.mark.parametrize("name", ["method", "sampler", "roulette", "bounces", "samples"])
+def test_controls_of_paths_explain_themselves(name: str) -> None:
+    text = explanation_of(panel.SETTINGS[name])
+    assert 2 <= text.count(". ") + text.count(": ") + 1 <= 8
+    assert len(text) > 100
+
+
+@pytest.mark.parametrize("control", [lights.INTENSITY, lights.EMISSION])
+def test_lamps_explain_themselves_under_any_name(control: Control) -> None:
+    for name in ("emission", "intensity"):
+        for row in (name, f"blue {name}", f"lamp 2 {name}"):
+            assert explanation_of(control.named(row)) == EXPLANATIONS[name]
+
+
+def test_what_needs_no_explanation_has_none() -> None:
+    assert explanation_of(panel.SETTINGS["width"]) == ""
+
+
+def test_each_explanation_is_of_a_control() -> None:
+    named = {*panel.SETTINGS, "intensity", "emission", "ior"}
+    named |= {control.name for control in controls_of(Metal)}
+    assert EXPLANATIONS.keys() <= named
