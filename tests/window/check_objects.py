@@ -10,6 +10,8 @@ from imgui_bundle import imgui
 from glrt.methods.explanation import explain
 from glrt.scene.cone import Cone
 from glrt.scene.materials import Opaque
+from glrt.scene.objects import Object
+from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view.panels import materials, objects, plots, widgets
@@ -98,11 +100,13 @@ def an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_t
     panel: Any = objects
     figures: Any = plots
     crowd = [sphere([0.01 * n - 20, 0, -40], 0.1, "matte") for n in range(3000)]
-    scene = scene_of(crowd, {"matte": MATTE}, background={"color": [1, 1, 1]})
+    crowd[2] = sphere([0, 0, -30], 0.1, "lamp")  # what is asked of a lamp is asked once, too
+    materials_of = {"matte": MATTE, "lamp": lamp(1.0)}
+    scene = scene_of(crowd, materials_of, background={"color": [1, 1, 1]})
     hand.there(lambda: hand.session.edit(scene))
     hand.settle()
     ctx.set_ref("Controls")
-    ctx.combo_click("object/$$3/2: sphere of matte")
+    ctx.combo_click("object/$$3/2: sphere of lamp")
     assert app.selected == 2
     asked: list[int] = []
 
@@ -113,15 +117,27 @@ def an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_t
     def fail(*_: object) -> Any:
         raise AssertionError("asked again for the same scene")
 
+    patch = pytest.MonkeyPatch()
     try:
         panel._name, figures.explain = count, fail
+        ctx.yield_(3)
+        finishes: list[object] = []
+        finish = Scene.finish
+
+        def finished(scene: Scene, thing: Object) -> Any:
+            finishes.append(thing)
+            return finish(scene, thing)
+
+        patch.setattr(Scene, "finish", finished)
         ctx.yield_(10)
+        assert len(finishes) < 50, "of the selected object alone"
         assert set(asked) == {2}
         ctx.item_click("object")
         ctx.yield_(3)
         assert len(set(asked)) < 100
         ctx.popup_close_all()
     finally:
+        patch.undo()
         panel._name, figures.explain = named, explain
     app.selected = None
 

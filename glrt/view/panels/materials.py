@@ -88,7 +88,7 @@ def _commands(app: App, index: int, name: str) -> bool:
     beside("make unique")
     is_own = button("make unique", sharing > 1)
     tip("A copy of the material for this object alone; the other objects keep theirs")
-    unused = unused_materials(scene)
+    unused = _unused(scene)
     is_cleared = bool(unused) and _removes(unused)
     if renamed:
         app.edit_scene("", partial(with_renamed_material, old=name, new=renamed))
@@ -99,6 +99,9 @@ def _commands(app: App, index: int, name: str) -> bool:
     elif is_cleared:
         app.edit_scene("", without_unused_materials)
     return bool(renamed) or is_new or is_own or is_cleared
+
+
+_unused = kept_for_the_same(unused_materials)
 
 
 def _removes(unused: list[str]) -> bool:

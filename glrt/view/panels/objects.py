@@ -1,5 +1,6 @@
 """The part of the panel that adds objects and edits the selected one."""
 
+from collections import Counter
 from functools import partial
 from typing import Any
 
@@ -10,6 +11,7 @@ from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view import file_dialogs
 from glrt.view.app import App
+from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.widgets import beside, button, edited_fields, named, tag, tip
 from glrt.view.state.controls import controls_of, replaced
@@ -116,12 +118,16 @@ def _name_of(app: App, index: int, shape: Shape) -> None:
         return
     imgui.text_disabled(f"light group {group}")
     beside("own group")
-    others = [t for t in app.session.scene.objects if t is not shape]
-    is_shared = any(app.session.scene.finish(other).group == group for other in others)
-    if button("own group", is_shared):
+    if button("own group", _lamps_of(app.session.scene)[group] > 1):
         app.edit_scene("", partial(with_own_group, index=index))
     tip("A light group for this object alone, so that it can be dimmed by itself")
     tag(Cost.RECOMPILE)
+
+
+@kept_for_the_same
+def _lamps_of(scene: Scene) -> Counter[str]:
+    """How many objects shine in each light group."""
+    return Counter(scene.finish(thing).group for thing in scene.objects)
 
 
 def _shape(app: App, index: int, shape: Shape) -> None:
