@@ -56,7 +56,7 @@ def class_page(public: type) -> Iterator[str]:
         yield from function(vars(public)["__init__"], public.__name__)
     else:
         yield f"```python\n{fields(public)}\n```"
-    for name, member in vars(public).items():
+    for name, member in members(public):
         if name.startswith("_") or inspect.getdoc(member) is None:
             continue
         if isinstance(member, property):
@@ -65,6 +65,13 @@ def class_page(public: type) -> Iterator[str]:
         elif inspect.isfunction(member) or isinstance(member, classmethod):
             yield f"### `.{name}()`"
             yield from function(getattr(member, "__func__", member), name)
+
+
+def members(public: type) -> Iterator[tuple[str, object]]:
+    """What a class has itself; beside models also what it inherits, after that."""
+    kinds = [public] if issubclass(public, BaseModel) else public.__mro__[:-1]
+    for kind in kinds:
+        yield from vars(kind).items()
 
 
 def fields(public: type) -> str:

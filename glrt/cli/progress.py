@@ -54,7 +54,7 @@ class Forecast:
         start = time.perf_counter()
         is_first = self._error is None and renderer.samples >= 2 * renderer.settings.block
         if is_first or (renderer.samples and start >= self._due):
-            self._error = renderer.image().error
+            self._error = renderer.plain_image().error
             spent = time.perf_counter() - start
             self._due = start + spent + max(LOOK, spent / SHARE)
         seconds = start - self._start

@@ -191,7 +191,7 @@ class Renderer(Progress):
         self._check_part(target)
         while self.lacks(target):
             if self._halver.wants(self.settings, self.samples, target):
-                self._halver.keep(self._whole_image(self.plan.weights))
+                self._halver.keep(self.plain_image())
             stop = self._halver.next_stop(self.settings, self.samples, target)
             self._work(stop - self.samples, HEADLESS)
             if goes_on and not goes_on(self):
@@ -200,11 +200,12 @@ class Renderer(Progress):
 
     def image(self, weights: Weights | None = None) -> Image:
         """The picture so far, with its standard error and its recipe; `weights` show it so."""
-        image = self._whole_image(weights or self.plan.weights)
+        image = self.plain_image(weights)
         return self._halver.finished(image)
 
-    def _whole_image(self, weights: Weights) -> Image:
-        """With all AOVs that are gathered."""
+    def plain_image(self, weights: Weights | None = None) -> Image:
+        """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too."""
+        weights = weights or self.plan.weights
         with self.context.gl:
             aovs = self._tracer.aov_images()
             mean, noise, state = mixed(self.film, weights)

@@ -25,7 +25,8 @@ SMALL = ("--width", "24", "--height", "16", "--samples", "4")
 KEYS = [
     *("scene", "width", "height", "samples", "bounces", "method", "caustics", "seed"),
     *("pipeline", "context", "renderer", "seconds", "samples_per_second"),
-    *("error", "error_doubtful", "nonfinite", "peak_bytes", "triangles", "assets"),
+    *("error", "error_doubtful", "denoised_error", "denoised_error_high", "nonfinite"),
+    *("peak_bytes", "triangles", "assets"),
 ]
 
 

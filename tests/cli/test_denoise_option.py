@@ -5,9 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from glrt.analysis.method_choice import caustics, search
 from glrt.cli.main import main
 from glrt.denoise import oidn
+from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
+from glrt.image.sources import load
+from glrt.settings import Settings
 
 SMALL = ["render", "cornell", "--width", "16", "--height", "12", "--bounces", "3"]
 NLM = [*SMALL, "--denoise", "nlm"]
@@ -99,3 +103,14 @@ def test_a_picture_that_ended_too_early_says_so(
     assert "the picture is not denoised: that takes 64 samples at least" in capsys.readouterr().err
     assert image.recipe
     assert image.recipe.taken.denoise == "none"
+
+
+def test_pilots_and_trials_measure_plain_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A denoiser would gather guides there, and refuse as few samples as a pilot takes."""
+    seen = []
+    monkeypatch.setattr(caustics, "Renderer", lambda _, settings, *__, **___: seen.append(settings))
+    wanted = Settings(denoise="nlm", aov=("depth",))
+    with pytest.raises(AttributeError):  # there is no renderer to release
+        caustics._picture(load("cornell"), wanted, Context.__new__(Context))
+    seen.append(search._small_frame(wanted))
+    assert [(found.denoise, found.aov) for found in seen] == [("none", ())] * 2

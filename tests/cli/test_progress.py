@@ -24,7 +24,7 @@ def renderer(samples: int, error: float) -> Any:
     image = SimpleNamespace(error=error)
     settings = SimpleNamespace(block=16)
     work = float(samples)
-    return SimpleNamespace(samples=samples, work=work, settings=settings, image=lambda: image)
+    return SimpleNamespace(samples=samples, work=work, settings=settings, plain_image=lambda: image)
 
 
 def told(clock: dict[str, float], limits: Limits, samples: int, begun: int = 0) -> dict[str, Any]:
@@ -85,13 +85,13 @@ def test_looks_at_the_error_take_a_twentieth_of_the_time(clock: dict[str, float]
     """A large film takes seconds to read back."""
     looks: list[float] = []
 
-    def image() -> Any:
+    def plain_image() -> Any:
         looks.append(clock["seconds"])
         clock["seconds"] += 3.0
         return SimpleNamespace(error=0.2)
 
     large: Any = SimpleNamespace(
-        samples=1, work=1.0, image=image, settings=SimpleNamespace(block=16)
+        samples=1, work=1.0, plain_image=plain_image, settings=SimpleNamespace(block=16)
     )
     forecast = Forecast(Limits(400))
     for _ in range(1000):

@@ -152,12 +152,11 @@ def _unseen(plain: Image, other: Image) -> float:
 
 
 def _small(settings: Settings, pixels: int) -> Settings:
-    """Settings for the whole frame in so many pixels at most, without AOVs."""
+    """Settings for the whole frame in so many pixels at most, without AOVs and denoiser."""
     scale = min(1.0, math.sqrt(pixels / (settings.width * settings.height)))
     width, height = (max(1, int(scale * n)) for n in (settings.width, settings.height))
-    return settings_for(
-        settings, width=width, height=height, crop=None, aov=(), samples=SAMPLES, seed=SEED
-    )
+    frame: dict[str, Any] = {"width": width, "height": height, "crop": None}
+    return settings_for(settings, **frame, aov=(), denoise="none", samples=SAMPLES, seed=SEED)
 
 
 def _picture(scene: Scene, settings: Settings, context: Context) -> Image:

@@ -113,9 +113,9 @@ def _always(_renderer: Renderer | None) -> bool:
 def _small_frame(settings: Settings) -> Settings:
     """Settings for the whole frame in HEIGHT rows, or in which the crop has some HEIGHT^2 pixels.
 
-    Without AOVs, which cost time and tell nothing here.
+    Without AOVs and denoiser, which cost time and tell nothing here.
     """
-    own = settings_for(settings, aov=())
+    own = settings_for(settings, aov=(), denoise="none")
     most = math.sqrt(MOST_WIDE / (settings.width * settings.height))
     if settings.crop is None:
         scale = HEIGHT * min(1 / settings.height, most)

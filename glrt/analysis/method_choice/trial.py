@@ -31,7 +31,14 @@ MOST_TRIED = 16 * SAMPLES  # the same, where the variance is not yet known preci
 MOST_WORK = 2e9  # of the larger pictures of a method: some 3 s on one core of llvmpipe
 SEEDS = (0x53554646, 0x53554647)
 LIMITS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256)
-OF_FRAME = ("width", "height", "crop", "seed", "aov")  # settings that a trial has its own of
+OF_FRAME = (
+    "width",
+    "height",
+    "crop",
+    "seed",
+    "aov",
+    "denoise",
+)  # settings that a trial has its own of
 LEADER = "mis"  # the method whose bounces are measured
 _EXTRA_LIMITS = 4  # tried beyond the first that suffices: more bounces may need fewer samples
 _SIGMAS = 2.0  # half width of intervals, in standard errors
