@@ -15,7 +15,7 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.scene.values import LARGEST, SMALLEST, Vector
 from glrt.view.file_watch import Watch
-from glrt.view.files import Files
+from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
 from glrt.view.state.controls import replaced
 from glrt.view.state.error_history import Progress
@@ -52,6 +52,7 @@ class App:
     selected: int | None = None  # number of an object
     is_to_be_seen: bool = False  # what is selected, in the panel
     asked: Question | None = None  # that is on the screen
+    leave: Callable[[], object] = nothing  # closes the window
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
     zoom: Zoom = FIT
     inspects: bool = False  # the pixel under the mouse

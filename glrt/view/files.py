@@ -16,7 +16,7 @@ from glrt.rendering.path_values import PixelPaths
 from glrt.scene.catalog import MODELS
 from glrt.scene.scene import Scene
 from glrt.scene.toml_writer import scene_with, write_scene
-from glrt.settings import RenderSettings, settings_for
+from glrt.settings import RenderSettings, Settings, settings_for
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.memo import kept_for_the_same
@@ -51,6 +51,7 @@ class Files:
     scene_path: str = field(init=False)
     watch: Watch | None = field(init=False)  # of the scene file, if the scene came from one
     saved: Scene = field(init=False)  # as the file has it, or as it was opened
+    written: Scene = field(init=False)  # with its camera and settings
     recent: tuple[str, ...] = field(init=False)
     dialogs: Dialogs = field(default_factory=Dialogs)
 
@@ -66,9 +67,10 @@ class Files:
 
     @property
     def title(self) -> str:
-        """Of the window: what is open, and a star for what is not saved."""
+        """Of the window: what is open, and a star where a save would write something else."""
         name = Path(self.source).name if self.source else "recipe"
-        return f"{printable(name)}{' *' if self.is_changed else ''} - glrt"
+        is_other = _is_other(self.written, self.session.scene, self.session.settings)
+        return f"{printable(name)}{' *' if is_other else ''} - glrt"
 
     def open(self, source: str) -> None:
         """Another scene, or the scene, view and settings of a picture."""
@@ -127,8 +129,13 @@ class Files:
         """A scene that came from a file is saved there again, and another one elsewhere."""
         self.source, self.watch = source, watch_for(source)
         self.scene_path = source if self.watch else unused("scene.toml")
-        self.saved = self.session.scene
+        self._mark_saved()
         self._remember(source)
+
+    def _mark_saved(self) -> None:
+        """What there is now is in a file."""
+        self.saved = self.session.scene
+        self.written = scene_with(self.saved, self.session.settings)
 
     def _remember(self, source: str) -> None:
         recent = with_opened(self.recent, source) if source else self.recent
@@ -151,8 +158,9 @@ class Files:
         """The scene as its file has it now; the camera and the settings stay."""
         with self.messages.telling():
             found, lost = load(self.source), "; undo brings your edits back" * self.is_changed
-            self.saved, self.session.problem = found, ""
+            self.session.problem = ""
             self.session.edit(replaced(found, camera=self.session.scene.camera))
+            self.saved, self.written = found, scene_with(found, self.session.settings)
             self.messages.tell(f"Read {self.source} again{lost}")
 
     def save_scene(self, path: str = "") -> bool:
@@ -166,7 +174,7 @@ class Files:
             self.messages.complain(str(error))
             return False
         self.source, self.watch = str(file), watch_for(str(file))
-        self.saved = self.session.scene
+        self._mark_saved()
         self._remember(self.source)
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
         self.messages.tell(f"Saved {_where(file)}{lost}")
@@ -250,6 +258,14 @@ def _where(file: Path) -> str:
     """The name of a file, and its folder."""
     whole = file.absolute()
     return f"{whole.name} in {whole.parent}"
+
+
+@kept_for_the_same
+def _is_other(written: Scene, scene: Scene, settings: Settings) -> bool:
+    whole = scene_with(scene, settings)
+    return _differs(written, scene) or any(
+        getattr(written, part) != getattr(whole, part) for part in ("camera", "render")
+    )
 
 
 @kept_for_the_same

@@ -140,6 +140,7 @@ class Window:
             shaders=Watch(shader_files()),
         )
         self.app.messages.complain(problem)
+        self.app.leave = self._leave
         self._native = Native(self.app.files.drop)
 
     def _render(self) -> None:
@@ -193,6 +194,7 @@ class Window:
             self._styled = wanted
             hello_imgui.apply_theme(THEMES[wanted[0]])
             imgui.get_style().font_scale_main = wanted[1]
+            _make_opaque(imgui.Col_.popup_bg)
             imgui.get_style().frame_border_size = 1.0  # a light box on a light ground has an edge
 
     def _ask(self) -> None:
@@ -205,7 +207,7 @@ class Window:
         """Whether the window closes at once when the user wishes it; else that is asked."""
         is_agreed = not self.app.files.is_changed
         if not is_agreed:
-            self.app.files.close(self._leave)
+            self.app.files.close(self.app.leave)
         return is_agreed
 
     def _leave(self) -> None:
@@ -228,6 +230,12 @@ def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.Docka
     part.label, part.dock_space_name, part.gui_function = label, place, draw
     part.can_be_closed = False
     return part
+
+
+def _make_opaque(part: imgui.Col_) -> None:
+    """A list over other text is read alone."""
+    color = imgui.get_style().color_(part)
+    imgui.get_style().set_color_(part, (color.x, color.y, color.z, 1.0))
 
 
 def _opengl(version: int) -> hello_imgui.OpenGlOptions:

@@ -8,7 +8,9 @@ from typing import Any
 import pytest
 from imgui_bundle import ImVec2, imgui
 
+from glrt.image.sources import load
 from glrt.resources import folder
+from glrt.settings import Settings
 from glrt.view.files import Files
 from glrt.view.messages import SHOWN, Messages
 from glrt.view.panels import viewport
@@ -103,7 +105,7 @@ def test_arrows_in_an_open_list_leave_the_camera_alone(io: imgui.IO, is_open: bo
 
 def files(folder: Path, source: str = "") -> Files:
     """What is open, without a session's renderer."""
-    session: Any = SimpleNamespace(scene=None, problem="")
+    session: Any = SimpleNamespace(scene=load("cornell"), problem="", settings=Settings())
     recent = folder / "recent.json"
     return Files(session, Messages(session), source, recent, lambda _: None, lambda _: None)
 

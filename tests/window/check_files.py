@@ -165,6 +165,9 @@ def a_scene_file_is_saved_by_its_key_with_its_comments(hand: Hand) -> None:
     hand.there(partial(app.files.open, str(file)))
     hand.there(lambda: hand.session.edit(**SMALL))
     hand.settle()
+    assert title(hand) == "own.toml * - glrt"  # another size
+    assert not app.files.is_changed  # but nothing is asked for that
+    press(hand, imgui.Key.s, CTRL)
     assert title(hand) == "own.toml - glrt"
     hand.there(partial(app.add, "sphere"))
     hand.ctx.yield_(2)

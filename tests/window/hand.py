@@ -95,7 +95,7 @@ class Hand:
             self.session.rest = None  # no other process, but where a check wants it
             app.preferences = self._preferences
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
-            app.files.saved = self.session.scene
+            app.files._mark_saved()
             app.files.dialogs.close()
             app.messages.question, app.messages.told = None, -math.inf
             app.paths.forget()

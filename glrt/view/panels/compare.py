@@ -4,7 +4,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.panels.widgets import button, edited
+from glrt.view.panels.widgets import button, edited, tip
 from glrt.view.state.controls import Control
 from glrt.view.viewport.views import HELP, VIEWS
 
@@ -28,13 +28,19 @@ def draw_compare(app: App) -> None:
     show = app.show
     if button("keep this picture", bool(app.picture.name)):
         app.keep()
+    tip("Keep the picture as A: a line parts it from the one that is edited, B, to its right")
     imgui.same_line()
     if button("forget it", show.kept is not None):
         show.forget()
+        show.view = "picture" if show.view == "difference" else show.view
     if not show.kept:
         return
     imgui.set_next_item_width(hello_imgui.em_size(9.5))
     _, show.wipe = imgui.slider_float("wipe", show.wipe, 0.0, 1.0, "%.2f")
     _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
+    tip(
+        "What the edits since change, pixel by pixel. A is rendered again at the seeds and samples "
+        "of B, so that the noise of both is the same and drops out: that takes as long as B did."
+    )
     if is_difference != (show.view == "difference"):
         show.view = "difference" if is_difference else "picture"

@@ -26,7 +26,7 @@ def draw_files(app: App) -> None:
     has_picture = app.session.samples > 0
     files.picture_path, entered = _path("save", files.picture_path, "picture.png, or .exr, .npy")
     imgui.same_line()
-    if button("save", has_picture) or (entered and has_picture):
+    if button("save picture", has_picture) or (entered and has_picture):
         files.ask_save_picture(files.picture_path)
     tip("The picture as shown, with its recipe; .exr holds radiance and its standard error")
     if has_picture and _browse("save"):

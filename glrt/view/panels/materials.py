@@ -115,6 +115,8 @@ def _removes(unused: list[str]) -> bool:
 
 def _values(app: App, name: str, material: Material) -> None:
     """Its values, and its cone and textures if it has some."""
+    if isinstance(material, Light):
+        imgui.text_disabled("its emission and intensity stand under Light")
     changes = edited_fields(_controls(material), dict(material), f"material {name}")
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))

@@ -62,6 +62,7 @@ def _pixel(app: App, found: PixelPaths) -> None:
 
 def _samples(app: App, found: PixelPaths) -> None:
     """Those that carry most light; a click shows one."""
+    imgui.text_disabled("samples by their share of its light")
     for path in found.paths:
         share = percent(found.shares[path.sample])
         is_shown = app.paths.shown is path

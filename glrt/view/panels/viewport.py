@@ -41,6 +41,7 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key do
     "save_scene": lambda app: app.files.save_again(),
     "save_scene_as": lambda app: app.files.browse_scene(),
     "save": lambda app: app.files.save_picture(),
+    "quit": lambda app: app.files.close(app.leave),
 }
 _LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
 _EVERY_BUTTON = int(
@@ -50,6 +51,7 @@ _EVERY_BUTTON = int(
 )
 _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
 _CHOOSE = "click a pixel to see its paths"
+_FRAMED = 4.0  # pixels of the screen: a pixel that is as large gets a frame when it is read
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 _NOTICE = (0.0, 0.0, 0.0, 0.65)
 
@@ -83,6 +85,8 @@ def draw_viewport(app: App) -> None:
         draw_legend(app.show, app.camera, app.progress.last, low, seen[2])
     for line, notice in enumerate(filter(None, _notices(app))):
         _notice(notice, ImVec2(*seen[:2]) + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+    if app.inspects:
+        _pixel_values(app, seen)
 
 
 def _share_under_mouse(app: App) -> tuple[float, float]:
@@ -96,12 +100,36 @@ def _notices(app: App) -> tuple[str, ...]:
     """What is told in the picture, a line each; "" for nothing."""
     return (
         app.show.notice(app.session),
-        app.paths.busy or _CHOOSE * app.paths.is_choosing,
-        "old picture, until the new one has a sample" if app.show.is_old else "",
+        app.paths.busy or _CHOOSE * (app.paths.is_choosing and not app.paths.found),
+        "old picture, until the new one has a sample" if _is_old(app) else "",
         "paused" if app.session.paused else "",
         app.messages.recent(time.perf_counter()),
-        "\n".join(told_pixel(app, *_share_under_mouse(app))) if app.inspects else "",
     )
+
+
+def _is_old(app: App) -> bool:
+    """Whether what is on the screen lacks the last edit, and is no preview of it."""
+    return app.show.is_old and not app.show.is_surface
+
+
+def _pixel_values(app: App, seen: Rectangle) -> None:
+    """What the pixel under the mouse holds, on the other side of the picture; and its frame."""
+    share = _share_under_mouse(app)
+    lines = told_pixel(app, *share)
+    if not lines:
+        return
+    left, top, _, height = seen
+    is_low = imgui.get_io().mouse_pos.y < top + height / 2
+    room = (len(lines) + 1) * imgui.get_text_line_height() + imgui.get_font_size()
+    below = top + height - room if is_low else top + 3.0 * imgui.get_font_size()
+    _notice("\n".join(lines), ImVec2(left, below))
+    columns, rows = app.session.settings.size
+    pixel = app.rectangle[2] / columns, app.rectangle[3] / rows
+    if pixel[0] >= _FRAMED:
+        x = app.rectangle[0] + math.floor(share[0] * columns) * pixel[0]
+        y = app.rectangle[1] + math.floor(share[1] * rows) * pixel[1]
+        color = imgui.get_color_u32(_OUTLINE[1])
+        imgui.get_window_draw_list().add_rect((x, y), (x + pixel[0], y + pixel[1]), color)
 
 
 def _outline(app: App) -> None:

@@ -9,7 +9,7 @@ Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
     | Literal["fit", "one_to_one", "inspect", "paths"]
-    | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save"]
+    | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
 
@@ -35,6 +35,7 @@ DEFAULTS: Bindings = {
     "save_scene": ("ctrl+s",),
     "save_scene_as": ("ctrl+shift+s",),
     "save": ("ctrl+e",),
+    "quit": ("ctrl+q",),
 }
 MEANING: dict[Action, str] = {
     "forward": "walk forward",
@@ -58,6 +59,7 @@ MEANING: dict[Action, str] = {
     "save_scene": "save the scene",
     "save_scene_as": "save the scene as",
     "save": "save the picture",
+    "quit": "close the window",
 }
 
 
