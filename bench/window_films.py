@@ -1,7 +1,7 @@
 """Animations of the window for the documentation: `python -m bench.window_films FILM FILE.webp`.
 
-`editor` adds a metal ball to a room; `paths` shows why a pixel on the floor is bright. Without a
-display a virtual X server, Xvfb, is used.
+`editor` adds a metal ball to a room; `paths` shows why a pixel on the floor is bright; `pair` sets
+ten bounces beside one. Without a display a virtual X server, Xvfb, is used.
 """
 
 import argparse
@@ -68,6 +68,26 @@ def paths(window: Any, frames: Frames) -> Script:
         yield from shown(window, frames)
 
 
+def pair(window: Any, frames: Frames) -> Script:
+    """Ten bounces and one: behind a line, side by side, swapped."""
+    app = window.app
+    yield from shown(window, frames)
+    app.keep()
+    app.session.edit(bounces=1)
+    app.pair.go_on(True)
+    for change in (
+        lambda: None,
+        lambda: setattr(app.show, "wipe", 0.75),
+        lambda: setattr(app.pair, "is_beside", True),
+        app.pair.swap,
+    ):
+        change()
+        yield
+        while not app.pair.is_done:
+            yield
+        yield from shown(window, frames)
+
+
 def shown(window: Any, frames: Frames) -> Script:
     """Wait for the picture; then the window as it is."""
     yield from frames_until_done(window)
@@ -78,7 +98,15 @@ def shown(window: Any, frames: Frames) -> Script:
     frames.append(shot.resize(SIZE, Image.Resampling.LANCZOS))
 
 
-FILMS: dict[str, Callable[[Any, Frames], Iterator[None]]] = {"editor": editor, "paths": paths}
+FILMS: dict[str, Callable[[Any, Frames], Iterator[None]]] = {
+    "editor": editor,
+    "paths": paths,
+    "pair": pair,
+}
+    "editor": editor,
+    "paths": paths,
+    "pair": pair,
+}
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - file_browser: a file dialog inside the window
 - file_dialogs: file dialogs of the desktop, or of the window
 - viewport: what is drawn of a picture, and moves of the camera
+- pair: the picture A, which goes on beside B
 - messages: what the window tells and asks
 - files: what is open, and where it is saved
 - app: what the window's parts share

@@ -17,6 +17,7 @@ from glrt.scene.values import LARGEST, SMALLEST, Vector
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
+from glrt.view.pair import Pair
 from glrt.view.state.controls import replaced
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
@@ -51,6 +52,7 @@ class App:
     shaders: Watch
     selected: int | None = None  # number of an object
     is_to_be_seen: bool = False  # what is selected, in the panel
+    pair: Pair = field(init=False)
     asked: Question | None = None  # that is on the screen
     leave: Callable[[], object] = nothing  # closes the window
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
@@ -69,6 +71,7 @@ class App:
     def __post_init__(self, source: str) -> None:
         """Know what was opened."""
         self.paths = PathExplorer(self.session.context)
+        self.pair = Pair(self.session, self.show, self.restart)
         recent = self.preferences_file.with_name("recent.json")
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model
@@ -232,7 +235,9 @@ class App:
     def advance(self) -> None:
         """A frame's work: edits, samples, and what is shown of them."""
         try:
-            self.show.advance(self.session, self.pace.seconds, self.preferences.samples_per_frame)
+            count = self.preferences.samples_per_frame
+            self.show.holds = self.pair.advance(self.pace.seconds, count)
+            self.show.advance(self.session, self.pace.seconds, count)
             self.show.draw(self.session)
             self.paths.advance()
         except GlrtError as error:  # no room for a second film, or a shader that somebody edits
@@ -252,6 +257,7 @@ class App:
     def look(self, now: float) -> None:
         """Estimate the error where that is due."""
         with self.messages.telling():
+            self.pair.look(now)
             look = self.progress.follow(self.session, now)
             self.show.mean = look.mean if look else self.show.mean
 

@@ -173,7 +173,8 @@ class Window:
         """Whether a frame would show what is on the screen."""
         now = time.perf_counter()
         self._poll(now)
-        is_done = self.app.show.is_done(self.app.session) and not self.app.paths.is_waiting
+        is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
+        is_done = is_done and not self.app.paths.is_waiting
         return is_done and not self._interruption.signal and self._tells(now) == self._told
 
     def _tells(self, now: float) -> tuple[object, ...]:
@@ -215,6 +216,7 @@ class Window:
 
     def _close(self) -> None:
         self.app.keep_preferences()
+        self.app.pair.go_on(False)
         self.app.show.release()
         self.app.paths.release()
         self.app.files.dialogs.close()

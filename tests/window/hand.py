@@ -101,6 +101,8 @@ class Hand:
             app.paths.forget()
             app.pivot, app.selected = app.camera.look_at, None
             app.zoom, app.inspects = FIT, False
+            app.pair.go_on(False)
+            app.pair.is_beside, app.pair.pairing = False, "equal time"
             app.show.forget()
             app.show.view, app.show.wipe = "picture", 0.5
 

@@ -22,5 +22,6 @@ Modules, each importing only what stands above it:
 - path_overlay: paths over the picture, and from outside
 - pixel_paths: what the paths of a pixel tell
 - panel: all subjects of the panel
+- pair_images: A and B on the screen
 - viewport: the picture, the mouse and the keys
 """

@@ -1,16 +1,28 @@
 """The parts of the panel that choose a view, and keep a picture to compare with."""
 
+from typing import get_args
+
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.app import App
+from glrt.view.pair import Pairing
 from glrt.view.panels.widgets import button, edited, tip
-from glrt.view.state.controls import Control
+from glrt.view.state.controls import Control, switch
 from glrt.view.viewport.views import HELP, VIEWS
 
 VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, VIEWS)
 _MOST = "the difference, relative to the kept picture, that is shown in the strongest colour"
 MOST = Control("strongest", "number", _MOST, Cost.FREE, "1", 0.001, 10.0, (0.01, 2.0))
+
+_GOES_ON = (
+    "Let A gather samples too, by the scene and settings that it was kept with, in turns with B; "
+    "both begin anew, and the plot shows both errors over their own time"
+)
+GOES_ON = switch("A_goes_on", _GOES_ON, Cost.RECOMPILE)
+_PAIRING = "what A and B have in common: seconds of rendering, or samples of each pixel"
+PAIRING = Control("pairing", "choice", _PAIRING, Cost.FREE, "", None, None, None, get_args(Pairing))
+BESIDE = switch("side_by_side", "A to the left of B, instead of a line between them", Cost.FREE)
 
 
 def draw_view(app: App) -> None:
@@ -23,6 +35,21 @@ def draw_view(app: App) -> None:
         app.show.most = app.show.most if most is None else most
 
 
+def _slot(app: App) -> None:
+    """Whether A goes on, and how it is set beside B."""
+    goes_on = edited(GOES_ON, app.pair.slot is not None)
+    if goes_on is not None:
+        app.pair.go_on(goes_on)
+    if app.pair.slot:
+        pairing = edited(PAIRING, app.pair.pairing)
+        app.pair.pairing = app.pair.pairing if pairing is None else pairing
+    beside = edited(BESIDE, app.pair.is_beside)
+    app.pair.is_beside = app.pair.is_beside if beside is None else beside
+    if button("swap A and B"):
+        app.pair.swap()
+    tip("Go on editing A; what is edited now becomes A. Both begin anew; undo brings B back")
+
+
 def draw_compare(app: App) -> None:
     """Keep a picture; wipe between it and the current one, or show the difference."""
     show = app.show
@@ -33,8 +60,10 @@ def draw_compare(app: App) -> None:
     if button("forget it", show.kept is not None):
         show.forget()
         show.view = "picture" if show.view == "difference" else show.view
+        app.pair.go_on(False)
     if not show.kept:
         return
+    _slot(app)
     imgui.set_next_item_width(hello_imgui.em_size(9.5))
     _, show.wipe = imgui.slider_float("wipe", show.wipe, 0.0, 1.0, "%.2f")
     _, is_difference = imgui.checkbox("show the difference", show.view == "difference")

@@ -10,6 +10,7 @@ from glrt.methods.light_layers import Plan
 from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.pair import Slot
 from glrt.view.panels.widgets import tip
 from glrt.view.state.error_history import Look, Progress
 from glrt.view.state.session import Session
@@ -26,7 +27,7 @@ def draw_figures(app: App) -> None:
     if imgui.begin_table("figures", columns, imgui.TableFlags_.sizing_stretch_same.value):
         imgui.table_next_column()
         for line in figures(app):
-            imgui.text(line)
+            imgui.text_wrapped(line)
         _kernel(app)
         imgui.table_next_column()
         _plot(app)
@@ -46,9 +47,18 @@ def figures(app: App) -> list[str]:
         f"error {told_error(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
+    if app.pair.slot:
+        lines.append(_told_slot(app.pair.slot))
     if progress.last and progress.last.nonfinite:
         lines.append(f"{progress.last.nonfinite:,} samples were not finite and were dropped")
     return lines
+
+
+def _told_slot(slot: Slot) -> str:
+    """The samples of A, its seconds and its error."""
+    session, last = slot.session, slot.progress.last
+    error = f"error {told_error(last)}" if last else "error unknown"
+    return session.busy or f"A: {session.samples} samples in {session.rendering:.1f} s, {error}"
 
 
 def forecast(progress: Progress, target: float, samples: int) -> str:
@@ -139,7 +149,7 @@ def _plot(app: App) -> None:
     implot.setup_axes("seconds of rendering", "error")
     implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
     implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
-    limits = app.progress.limits()
+    limits = _limits(app)
     for axis, ticks in (
         (implot.ImAxis_.x1, {tick: f"{tick:g}" for tick in _ticks(*limits[:2])}),
         (implot.ImAxis_.y1, {tick: f"{100 * tick:g} %" for tick in _ticks(*limits[2:])}),
@@ -148,11 +158,25 @@ def _plot(app: App) -> None:
     implot.setup_axes_limits(*limits, implot.Cond_.always.value)
     if len(app.progress.relit) > 1:
         _line("before relight", app.progress.relit)
+    if app.pair.slot and len(app.pair.slot.progress.drawn) > 1:
+        _line("A", app.pair.slot.progress.drawn)
     if len(looks) > 1:
-        _line("error", looks)
+        _line("B" if app.pair.slot else "error", looks)
         along, down = app.progress.slope()
         implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
     implot.end_plot()
+
+
+def _limits(app: App) -> tuple[float, float, float, float]:
+    """Of both pictures, where A goes on."""
+    own = app.progress.limits()
+    if not app.pair.slot or len(app.pair.slot.progress.drawn) < 2:
+        return own
+    other = app.pair.slot.progress.limits()
+    if len(app.progress.drawn) < 2:
+        return other
+    first, last, least, most = zip(own, other, strict=True)
+    return min(first), max(last), min(least), max(most)
 
 
 def _line(name: str, looks: list[Look]) -> None:

@@ -12,6 +12,13 @@ from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import told_pixel
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.legend import draw_legend
+from glrt.view.panels.pair_images import (
+    draw_beside,
+    draw_image,
+    draw_notice,
+    draw_wipe,
+    draw_wipe_handle,
+)
 from glrt.view.panels.path_overlay import draw_outside, draw_paths
 from glrt.view.state.keys import Action, Move
 from glrt.view.state.zoom import Rectangle, common
@@ -53,29 +60,34 @@ _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
 _CHOOSE = "click a pixel to see its paths"
 _FRAMED = 4.0  # pixels of the screen: a pixel that is as large gets a frame when it is read
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
-_NOTICE = (0.0, 0.0, 0.0, 0.65)
 
 
 def draw_viewport(app: App) -> None:
     """The content of the window that holds the picture."""
     settings = app.session.settings
     here, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    has_kept = bool(app.pair.picture) and app.show.drawn == "picture"
+    if has_kept and app.pair.is_beside:
+        room = ImVec2(room.x / 2, room.y)
+        here = here + ImVec2(room.x, 0)
     left, top, width, height = app.zoom.placed((room.x, room.y), (settings.width, settings.height))
     corner = here + ImVec2(left, top)
     app.rectangle = (corner.x, corner.y, width, height)
     seen = common(app.rectangle, (here.x, here.y, max(room.x, 1.0), max(room.y, 1.0)))
     if app.picture.name:
-        _image(app, seen, app.picture.name)
-    is_wiped = bool(app.picture.kept_name) and app.show.drawn == "picture"
-    if is_wiped:
-        _wipe(app, seen)
+        draw_image(app, app.rectangle, seen, app.picture)
+    is_wiped = has_kept and not app.pair.is_beside
+    if has_kept and app.pair.is_beside:
+        draw_beside(app, seen, room.x)
+    elif is_wiped:
+        draw_wipe(app, seen)
     _outline(app)
     draw_paths(app, seen)
     draw_gizmo(app, corner.x, corner.y, width, height)
     draw_outside(app, seen)
     if not is_held(app):  # a button below the handles would keep the mouse from them
         if is_wiped:
-            _wipe_handle(app)
+            draw_wipe_handle(app)
         imgui.set_cursor_screen_pos(ImVec2(*seen[:2]))
         imgui.invisible_button("picture", ImVec2(max(seen[2], 1), max(seen[3], 1)), _EVERY_BUTTON)
         _mouse(app, here, room)
@@ -84,7 +96,7 @@ def draw_viewport(app: App) -> None:
     if app.show.drawn != "picture":
         draw_legend(app.show, app.camera, app.progress.last, low, seen[2])
     for line, notice in enumerate(filter(None, _notices(app))):
-        _notice(notice, ImVec2(*seen[:2]) + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+        draw_notice(notice, ImVec2(*seen[:2]) + ImVec2(0, 2.4 * line * imgui.get_font_size()))
     if app.inspects:
         _pixel_values(app, seen)
 
@@ -122,7 +134,7 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
     is_low = imgui.get_io().mouse_pos.y < top + height / 2
     room = (len(lines) + 1) * imgui.get_text_line_height() + imgui.get_font_size()
     below = top + height - room if is_low else top + 3.0 * imgui.get_font_size()
-    _notice("\n".join(lines), ImVec2(left, below))
+    draw_notice("\n".join(lines), ImVec2(left, below))
     columns, rows = app.session.settings.size
     pixel = app.rectangle[2] / columns, app.rectangle[3] / rows
     if pixel[0] >= _FRAMED:
@@ -151,48 +163,6 @@ def _outline(app: App) -> None:
 
 
 _edges = kept_for_the_same(outline)
-
-
-def _image(app: App, seen: Rectangle, name: int) -> None:
-    """A picture, or the part of it that is seen: where it is magnified, with sharp pixels."""
-    (left, top, width, height), painter = app.rectangle, imgui.get_window_draw_list()
-    columns, rows = app.picture.size
-    if app.zoom.scale and app.zoom.scale > 1 and min(seen[2:]) >= 1:
-        across, down = columns / width, rows / height
-        part = (seen[0] - left) * across, (seen[1] - top) * down, seen[2] * across, seen[3] * down
-        is_kept = name == app.picture.kept_name
-        name = app.picture.part(part, (round(seen[2]), round(seen[3])), is_kept)
-        left, top, width, height = seen
-    end = (left + width, top + height)
-    painter.add_image(imgui.ImTextureRef(name), (left, top), end, (0, 1), (1, 0))  # row 0 is low
-
-
-def _wipe(app: App, seen: Rectangle) -> None:
-    """The kept picture over the left part, and the line where it ends."""
-    left, top, width, height = app.rectangle
-    share = app.show.wipe
-    painter, edge = imgui.get_window_draw_list(), math.floor(left + share * width) + 0.5
-    painter.push_clip_rect((left, top), (edge, top + height), True)
-    _image(app, seen, app.picture.kept_name)
-    painter.pop_clip_rect()
-    black, white = (imgui.get_color_u32((c, c, c, 1.0)) for c in (0.0, 1.0))
-    for color, thickness in ((black, 3.0), (white, 1.0)):  # seen on any picture
-        painter.add_line((edge, top), (edge, top + height), color, thickness)
-    for name, x in (("A", edge - imgui.get_font_size() * 1.6), ("B", edge)):
-        _notice(name, ImVec2(x, top + height - imgui.get_font_size() * 2.4))
-
-
-def _wipe_handle(app: App) -> None:
-    """Takes the mouse near the line, to drag it."""
-    left, top, width, height = app.rectangle
-    grip = imgui.get_font_size() * 0.7
-    imgui.set_cursor_screen_pos(ImVec2(left + app.show.wipe * width - grip / 2, top))
-    imgui.invisible_button("wipe", ImVec2(grip, height))
-    if imgui.is_item_hovered() or imgui.is_item_active():
-        imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ew.value)
-    if imgui.is_item_active():
-        share = (imgui.get_io().mouse_pos.x - left) / width
-        app.show.wipe = min(max(share, 0.0), 1.0)
 
 
 def draw_keys(app: App) -> None:
@@ -264,16 +234,6 @@ def _clicks(app: App) -> None:
 def _was_dragged() -> bool:
     moved = imgui.get_io().mouse_drag_max_distance_sqr[0]
     return bool(moved > imgui.get_io().mouse_drag_threshold ** 2)
-
-
-def _notice(text: str, corner: ImVec2) -> None:
-    """A line of text over the picture."""
-    margin = ImVec2(imgui.get_font_size() * 0.6, imgui.get_font_size() * 0.4)
-    painter, at = imgui.get_window_draw_list(), corner + margin
-    painter.add_rect_filled(
-        at, at + imgui.calc_text_size(text) + margin + margin, imgui.get_color_u32(_NOTICE), 4.0
-    )
-    painter.add_text(at + margin, imgui.get_color_u32((1.0, 1.0, 1.0, 1.0)), text)
 
 
 def _is_held(app: App, action: Action) -> bool:

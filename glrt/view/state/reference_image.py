@@ -30,6 +30,11 @@ class ReferenceImage:
         self._asked: Plan | None = None
         self._answer: Weights | None = None
 
+    def take(self, state: State) -> None:
+        """Another picture in the place of this one, which was rendered from `state`."""
+        self.rest()
+        self.state, self._asked, self._answer = state, None, None
+
     def fits(self, other: Renderer) -> bool:
         """Whether the pictures have one size."""
         return (self.state.settings.width, self.state.settings.height) == other.size

@@ -28,6 +28,7 @@ class PictureView:
     most: float = 0.5  # relative difference that has the strongest colour
     wipe: float = 0.5  # share of the picture's width that shows the kept one
     kept: ReferenceImage | None = None
+    holds: bool = False  # the picture gets no samples: the frame is another one's
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
     is_surface: bool = False  # in place of the picture: the first surface under simple light
@@ -48,7 +49,8 @@ class PictureView:
         session.aov = aov_of(self.view)
         renderer = session.renderer
         kept = self._compared(session)
-        session.waits = bool(kept and renderer and kept.samples(renderer) < session.samples)
+        is_ahead = kept and renderer and kept.samples(renderer) < session.samples
+        session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
         if kept and session.renderer:
             kept.catch_up(session.renderer, seconds if session.waits else seconds / 2)
