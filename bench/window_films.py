@@ -103,10 +103,6 @@ FILMS: dict[str, Callable[[Any, Frames], Iterator[None]]] = {
     "paths": paths,
     "pair": pair,
 }
-    "editor": editor,
-    "paths": paths,
-    "pair": pair,
-}
 
 
 def main(arguments: list[str] | None = None) -> int:
