@@ -8,12 +8,14 @@ from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.pair import Pairing
 from glrt.view.panels.widgets import button, edited, tip
-from glrt.view.state.controls import Control, switch
+from glrt.view.state.controls import Control, choice, switch
 from glrt.view.viewport.views import HELP, VIEWS
 
-VIEW = Control("view", "choice", HELP, Cost.FREE, "", None, None, None, VIEWS)
+VIEW = choice("view", HELP, Cost.FREE, VIEWS)
 _MOST = "the difference, relative to the kept picture, that is shown in the strongest colour"
-MOST = Control("strongest", "number", _MOST, Cost.FREE, "1", 0.001, 10.0, (0.01, 2.0))
+MOST = Control(
+    "strongest", "number", _MOST, Cost.FREE, unit="1", low=0.001, high=10.0, slider=(0.01, 2.0)
+)
 
 _GOES_ON = (
     "Let A gather samples too, by the scene and settings that it was kept with, in turns with B; "
@@ -21,7 +23,7 @@ _GOES_ON = (
 )
 GOES_ON = switch("A_goes_on", _GOES_ON, Cost.RECOMPILE)
 _PAIRING = "what A and B have in common: seconds of rendering, or samples of each pixel"
-PAIRING = Control("pairing", "choice", _PAIRING, Cost.FREE, "", None, None, None, get_args(Pairing))
+PAIRING = choice("pairing", _PAIRING, Cost.FREE, get_args(Pairing))
 BESIDE = switch("side_by_side", "A to the left of B, instead of a line between them", Cost.FREE)
 
 

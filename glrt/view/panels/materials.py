@@ -15,7 +15,7 @@ from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.widgets import beside, button, edited, edited_fields, named, tip
-from glrt.view.state.controls import Control, controls_of, switch
+from glrt.view.state.controls import Control, choice, controls_of, switch
 from glrt.view.state.scene_edits import (
     unused_materials,
     with_cone,
@@ -35,17 +35,7 @@ _WAYS = ("color", "preset", "ior", "k")  # in which metal may say what it reflec
 _DOWN = (0.0, -1.0, 0.0)
 CONE = switch("cone", "light a cone of directions alone: a spot", Cost.RECOMPILE)
 _REFLECTS = "how it is said what the metal reflects: by a colour, a measured metal, or its index"
-REFLECTS = Control(
-    "reflects",
-    "choice",
-    _REFLECTS,
-    Cost.RECOMPILE,
-    "",
-    None,
-    None,
-    None,
-    ("color", "preset", "ior"),
-)
+REFLECTS = choice("reflects", _REFLECTS, Cost.RECOMPILE, ("color", "preset", "ior"))
 TINTED = switch("tinted", "let the inside of the glass absorb light", Cost.RECOMPILE)
 NESTS = switch("nests", "give the glass a priority over other glass", Cost.RECOMPILE)
 _OPTIONS: dict[Control, dict[str, Any]] = {  # what begins where a switch is turned on
@@ -53,8 +43,8 @@ _OPTIONS: dict[Control, dict[str, Any]] = {  # what begins where a switch is tur
     NESTS: {"priority": 0},
 }
 _TYPE = "what kind of surface it is; the values that both kinds have stay"
-TYPE = Control("type", "choice", _TYPE, Cost.RECOMPILE, "", None, None, None, tuple(TYPES))
-MATERIAL = Control("material", "choice", _MATERIAL, Cost.RECOMPILE, "", None, None, None)
+TYPE = choice("type", _TYPE, Cost.RECOMPILE, tuple(TYPES))
+MATERIAL = choice("material", _MATERIAL, Cost.RECOMPILE)
 
 
 def draw_material(app: App, index: int, shape: Shape) -> None:

@@ -15,7 +15,7 @@ CHOOSING = switch(
     "a click in the picture traces the samples of that pixel again, and shows their paths",
     Cost.FREE,
 )
-SAMPLE = Control("sample", "integer", "which sample is shown, from 0", Cost.FREE, "", 0, None, None)
+SAMPLE = Control("sample", "integer", "which sample is shown, from 0", Cost.FREE, low=0)
 _LEGEND = {
     "path": "the path",
     "escape": "leaves the scene",

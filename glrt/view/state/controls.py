@@ -34,10 +34,10 @@ class Control:
     kind: Kind
     help: str
     cost: Cost
-    unit: str
-    low: float | None
-    high: float | None
-    slider: tuple[float, float] | None
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+    slider: tuple[float, float] | None = None
     choices: tuple[str, ...] = ()
     reach: tuple[float, Cost] | None = None  # up to which an edit has this cost; and that beyond
 
@@ -87,7 +87,12 @@ def control_of_items(model: type[BaseModel], field: str) -> Control:
 
 def switch(name: str, help_text: str, cost: Cost) -> Control:
     """A control for what is on or off, and is no field of a model."""
-    return Control(name, "switch", help_text, cost, "", None, None, None)
+    return Control(name, "switch", help_text, cost)
+
+
+def choice(name: str, help_text: str, cost: Cost, choices: tuple[str, ...] = ()) -> Control:
+    """A control for one of several words, which is no field of a model."""
+    return Control(name, "choice", help_text, cost, choices=choices)
 
 
 def replaced(value: Model, **changes: Any) -> Model:
