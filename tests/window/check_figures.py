@@ -20,7 +20,7 @@ def told_in_the_picture() -> Iterator[list[str]]:
     """What is written over the picture."""
     told: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(viewport, "_notice", lambda text, corner: told.append(text))
+        patch.setattr(viewport, "draw_notice", lambda text, corner: told.append(text))
         yield told
 
 
