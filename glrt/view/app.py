@@ -251,6 +251,7 @@ class App:
 
     def keep(self) -> None:
         """Keep the picture as A, to compare it with what comes."""
+        self.pair.go_on(False)
         with self.messages.telling():
             self.show.keep(self.session)
 

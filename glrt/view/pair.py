@@ -5,6 +5,7 @@ from typing import Literal
 
 import moderngl
 
+from glrt.errors import GlrtError
 from glrt.settings import Settings
 from glrt.view.state.edited import State
 from glrt.view.state.error_history import Progress
@@ -87,7 +88,11 @@ class Pair:
             return False
         has_turn = slot.has_turn(self._session, self.pairing)
         if has_turn:
-            slot.advance(seconds, count)
+            try:
+                slot.advance(seconds, count)
+            except GlrtError:  # told once: B goes on alone
+                self.go_on(False)
+                raise
         slot.draw(self._session.settings)
         return has_turn
 

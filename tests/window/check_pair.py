@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from glrt.view.pair import Pair
+from glrt.errors import RenderError
+from glrt.view.pair import Pair, Slot
 from glrt.view.state.session import Session
 from tests.window.gestures import move
 from tests.window.hand import Hand, check
@@ -141,6 +142,36 @@ def what_is_known_of_a_stands_beside_what_is_known_of_b(hand: Hand) -> None:
     assert any(line.startswith("A: ") and "error" in line for line in figures(hand.window.app))
     forget(hand)
     assert not any(line.startswith("A: ") for line in figures(hand.window.app))
+
+
+@check
+def a_picture_that_is_kept_anew_ends_the_one_before(hand: Hand) -> None:
+    pair = keep_and_go_on(hand)
+    hand.ctx.item_click("//Controls/keep this picture")
+    hand.ctx.yield_(2)
+    assert pair.slot is None
+    kept = hand.window.app.show.kept
+    assert kept
+    assert kept.state.settings.bounces == 1
+    forget(hand)
+
+
+@check
+def without_room_for_a_b_goes_on_alone(hand: Hand) -> None:
+    pair, session = keep_and_go_on(hand), hand.session
+
+    def refused(*_: object) -> None:
+        raise RenderError("no room for a second film")
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Slot, "advance", refused)
+        patch.setattr(Slot, "has_turn", lambda *_: True)
+        hand.until(lambda: pair.slot is None)
+    assert session.problem == "no room for a second film"
+    session.problem = ""
+    before = session.samples
+    hand.until(lambda: session.samples > before)
+    forget(hand)
 
 
 def forget(hand: Hand) -> None:
