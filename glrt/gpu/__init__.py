@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - glsl: shader files put together into what the driver gets
 - struct_arrays: how a kernel reads an array: constants, uniform block or texture
 - program: a compiled program, its blocks and images bound by name
+- canvas: a texture that is drawn on
 - shared: buffers and textures with several users
 - evaluate: single GLSL functions over arrays
 - driver_checks: what the driver really does: loop limit, rounding, `precise`

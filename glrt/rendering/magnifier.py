@@ -2,6 +2,7 @@
 
 import moderngl
 
+from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 
@@ -15,7 +16,7 @@ class Magnifier:
         """Nothing is compiled before it is needed."""
         self._gl = gl
         self._program: moderngl.Program | None = None
-        self._texture: moderngl.Texture | None = None
+        self._canvas = Canvas(gl)
 
     def draw(
         self,
@@ -28,19 +29,17 @@ class Magnifier:
         The texture that is returned is valid until the next call; its row 0 is the lowest.
         """
         program = self._program or self._compile()
-        if self._texture is None or self._texture.size != size:
-            self._allocate(size)
-        assert self._texture
         picture.use(0)
         program["picture"] = 0
         program["corner"], program["extent"] = part[:2], part[2:]
-        with self._gl.scope(self._target):
+        with self._gl.scope(self._canvas.sized(size)):
             self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
-        return self._texture
+        assert self._canvas.texture
+        return self._canvas.texture
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self._free()
+        self._canvas.release()
         if self._program:
             self._quad.release()
             self._program.release()
@@ -50,14 +49,3 @@ class Magnifier:
         self._program = drawing(self._gl, *stages)
         self._quad = self._gl.vertex_array(self._program, [])
         return self._program
-
-    def _allocate(self, size: tuple[int, int]) -> None:
-        self._free()
-        self._texture = self._gl.texture(size, 4)
-        self._target = self._gl.framebuffer([self._texture])
-
-    def _free(self) -> None:
-        if self._texture:
-            self._target.release()
-            self._texture.release()
-        self._texture = None

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import moderngl
 import numpy as np
 
+from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 from glrt.image.film_state import FilmState, empty_state, keep
@@ -76,7 +77,7 @@ class Mixer:
         """Nothing is compiled before it is needed."""
         self._gl = gl
         self._program: moderngl.Program | None = None
-        self._texture: moderngl.Texture | None = None
+        self._canvas = Canvas(gl, "f4")
 
     def draw(
         self, film: Film, weights: Weights, particles: moderngl.Texture | None = None
@@ -88,9 +89,6 @@ class Mixer:
         if are_trivial(weights) and not particles:
             return film.mean
         program = self._program or self._compile()
-        texture = self._texture
-        if texture is None or texture.size != film.size:
-            texture = self._allocate(film.size)
         film.mean.use(0)
         program["mean"] = 0
         if film.layers:
@@ -102,13 +100,14 @@ class Mixer:
             program["particles"] = 2
         program["layer_count"] = film.extent.layers
         program["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
-        with self._gl.scope(self._target):
+        with self._gl.scope(self._canvas.sized(film.size)):
             self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
-        return texture
+        assert self._canvas.texture
+        return self._canvas.texture
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self._free()
+        self._canvas.release()
         if self._program:
             self._quad.release()
             self._program.release()
@@ -121,15 +120,3 @@ class Mixer:
         self._program = drawing(self._gl, vertex, fragment)
         self._quad = self._gl.vertex_array(self._program, [])
         return self._program
-
-    def _allocate(self, size: tuple[int, int]) -> moderngl.Texture:
-        self._free()
-        self._texture = self._gl.texture(size, 4, dtype="f4")
-        self._target = self._gl.framebuffer([self._texture])
-        return self._texture
-
-    def _free(self) -> None:
-        if self._texture:
-            self._target.release()
-            self._texture.release()
-        self._texture = None

@@ -9,6 +9,7 @@ from glrt.view.app import App
 from glrt.view.panels.path_overlay import COLORS
 from glrt.view.panels.widgets import beside, button, edited, tip
 from glrt.view.state.controls import Control, switch
+from glrt.view.viewport.path_lines import Kind
 
 CHOOSING = switch(
     "choose_a_pixel",
@@ -16,7 +17,7 @@ CHOOSING = switch(
     Cost.FREE,
 )
 SAMPLE = Control("sample", "integer", "which sample is shown, from 0", Cost.FREE, low=0)
-_LEGEND = {
+_LEGEND: dict[Kind, str] = {
     "path": "the path",
     "escape": "leaves the scene",
     "sampled": "to a point on a lamp",
@@ -79,7 +80,7 @@ def _path(path: Path) -> None:
     if path.contributions:
         _table("lights", light_rows(path), (0, 1, 2, 3, 4, 6, 7))
     for kind, meaning in _LEGEND.items():
-        imgui.text_colored(COLORS[kind], "---")  # type: ignore[index]
+        imgui.text_colored(COLORS[kind], "---")
         imgui.same_line(hello_imgui.em_size(2.5))
         imgui.text_disabled(meaning)
 

@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.gpu.canvas import Canvas
 from glrt.rendering.display import Display
 from glrt.rendering.magnifier import Magnifier
 from glrt.settings import Settings
@@ -20,9 +21,13 @@ class Picture:
         """Compile the display pass; there is no picture yet."""
         self._gl = gl
         self._display = Display(gl)
-        self._texture: moderngl.Texture | None = None
+        self._canvas = Canvas(gl)
         self._kept: moderngl.Texture | None = None
         self._magnifiers = Magnifier(gl), Magnifier(gl)
+
+    @property
+    def _texture(self) -> moderngl.Texture | None:
+        return self._canvas.texture
 
     @property
     def name(self) -> int:
@@ -42,12 +47,11 @@ class Picture:
         self, size: tuple[int, int], draw: Callable[[], None], is_preview: bool = False
     ) -> None:
         """Let something draw the whole picture."""
-        if self._texture is None or self._texture.size != size:
-            self._allocate(size)
+        target = self._canvas.sized(size)
         assert self._texture
         magnify = moderngl.LINEAR if is_preview else moderngl.NEAREST
         self._texture.filter = (moderngl.LINEAR, magnify)
-        with self._gl.scope(self._target):
+        with self._gl.scope(target):
             draw()
 
     def codes(self) -> NDArray[np.uint8]:
@@ -74,7 +78,7 @@ class Picture:
         if self._texture:
             self._kept = self._gl.texture(self._texture.size, 4)
             target = self._gl.framebuffer([self._kept])
-            self._gl.copy_framebuffer(target, self._target)
+            self._gl.copy_framebuffer(target, self._canvas.sized(self.size))
             target.release()
 
     def forget(self) -> None:
@@ -95,15 +99,4 @@ class Picture:
         for magnifier in self._magnifiers:
             magnifier.release()
         self.forget()
-        self._free()
-
-    def _allocate(self, size: tuple[int, int]) -> None:
-        self._free()
-        self._texture = self._gl.texture(size, 4)
-        self._target = self._gl.framebuffer([self._texture])
-
-    def _free(self) -> None:
-        if self._texture:
-            self._target.release()
-            self._texture.release()
-        self._texture = None
+        self._canvas.release()
