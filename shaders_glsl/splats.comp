@@ -5,6 +5,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "structs/scene.glsl"
 #include "scene_arrays.glsl"
 #include "sampling/unit_float.glsl"
+#include "film/finite.glsl"
 #include "film/pixel.glsl"
 #include "film/splat_unit.glsl"
 #include "passes/tiles.glsl"

@@ -42,6 +42,7 @@
 #include "integrators/roulette.glsl"
 #include "integrators/path_state.glsl"
 #include "integrators/path.glsl"
+#include "film/finite.glsl"
 #include "film/pixel.glsl"
 #include "film/halves.glsl"
 #include "integrators/samples.glsl"

@@ -21,12 +21,6 @@ Pixel pixel_of(vec4 mean, vec4 variance) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
 }
 
-// By its bits: drivers may assume that no NaN exists and fold isnan away.
-bool is_finite(vec3 x) {
-    uvec3 exponent = floatBitsToUint(x) & uvec3(0x7F800000u);
-    return all(notEqual(exponent, uvec3(0x7F800000u)));
-}
-
 // The mean of `count` samples from that of all but x, m += (x - m) / n: a mix of m and x would
 // drift (its weights do not add up to 1 in floating point). A late step is a few units in the last
 // place of m; rounded the same way every time it would pull the mean of an edge, where samples

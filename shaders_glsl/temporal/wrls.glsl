@@ -1,0 +1,54 @@
+// Weighted recursive least squares: radiance of a pixel as a linear function of its own history.
+// Iglesias-Guitian, Mane, Moon, "Real-Time Denoising of Volumetric Path Tracing for Direct Volume
+// Rendering" (2020), with guards: weights are never 0, the covariance is bounded, and what is not
+// finite begins anew.
+
+const float FEATURE_SHARE = 0.75;   // of the feature before in the one after, a frame later
+const float WEIGHT_WIDTH = 0.75;    // h: relative distance at which a sample's weight is 1 / e
+const float LEAST_RADIANCE = 1e-4;  // added where distances are taken relative to a radiance
+const float LEAST_WEIGHT = 1e-12;
+
+struct Model {
+    vec3 feature;  // z: radiance, averaged exponentially over frames
+    float views;   // that it has seen
+    Fit fit;
+};
+
+struct Prediction {
+    Model model;
+    vec3 radiance;
+    float weight;  // of the sample
+};
+
+float relative_distance(vec3 a, vec3 b) {
+    precise float least = min(length(a), length(b)) + LEAST_RADIANCE;
+    precise float distance = length(a - b) / least;
+    return distance;
+}
+
+// A sample that is far from its feature is an outlier.
+float sample_weight(vec3 radiance, vec3 feature) {
+    precise float distance = relative_distance(radiance, feature) / WEIGHT_WIDTH;
+    precise float weight = exp(-distance * distance);
+    return max(weight, LEAST_WEIGHT);
+}
+
+Prediction first_prediction(vec3 radiance) {
+    return Prediction(Model(radiance, 1.0, new_fit(radiance)), radiance, 1.0);
+}
+
+// The model after the mean `radiance` of so many `frames` of a view, whose neighbourhood holds values
+// from `lowest` to `highest`. The published predictor is the feature of this view, which holds the
+// sample itself; the delayed one is the feature before.
+Prediction predicted(Model before, vec3 radiance, vec3 lowest, vec3 highest, float frames, bool is_delayed) {
+    precise float kept = exp(log(FEATURE_SHARE) * frames);
+    precise vec3 feature = radiance + kept * (clamp(before.feature, lowest, highest) - radiance);
+    precise vec3 predictor = is_delayed ? before.feature : feature;
+    precise vec4 p = vec4(1.0, predictor);
+    precise float weight = sample_weight(radiance, predictor);
+    precise Fit fit = corrected(before.fit, p, radiance, weight * frames);
+    precise vec3 prediction = fit.slopes * p;
+    bool is_known = is_finite(prediction) && is_finite(feature) && is_finite_fit(fit);
+    if (!is_known) return first_prediction(radiance);
+    return Prediction(Model(feature, before.views + 1.0, fit), prediction, weight);
+}

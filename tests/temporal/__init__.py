@@ -1,0 +1,1 @@
+"""Tests of methods that keep a history of a moving picture."""

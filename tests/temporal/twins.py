@@ -1,0 +1,147 @@
+"""What the temporal methods compute, written anew in numpy: the truth for the shaders.
+
+Arrays hold pixels in their first axis. `dtype` float64 gives the equations, float32 their rounding.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray[Any, Any]
+
+FEATURE_SHARE, FORGETTING, WIDTH, LEAST, DELTA = 0.75, 0.998, 0.75, 1e-4, 1000.0
+LEAST_WEIGHT = 1e-12
+
+
+@dataclass
+class Wrls:
+    """Weighted recursive least squares of n pixels, as the paper has it.
+
+    Without `limit` the trace of the covariance is not bounded; with `width` infinite all samples
+    weigh 1; with `is_constant` the predictor is the constant alone.
+    """
+
+    radiance: Array  # (n, 3): the first sample
+    is_delayed: bool = False
+    limit: bool = True
+    width: float = WIDTH
+    forgetting: float = FORGETTING
+    is_constant: bool = False
+    dtype: Any = np.float64
+    feature: Array = field(init=False)
+    slopes: Array = field(init=False)  # (n, 4, 3)
+    p: Array = field(init=False)
+    weight: Array = field(init=False)
+    error: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        """A model that begins."""
+        first = np.asarray(self.radiance, self.dtype)
+        self.feature = first.copy()
+        self.slopes = np.zeros((len(first), 4, 3), self.dtype)
+        self.slopes[:, 0] = first
+        self._begin(len(first))
+
+    def add(
+        self, radiance: Array, lowest: Any = -np.inf, highest: Any = np.inf, frames: float = 1
+    ) -> Array:
+        """Another view; returns what the model predicts, (n, 3)."""
+        t = self.dtype
+        y = np.asarray(radiance, t)
+        before = self.feature
+        kept = t(FEATURE_SHARE**frames)
+        self.feature = y + kept * (np.clip(before, lowest, highest).astype(t) - y)
+        z = before if self.is_delayed else self.feature
+        ones = np.ones((len(y), 1), t)
+        self.p = np.concatenate([ones, np.zeros_like(z) if self.is_constant else z], axis=1)
+        self.weight = self.weight_of(y, z) * t(frames)
+        self.error = y - np.einsum("npc,np->nc", self.slopes, self.p)
+        self.slopes = self.slopes + self._gain()[:, :, None] * self.error[:, None, :]
+        return np.asarray(np.einsum("npc,np->nc", self.slopes, self.p))
+
+    def weight_of(self, y: Array, z: Array) -> Array:
+        """Of a sample."""
+        t = self.dtype
+        least = np.minimum(_length(y), _length(z)) + t(LEAST)
+        distance = _length(y - z) / least / t(self.width)
+        return np.asarray(np.maximum(np.exp(-distance * distance), t(LEAST_WEIGHT)))
+
+    def _begin(self, n: int) -> None:
+        t = self.dtype
+        self.covariance = np.tile(np.eye(4, dtype=t) * t(DELTA), (n, 1, 1))
+
+    def _gain(self) -> Array:
+        """Of this sample; the covariance is that after it."""
+        t = self.dtype
+        spread = np.einsum("nij,nj->ni", self.covariance, self.p)
+        over = t(self.forgetting) / self.weight + (self.p * spread).sum(axis=1)
+        gain = spread / over[:, None]
+        less = gain[:, :, None] * spread[:, None, :]
+        upper = np.triu((self.covariance - less) / t(self.forgetting))
+        self.covariance = upper + np.triu(upper, 1).swapaxes(1, 2)
+        if self.limit:
+            trace = np.trace(self.covariance, axis1=1, axis2=2)
+            scale = np.minimum(t(1), t(4 * DELTA) / trace)
+            self.covariance = self.covariance * scale[:, None, None]
+        return np.asarray(gain)
+
+
+class FactoredWrls(Wrls):
+    """The same with the covariance as U D U^T, element by element as Bierman writes it."""
+
+    def _begin(self, n: int) -> None:
+        t = self.dtype
+        self.factor = np.tile(np.eye(4, dtype=t), (n, 1, 1))
+        self.spread = np.full((n, 4), t(DELTA))
+
+    def _gain(self) -> Array:
+        t = self.dtype
+        along = np.einsum("nij,ni->nj", self.factor, self.p)
+        scaled = self.spread * along
+        factor, spread, gain = self.factor.copy(), self.spread.copy(), np.zeros_like(scaled)
+        total = t(self.forgetting) / self.weight
+        for j in range(4):
+            after = total + along[:, j] * scaled[:, j]
+            spread[:, j] = self.spread[:, j] * (total / after) / t(self.forgetting)
+            for i in range(j):
+                factor[:, i, j] -= gain[:, i] * (along[:, j] / total)
+                gain[:, i] += self.factor[:, i, j] * scaled[:, j]
+            gain[:, j], total = scaled[:, j], after
+        if self.limit:
+            trace = (spread * np.square(factor).sum(axis=1)).sum(axis=1)
+            spread *= np.minimum(t(1), t(4 * DELTA) / trace)[:, None]
+        self.factor, self.spread = factor, spread
+        return np.asarray(gain / total[:, None])
+
+
+def batch(wrls: Wrls, rows: list[tuple[Array, Array, Array]], first: Array) -> Array:
+    """The same slopes by weighted least squares over all frames at once, (n, 4, 3).
+
+    `rows` hold p, weight and radiance of each frame; what a model begins with counts as
+    observations of its slopes with covariance DELTA.
+    """
+    n, age = len(first), len(rows)
+    prior = np.zeros((n, 4, 3))
+    prior[:, 0] = first
+    left = np.tile(np.eye(4) * wrls.forgetting**age / DELTA, (n, 1, 1))
+    right = left @ prior
+    for index, (p, weight, y) in enumerate(rows):
+        factor = (wrls.forgetting ** (age - 1 - index) * weight)[:, None, None]
+        left = left + factor * p[:, :, None] * p[:, None, :]
+        right = right + factor * p[:, :, None] * y[:, None, :]
+    return np.asarray(np.linalg.solve(left, right))
+
+
+def effective_samples(frames: int, share: float) -> float:
+    """How many independent frames have the variance of an exponential mean of so many.
+
+    The first frame begins it: 1 / sum of squared weights.
+    """
+    weights = [(1 - share) ** (frames - 1)]
+    weights += [share * (1 - share) ** age for age in range(frames - 1)]
+    return 1 / float(np.sum(np.square(weights)))
+
+
+def _length(x: Array) -> Array:
+    return np.asarray(np.sqrt((x * x).sum(axis=1)))
