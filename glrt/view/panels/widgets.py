@@ -74,7 +74,7 @@ def named(label: str, value: str, name: str) -> str:
     flags = imgui.InputTextFlags_.auto_select_all.value
     _, text = imgui.input_text(f"{label}##{name}", value, flags)
     is_done = imgui.is_item_deactivated_after_edit()
-    tag(Cost.RESTART)
+    tag(Cost.FREE)
     return text.strip() if is_done and text.strip() != value else ""
 
 
