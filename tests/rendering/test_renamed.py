@@ -34,7 +34,9 @@ def test_other_names_lose_no_sample(context: Context, layering: Any) -> None:
         assert renderer.update(other) is Cost.FREE
         assert renderer.samples == 8
         assert same_bits(radiance(renderer), before)
-        assert renderer.image().recipe.scene == other
+        recipe = renderer.image().recipe
+        assert recipe
+        assert recipe.scene == other
     with layered(other, context, layering) as fresh:
         assert same_bits(radiance(fresh.render(8)), before)
 
