@@ -16,12 +16,13 @@ Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
 Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
-Aov = Literal["albedo", "normal", "depth", "position", "object"]
+Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces"]
 Denoise = Literal["none", "oidn", "nlm", "auto"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # of a denoiser
+OF_PATHS: tuple[Aov, ...] = ("bounces",)  # AOVs of whole paths, not of first surfaces
 
 
 class Cost(StrEnum):
@@ -128,8 +129,9 @@ class Settings(RenderSettings):
     )
     aov: Annotated[tuple[Aov, ...], Editable(Cost.FREE)] = Field(
         (),
-        description="what else EXR files tell of the first surface behind each pixel: "
-        f"{', '.join(get_args(Aov))}",
+        description="what else EXR files tell of each pixel: of the first surface behind it "
+        f"{', '.join(aov for aov in get_args(Aov) if aov not in OF_PATHS)}; of its paths "
+        f"{', '.join(OF_PATHS)}",
     )
     denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
         "none",

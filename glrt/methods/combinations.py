@@ -42,7 +42,7 @@ MEANINGS: dict[Way, str] = {
     Way.RESUME: "`--resume`: go on from a picture",
     Way.PART: "`--part`: a range of the samples",
     Way.MERGED: "a picture of `glrt merge`, rendered again",
-    Way.AOV: "`--aov`: albedo, normal, depth, position, object",
+    Way.AOV: "`--aov`: albedo, normal, depth, position, object, bounces",
     Way.LAYERS: "a picture relit in the window, and the window's film",
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",

@@ -90,7 +90,8 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         plain = [field.name for field in fields(self) if field.name not in _SETS]
         values = {name.upper(): getattr(self, name) for name in plain}
-        return {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, "COUNT_RAYS": False}
+        counts = {"COUNT_RAYS": False, "COUNT_BOUNCES": False}
+        return {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
 
 
 def everything() -> dict[str, bool | int]:

@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
+from glrt.view.panels.navigation import navigate
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT
@@ -101,6 +102,7 @@ class Hand:
             app.paths.forget()
             app.pivot, app.selected = app.camera.look_at, None
             app.zoom, app.inspects = FIT, False
+            navigate(app, False)
             app.pair.go_on(False)
             app.pair.is_beside, app.pair.pairing = False, "equal time"
             app.show.forget()

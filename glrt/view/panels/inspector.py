@@ -88,7 +88,19 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
         f"radiance {_numbers(found.radiance)}",
         f"standard error {_error(found)}",
         f"on the screen {shown}",
+        *_told_bounces(app, pixel),
     ]
+
+
+def _told_bounces(app: App, pixel: tuple[int, int]) -> list[str]:
+    """How often the paths of a pixel scatter, where that is shown."""
+    renderer = app.session.renderer
+    is_shown = renderer and app.show.drawn == "bounces"
+    found = renderer.aov_pixel("bounces", *pixel) if renderer and is_shown else None
+    if found is None:
+        return []
+    mean, error = (float(values[0]) for values in found)
+    return [f"bounces until the end {mean:.4g}" + (f" +- {error:.2g}" if error >= 0 else "")]
 
 
 def _numbers(values: Array) -> str:

@@ -6,7 +6,7 @@ from glrt.rendering.false_colors import Color, Scale
 from glrt.scene.camera import Camera
 from glrt.view.state.error_history import Look
 from glrt.view.viewport.picture_view import PictureView
-from glrt.view.viewport.views import aov_of, ticks_of, title_of
+from glrt.view.viewport.views import has_scale, ticks_of, title_of
 
 _BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
 _TEXT = (1.0, 1.0, 1.0, 1.0)
@@ -18,7 +18,7 @@ def draw_legend(
 ) -> None:
     """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
     title = title_of(show.drawn, camera)
-    if aov_of(show.drawn):
+    if not has_scale(show.drawn):
         return _draw_title(title, corner)
     if show.drawn == "dropped" and last and not last.nonfinite:
         title = "no sample was dropped"

@@ -13,6 +13,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
@@ -60,6 +61,7 @@ def draw_panel(app: App) -> None:
             imgui.set_next_item_open(True)
         if imgui.collapsing_header(title, flags):
             section(app)
+    ANCHOR.keep()
 
 
 def _problem(app: App) -> None:
@@ -70,6 +72,7 @@ def _problem(app: App) -> None:
         return
     if is_new:
         imgui.set_scroll_y(0.0)
+        ANCHOR.forget()
     _colored(_RED, app.session.problem)
     if imgui.button("dismiss"):
         app.session.problem = ""

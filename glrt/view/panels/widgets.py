@@ -8,6 +8,7 @@ import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.settings import Cost
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.slider_text import Slider, beside_grip, share_of
 from glrt.view.state.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
@@ -42,6 +43,7 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
 def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.set_next_item_width(_width_beside(control.label))
     drawn = _draw(control, label, value)
+    ANCHOR.note()
     tooltip(control)
     _tags(control)
     return drawn
@@ -55,6 +57,7 @@ def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
     imgui.set_next_item_width(room)
     drawn = _draw(control, label, value)
+    ANCHOR.note()
     imgui.pop_clip_rect()
     tooltip(control)
     return drawn
@@ -64,6 +67,7 @@ def button(label: str, is_enabled: bool = True) -> bool:
     """A button, grey where it would do nothing; whether it was pressed."""
     imgui.begin_disabled(not is_enabled)
     pressed = imgui.button(label)
+    ANCHOR.note()
     imgui.end_disabled()
     return pressed
 
@@ -74,7 +78,8 @@ def named(label: str, value: str, name: str) -> str:
     flags = imgui.InputTextFlags_.auto_select_all.value
     _, text = imgui.input_text(f"{label}##{name}", value, flags)
     is_done = imgui.is_item_deactivated_after_edit()
-    tag(Cost.RESTART)
+    ANCHOR.note()
+    tag(Cost.FREE)
     return text.strip() if is_done and text.strip() != value else ""
 
 

@@ -6,6 +6,7 @@ from glrt.gpu.context import Context
 from glrt.image.recipe import Recipe
 from glrt.rendering.path_replay import PathReplay, path_replay
 from glrt.rendering.path_values import Path, PixelPaths
+from glrt.scene.names import less_names
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 
@@ -79,9 +80,9 @@ class PathExplorer:
         """Whether the paths are those of a scene as it is now, whatever its camera."""
         if not self.found:
             return False
-        asked = self.found.recipe.scene
+        asked, now = less_names(self.found.recipe.scene, scene)
         parts = ("objects", "materials", "background", "sun", "lights")
-        return all(getattr(asked, part) == getattr(scene, part) for part in parts)
+        return all(getattr(asked, part) == getattr(now, part) for part in parts)
 
     def forget(self) -> None:
         """Show no paths."""

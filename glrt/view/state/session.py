@@ -16,7 +16,7 @@ from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED
 from glrt.scene.scene import Scene
-from glrt.settings import Aov, Cost, Settings, settings_for
+from glrt.settings import OF_PATHS, Aov, Cost, Settings, settings_for
 from glrt.view.state.edited import State
 from glrt.view.state.grain import FirstSurface
 from glrt.view.state.history import History
@@ -51,6 +51,7 @@ class Session:
         self.waits = False  # for another picture, which is to get as many samples
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
+        self.refused: Aov | None = None  # that cannot be
         self.surface = FirstSurface()
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
@@ -95,10 +96,7 @@ class Session:
 
     @property
     def layering(self) -> Layering:
-        """What the layers of the film are to hold: light groups, or lengths of paths.
-
-        A fragment shader writes to few textures: it keeps none. So does a film too large for them.
-        """
+        """What layers are to hold: none of fragment shaders, or of a film too large for them."""
         return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
 
     @property
@@ -271,7 +269,7 @@ class Session:
 
     def _refuse(self, error: GlrtError) -> None:
         """Tell, and go back to what the renderer has; without one there is nothing to do."""
-        self.problem = str(error)
+        self.problem, self.refused = str(error), self.aov
         self._preview.end()
         if not self.renderer:
             raise error
@@ -287,6 +285,8 @@ class Session:
         if not self.is_behind:
             return None
         wanted = self._wanted().sized(*renderer.settings.size)
+        if not {*wanted.settings.aov} & {*OF_PATHS} <= {*renderer.settings.aov}:
+            return Cost.RECOMPILE  # another kernel of paths
         cost = renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
         is_resized = self._full_size != self.settings.size
         return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost

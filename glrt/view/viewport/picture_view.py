@@ -26,6 +26,7 @@ class PictureView:
     surface: SurfaceView
     view: View = "picture"  # as wanted; see `drawn`
     most: float = 0.5  # relative difference that has the strongest colour
+    bounces: int = 10  # the limit of the paths
     wipe: float = 0.5  # share of the picture's width that shows the kept one
     kept: ReferenceImage | None = None
     holds: bool = False  # the picture gets no samples: the frame is another one's
@@ -39,14 +40,17 @@ class PictureView:
     @property
     def scale(self) -> Scale:
         """Of the view."""
-        return scale_of(self.view, self.most)
+        return scale_of(self.view, self.most, self.bounces)
 
     def advance(self, session: Session, seconds: float, count: int) -> None:
         """A frame's samples; while the kept picture is compared, it gets half of the time.
 
         RenderError if the driver has no room for that.
         """
-        session.aov = aov_of(self.view)
+        if session.refused == self.view:
+            self.view = "picture"
+        session.aov, session.refused = aov_of(self.view), None
+        self.bounces = session.settings.bounces
         renderer = session.renderer
         kept = self._compared(session)
         is_ahead = kept and renderer and kept.samples(renderer) < session.samples
@@ -178,7 +182,7 @@ class PictureView:
 
         def paint() -> None:
             if aov and mean:
-                self.aovs.draw(aov, mean, renderer.scene.camera)
+                self.aovs.draw(aov, mean, renderer.scene.camera, self.bounces)
             elif view == "error":
                 self.colors.draw_error(film, light, weights, self.mean or 0.0)
             elif view == "dropped":
