@@ -166,7 +166,7 @@ def particles_of_a_pixel_are_listed_apart_as_the_command_does(hand: Hand) -> Non
     assert (session.samples, session.restarts) == (samples, restarts)
     path = found.particles.paths[-1]
     before = hand.screen()
-    ctx.item_click(f"//Controls/###p{path.sample}, {path.particle}")
+    ctx.item_click(f"//Controls/###sample {path.sample}, particle {path.particle}")
     ctx.yield_(2)
     assert app.paths.shown is path
     assert (hand.screen() != before).any()

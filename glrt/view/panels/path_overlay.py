@@ -54,7 +54,8 @@ def draw_outside(app: App, seen: Rectangle) -> None:
     if not path or not found:
         return
     side, settings = SHARE * min(seen[2:]), found.recipe.settings
-    is_high = found.pixel[1] >= settings.height / 2  # never in the upper left: there are notices
+    is_toured = app.preferences.tour and app.tour_step is not None  # in the upper right
+    is_high = found.pixel[1] >= settings.height / 2 and not is_toured  # upper left are notices
     is_left = not is_high and found.pixel[0] >= settings.width / 2
     corner = (
         seen[0] if is_left else seen[0] + seen[2] - side,

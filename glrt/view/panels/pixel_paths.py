@@ -98,8 +98,9 @@ def _particles(app: App, found: PixelPaths) -> None:
     imgui.text_disabled("by their share of what particles bring")
     whole = float(there.radiances.sum(dtype="float64")) or 1.0
     for path in there.paths:
-        share, name = percent(sum(path.radiance) / whole), f"{path.sample}, {path.particle}"
-        if imgui.selectable(f"sample {name}: {share}###p{name}", app.paths.shown is path)[0]:
+        share = percent(sum(path.radiance) / whole)
+        name = f"sample {path.sample}, particle {path.particle}"
+        if imgui.selectable(f"{name}: {share}###{name}", app.paths.shown is path)[0]:
             app.paths.shown = path
 
 

@@ -14,6 +14,7 @@ from glrt.view.viewport.difference import GROWTH, Difference, difference_of
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import View, aov_of, scale_of
 
+LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
 
 
@@ -60,7 +61,8 @@ class PictureView:
         session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
         if kept and session.renderer:
-            kept.catch_up(session.renderer, seconds if session.waits else seconds / 2)
+            share = max(seconds, LONGER) if session.is_done else seconds
+            kept.catch_up(session.renderer, share if session.waits else seconds / 2)
         elif self.kept and self.view != "difference":
             self.kept.rest()
 
