@@ -9,6 +9,8 @@ from imgui_bundle import imgui
 from glrt.rendering.path_file import paths_from_json
 from glrt.rendering.path_replay import path_replay, pixel_paths
 from glrt.rendering.path_values import PixelPaths
+from glrt.settings import settings_for
+from glrt.view.state.path_explorer import FOLLOWED
 from tests.window.gestures import press
 from tests.window.hand import SMALL, Hand, check
 
@@ -151,13 +153,16 @@ def particles_of_a_pixel_are_listed_apart_as_the_command_does(hand: Hand) -> Non
     recipe = found.recipe
     assert recipe.settings.caustics == "on"
 
+    followed = min(samples, FOLLOWED)
+
     def again() -> PixelPaths:
-        asked = recipe.scene, recipe.settings, found.pixel, ()
+        settings = settings_for(recipe.settings, samples=followed)
+        asked = recipe.scene, settings, found.pixel, ()
         return pixel_paths(*asked, context=session.context, particles=8)
 
     expected = hand.there(again)
     assert expected.particles
-    assert found.particles.samples == expected.particles.samples == -(-samples // 16) * 16
+    assert found.particles.samples == expected.particles.samples == -(-followed // 16) * 16
     assert found.particles.numbers == expected.particles.numbers
     assert np.array_equal(found.particles.radiances, expected.particles.radiances)
     assert found.particles.paths == expected.particles.paths
