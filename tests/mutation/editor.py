@@ -82,8 +82,8 @@ EDITOR: list[Mutant] = [
     bug(
         "another name restarts the picture",
         _NAMES,
-        "if _names(first) == _names(second):",
-        "if first is not None:",
+        "    if _are_named_alike(first, second):",
+        "    if first is not None:",
         "rendering/test_renamed.py::test_other_names_lose_no_sample",
     ),
     bug(
