@@ -23,6 +23,7 @@ uniform vec3 weights[MOST_LAYERS];
 uniform float dark;           // radiance^2, added so that dark pixels do not rule
 uniform bool is_logarithmic;
 uniform vec2 range;           // the numbers of the first and the last colour
+uniform vec3 colors[COLORS];  // sRGB
 
 in vec2 place;
 out vec4 color;
@@ -82,8 +83,8 @@ float relative_difference(ivec2 texel) {
 }
 
 vec3 color_of(float number) {
-    if (!is_logarithmic) return color_at((number - range.x) / (range.y - range.x));
-    return color_at(log(max(number, range.x) / range.x) / log(range.y / range.x));
+    if (!is_logarithmic) return color_at(colors, (number - range.x) / (range.y - range.x));
+    return color_at(colors, log(max(number, range.x) / range.x) / log(range.y / range.x));
 }
 
 void main() {

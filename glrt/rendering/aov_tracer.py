@@ -200,8 +200,9 @@ def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> i
     rounds = usable_rounds(context, block * iterations)
     if rounds is not None and block * certain > rounds:
         what = f"{block} {'paths' if is_of_paths else 'camera rays'}"
+        which = f"--aov {aovs[0]}" if is_of_paths else "--aov"
         raise SceneError(
-            f"--aov {','.join(aovs)} is beyond this driver's loop limit here: {what} take up to "
+            f"{which} is beyond this driver's loop limit here: {what} take up to "
             f"{block * certain} rounds of its loops, and it stops silently after {rounds}. Leave "
             "it out, use --sampler independent, fewer objects"
             f"{', fewer bounces' if is_of_paths else ''} or a GPU."

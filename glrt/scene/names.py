@@ -1,11 +1,13 @@
 """Scenes without their names, which no light depends on."""
 
-from typing import Any
+from collections.abc import Callable, Collection
+from typing import TypeVar
 
 from glrt.scene.materials import Material, Opaque
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
 from glrt.scene.shapes import Shape
 
+T = TypeVar("T")
 _KEPT = {SKY_GROUP: SKY_GROUP, SUN_GROUP: SUN_GROUP}  # groups of what has no other name
 
 
@@ -15,15 +17,33 @@ def less_names(first: Scene, second: Scene) -> tuple[Scene, Scene]:
     They are equal then if one is the other under other names: title, objects, materials, light
     groups. Numbers are those of the order in the scene, which decides on a kernel's.
     """
-    if _names(first) == _names(second):
+    if _are_named_alike(first, second):
         return first, second
     return _nameless(first), _nameless(second)
 
 
-def _names(scene: Scene) -> list[Any]:
-    objects = [(thing.name, thing.material, thing.group) for thing in scene.objects]
-    groups = [getattr(material, "group", None) for material in scene.materials.values()]
-    return [scene.title, objects, [*scene.materials], groups]
+def _are_named_alike(first: Scene, second: Scene) -> bool:
+    """An edit leaves most objects the very same, of thousands: these are not looked at."""
+    if first.title != second.title or [*first.materials] != [*second.materials]:
+        return False
+    return _alike(first.objects, second.objects, _names_of) and _alike(
+        first.materials.values(), second.materials.values(), _group_of
+    )
+
+
+def _alike(first: Collection[T], second: Collection[T], names: Callable[[T], object]) -> bool:
+    pairs = zip(first, second, strict=False)
+    return first is second or (
+        len(first) == len(second) and all(a is b or names(a) == names(b) for a, b in pairs)
+    )
+
+
+def _names_of(thing: Shape) -> object:
+    return thing.name, thing.material, thing.group
+
+
+def _group_of(material: Material) -> object:
+    return getattr(material, "group", None)
 
 
 def _nameless(scene: Scene) -> Scene:

@@ -1,10 +1,11 @@
-// Colours along a scale, from 0 to 1.
+// Colours along a scale.
 
 const int COLORS = 11;
-uniform vec3 colors[COLORS];  // sRGB
 
-vec3 color_at(float share) {
+// At a share of it, from 0 to 1; colours are sRGB.
+vec3 color_at(vec3 colors[COLORS], float share) {
     precise float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
     int below = min(int(at), COLORS - 2);
-    return mix(colors[below], colors[below + 1], at - float(below));
+    precise vec3 color = colors[below] + (at - float(below)) * (colors[below + 1] - colors[below]);
+    return color;
 }

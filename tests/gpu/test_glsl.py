@@ -185,6 +185,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         *("trace.comp", "paths.comp", "structs/path_records.glsl"),
         *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
+        "passes/color_scale.glsl",
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
         *DISPLAY_STAGES,
     }
@@ -218,7 +219,9 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         assert warnings((COMPUTE, text)) == []
 
 
-@pytest.mark.parametrize("aovs", [("albedo", "normal"), ("depth", "position"), ("object",)])
+@pytest.mark.parametrize(
+    "aovs", [("albedo", "normal"), ("depth", "position"), ("object",), ("bounces",)]
+)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
 def test_aovs_compile_without_a_warning(
     ctx: moderngl.Context, features: str, aovs: tuple[Aov, ...]

@@ -145,9 +145,15 @@ AOVS = [
         "rendering/test_bounces_aov.py::test_roulette_ends_as_many_as_their_chances_say",
     ),
     Mutant(
-        "bounces share a pass with another AOV",
-        host("if aov not in OF_PATHS)\n    yield from (of", "if aov)\n    yield from (of"),
-        "rendering/test_bounces_aov.py::test_ways_and_company_change_no_bit",
+        "what is beyond the limit of bounces has colours of its own",
+        (
+            Edit(
+                "glrt/rendering/aov_view.py",
+                "float(min(max(limit, 1), MOST_BOUNCES))",
+                "float(MOST_BOUNCES)",
+            ),
+        ),
+        "rendering/test_bounces_aov.py::test_colours_reach_from_none_to_the_limit",
     ),
     Mutant(
         "dispatches of bounces are as large as those of camera rays",

@@ -75,7 +75,9 @@ def test_every_kernel_is_within_the_standard(features: str) -> None:
     assert [line for shader in shaders for line in objections(shader)] == []
 
 
-@pytest.mark.parametrize("aovs", [("albedo", "normal"), ("depth", "position"), ("object",)])
+@pytest.mark.parametrize(
+    "aovs", [("albedo", "normal"), ("depth", "position"), ("object",), ("bounces",)]
+)
 def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
     shaders = [
         shader

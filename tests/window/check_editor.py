@@ -149,8 +149,8 @@ def a_widget_stays_where_it_is_when_rows_come_and_go(hand: Hand) -> None:
 @check
 def a_part_that_is_closed_stays_under_the_mouse_and_the_panel_scrolls_freely(hand: Hand) -> None:
     ctx, title = hand.ctx, "//Controls/Compare"
+    ctx.item_open(title)
     ctx.scroll_to_bottom("//Controls")
-    ctx.item_click(title)
     ctx.yield_(3)
     place = ctx.item_info(title).rect_full.min.y
     ctx.item_click(title)

@@ -100,6 +100,7 @@ class Hand:
             app.files.dialogs.close()
             app.messages.question, app.messages.told = None, -math.inf
             app.paths.forget()
+            app.paths.with_particles = False
             app.pivot, app.selected = app.camera.look_at, None
             app.zoom, app.inspects = FIT, False
             navigate(app, False)

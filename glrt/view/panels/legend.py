@@ -11,6 +11,7 @@ from glrt.view.viewport.views import has_scale, ticks_of, title_of
 _BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
 _TEXT = (1.0, 1.0, 1.0, 1.0)
 _TALLEST = 1.0  # of the bar, in heights of the text
+HEIGHT = 4.2  # of all of it, in lines
 
 
 def draw_legend(
@@ -38,7 +39,7 @@ def _draw(title: str, scale: Scale, ticks: dict[float, str], corner: ImVec2, wid
     painter, em = imgui.get_window_draw_list(), hello_imgui.em_size(1)
     line = imgui.get_text_line_height()
     length = min(width - 4 * em, 20 * em)
-    size = ImVec2(length + 4 * em, 4.2 * line)
+    size = ImVec2(length + 4 * em, HEIGHT * line)
     low = corner + ImVec2(0, -size.y)
     painter.add_rect_filled(low, low + size, _code(_BACK))
     painter.add_text(low + ImVec2(1.5 * em, 0.4 * line), _code(_TEXT), title)

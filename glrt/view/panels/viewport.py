@@ -11,7 +11,7 @@ from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import told_pixel
 from glrt.view.panels.key_table import is_choosing, key_named
-from glrt.view.panels.legend import draw_legend
+from glrt.view.panels.legend import HEIGHT, draw_legend
 from glrt.view.panels.navigation import NOTICE, leaves, navigate
 from glrt.view.panels.pair_images import (
     draw_beside,
@@ -136,6 +136,7 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
     left, top, _, height = seen
     is_low = imgui.get_io().mouse_pos.y < top + height / 2
     room = (len(lines) + 1) * imgui.get_text_line_height() + imgui.get_font_size()
+    room += HEIGHT * imgui.get_text_line_height() * (app.show.drawn != "picture")  # of the legend
     below = top + height - room if is_low else top + 3.0 * imgui.get_font_size()
     draw_notice("\n".join(lines), ImVec2(left, below))
     columns, rows = app.session.settings.size

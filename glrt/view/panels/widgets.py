@@ -22,6 +22,7 @@ COLORS = {
 }
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
 LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
+_MOST_ROWS = 14  # of a list that need no scrolling
 _TIP = 28.0  # letters' heights across, of a tooltip
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
@@ -43,7 +44,6 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
 def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.set_next_item_width(_width_beside(control.label))
     drawn = _draw(control, label, value)
-    ANCHOR.note()
     tooltip(control)
     _tags(control)
     return drawn
@@ -57,7 +57,6 @@ def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
     imgui.set_next_item_width(room)
     drawn = _draw(control, label, value)
-    ANCHOR.note()
     imgui.pop_clip_rect()
     tooltip(control)
     return drawn
@@ -93,6 +92,7 @@ def beside(text: str) -> None:
 
 def tip(text: str) -> None:
     """Explain the item drawn last, when the mouse rests on it: in lines that are easily read."""
+    ANCHOR.note()
     if imgui.begin_item_tooltip():
         imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
         imgui.text_unformatted(text)
@@ -165,7 +165,8 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     if control.kind == "switch":
         return imgui.checkbox(label, value)
     if control.kind == "choice":
-        changed, index = imgui.combo(label, control.choices.index(value), list(control.choices))
+        names = list(control.choices)
+        changed, index = imgui.combo(label, names.index(value), names, min(len(names), _MOST_ROWS))
         return changed, control.choices[index]
     if control.kind == "color":
         return _color(control, label, value)

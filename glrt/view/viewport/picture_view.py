@@ -10,9 +10,11 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED, SurfaceView
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
+from glrt.view.viewport.difference import GROWTH, Difference, difference_of
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import View, aov_of, scale_of
 
+LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
 
 
@@ -33,7 +35,9 @@ class PictureView:
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
     is_surface: bool = False  # in place of the picture: the first surface under simple light
+    difference: Difference | None = None  # from the kept picture, where it is shown
     is_old: bool = False  # what is on the screen: it lacks the last edit, which has no sample yet
+    _measured: object = None  # what its difference was taken of, but for samples
     _content: object = None  # what the picture was drawn from
     _restarts: int = 0  # of the session, when it was drawn
 
@@ -57,7 +61,8 @@ class PictureView:
         session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
         if kept and session.renderer:
-            kept.catch_up(session.renderer, seconds if session.waits else seconds / 2)
+            share = max(seconds, LONGER) if session.is_done else seconds
+            kept.catch_up(session.renderer, share if session.waits else seconds / 2)
         elif self.kept and self.view != "difference":
             self.kept.rest()
 
@@ -132,6 +137,8 @@ class PictureView:
             return "The kept picture has another size"
         if kept.busy:
             return kept.busy
+        if self.drawn == "difference" and self.difference:
+            return self.difference.told
         behind = kept.samples(renderer) < session.samples and self.drawn != "difference"
         told = f"{kept.samples(renderer)} of {session.samples} samples"
         return f"Rendering the kept picture again: {told}" if behind else ""
@@ -188,9 +195,19 @@ class PictureView:
             elif view == "dropped":
                 self.colors.draw_dropped(film, light)
             elif other and self.kept:
+                self._measure(session, light, other)
                 self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)
 
         return self.picture.paint(film.size, paint)
+
+    def _measure(self, session: Session, light: moderngl.Texture, other: moderngl.Texture) -> None:
+        """Take the numbers of the difference, which takes longer than to draw it: now and then."""
+        content = session.restarts, session.weights, self.kept
+        known, is_same = self.difference, content == self._measured
+        is_near = known and known.samples <= session.samples < GROWTH * known.samples
+        if not (is_same and is_near) or session.is_done:
+            self.difference = difference_of(light, other, session.samples)
+            self._measured = content
 
     def _draw_surface(self, session: Session, renderer: Renderer) -> None:
         """In place of a coarse picture that is too noisy, once there is something to draw."""
