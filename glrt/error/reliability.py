@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glrt.error.estimate import BAND, DARK, relative_error
+from glrt.error.neighbours import brightest_beside
 from glrt.error.seen_lamps import Seen
 
 Pixels = NDArray[np.float32]
@@ -128,16 +129,6 @@ def _of_rows(values: Pixels, errors: Pixels, top: int, end: int) -> tuple[Array,
     value, error = (part[top:end].astype(np.float64) for part in (values, errors))
     places = (error > 0) & (value > 0) & (value**2 < SURE * error**2)
     certain = values[max(top - 1, 0) : end + 1] - errors[max(top - 1, 0) : end + 1]
-    beside = _brightest_beside(certain)[min(top, 1) :][: len(value)]
+    beside = brightest_beside(certain)[min(top, 1) :][: len(value)]
     squares = np.square(value[places])
     return squares, squares / np.square(error[places]), beside[places] > 0.5 * value[places]
-
-
-def _brightest_beside(values: Pixels) -> Pixels:
-    """Of the eight neighbours of each pixel, by channel; -inf for a picture of one pixel."""
-    height, width = values.shape[:2]
-    framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=-math.inf)
-    found = np.full_like(values, -math.inf)
-    for y, x in ((y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)):
-        np.maximum(found, framed[y : y + height, x : x + width], out=found)
-    return found

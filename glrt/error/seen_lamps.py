@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.error.estimate import DARK
+from glrt.error.neighbours import brightest_beside
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Lambertian, Light
 from glrt.scene.meshes import Mesh
@@ -31,7 +32,9 @@ SMALL = 16  # pixels: a lamp that is not larger may have been met by no sample a
 LARGE = 1 << 18  # pixels: of a lamp that is larger, no pixel of the rim carries the error
 STEPS = 24  # rays along each side of the part of a pixel that may show a lamp
 MORE_STEPS = 96  # where few of them meet it
+CLEAR = 4.0  # times as bright as a pixel, that a lamp beside it is
 ALIKE = 0.25  # of a lamp's light in a pixel, by which other light about it may differ
+MOST_OFF = 3.0  # standard errors by which a sure pixel may be brighter than what is known
 LEAST_HITS = 40  # of a lamp by rays through a pixel: fewer do not tell its share
 SURE = 100  # hits: with more a pixel is known
 PLAIN = (Lambertian, Light)  # materials behind which no lamp is seen
@@ -67,8 +70,8 @@ def seen_lamps(scene: Scene, settings: Settings, radiance: Pixels, stderr: Pixel
     """The pixels that lamps fill in part and few samples lit, and what they show in truth.
 
     `radiance` and `stderr`, (H, W, 3), are the picture that was rendered of the scene. Whatever
-    else a pixel shows is taken from the darkest of the nine about it; where these differ much, or
-    the lamp is hardly brighter, the pixel is left out. So are meshes, lamps with a cone, an image
+    else a pixel shows is taken from the darkest of the nine about it; where these differ much
+    beside what the lamp brings, the pixel is left out. So are meshes, lamps with a cone, an image
     or one side, and pixels where glass or a mirror may show a lamp too.
     """
     shapes = scene.visible
@@ -84,25 +87,34 @@ def seen_lamps(scene: Scene, settings: Settings, radiance: Pixels, stderr: Pixel
     if not kept:
         return nothing
     rows, columns, light, share = zip(*kept, strict=True)
-    return _beside(np.array(rows), np.array(columns), np.array(light), np.array(share), radiance)
+    return _beside(
+        np.array(rows), np.array(columns), np.array(light), np.array(share), radiance, stderr
+    )
 
 
-def _beside(rows: Indices, columns: Indices, light: Array, share: Array, radiance: Pixels) -> Seen:
+def _beside(
+    rows: Indices, columns: Indices, light: Array, share: Array, radiance: Pixels, stderr: Pixels
+) -> Seen:
     """With what lamps leave of each pixel filled by what is darkest around it.
 
-    Where it is not much the same around, or the lamps are not far brighter, nothing is known.
+    Nothing is known where that differs much beside what the lamps bring, and where the picture is
+    sure to be brighter: by other light.
     """
     about = [_around(radiance, y, x) for y, x in zip(rows, columns, strict=True)]
     darkest, usual = (np.array(part) for part in zip(*about, strict=True))
     is_clear = (usual - darkest <= ALIKE * light).all(axis=1)
     truth = light + (1 - share[:, None]) * darkest
+    value, error = (part[rows, columns].astype(np.float64) for part in (radiance, stderr))
+    is_sure = np.square(value) >= SURE * np.square(error)
+    is_clear &= ~(is_sure & (value - truth > MOST_OFF * error)).any(axis=1)
     return Seen(rows[is_clear], columns[is_clear], truth[is_clear])
 
 
 def _around(radiance: Pixels, row: int, column: int) -> tuple[Array, Array]:
-    """The least and the median of a pixel and those beside it, (3,) each."""
+    """The least of a pixel and those beside it, and the third of them, (3,) each."""
     about = radiance[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2].reshape(-1, 3)
-    return about.min(axis=0).astype(np.float64), np.median(about, axis=0).astype(np.float64)
+    ranks = np.sort(about.astype(np.float64), axis=0)
+    return ranks[0], ranks[min(2, len(ranks) - 1)]
 
 
 def _shines(scene: Scene, shape: Shape) -> bool:
@@ -166,9 +178,10 @@ def _candidates(
         if area > LARGE:
             continue
         place = slice(low[1], high[1]), slice(low[0], high[0])
+        is_beside = (brightest_beside(radiance[place]) > CLEAR * radiance[place]).any(axis=2)
         squares = np.square(radiance[place], dtype=np.float64)
         variance = np.square(stderr[place], dtype=np.float64)
-        is_wanted = (squares < SURE * variance).any(axis=2) | (area <= SMALL)
+        is_wanted = (squares < SURE * variance).any(axis=2) | is_beside | (area <= SMALL)
         parts = (variance / np.maximum(squares + floor, 1e-300)).max(axis=2)
         for y, x in np.argwhere(is_wanted):
             found[int(y + low[1]), int(x + low[0])] = float(parts[y, x])
