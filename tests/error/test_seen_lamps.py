@@ -63,8 +63,8 @@ def test_the_edge_of_a_quad_covers_what_it_is_drawn_to() -> None:
     """Its left edge is 0.3 of a pixel inside the pixel in the middle."""
     side = PIXEL * DISTANCE
     corner = [-0.2 * side, -0.5 * side, 0.0]
-    quad = {"shape": "quad", "corner": corner, "edge_u": [0.7 * side, 0, 0]}
-    seen = found(scene({**quad, "edge_v": [0, side, 0], "material": "lamp"}))
+    quad: dict[str, Any] = {"shape": "quad", "corner": corner, "material": "lamp"}
+    seen = found(scene({**quad, "edge_u": [0.7 * side, 0, 0], "edge_v": [0, side, 0]}))
     assert share_of(seen).max() == pytest.approx(0.7, abs=0.02)
 
 
@@ -73,7 +73,7 @@ def test_a_lens_spreads_a_lamp_and_loses_nothing_of_it(
     monkeypatch: pytest.MonkeyPatch, focus: float
 ) -> None:
     monkeypatch.setattr(module, "STEPS", module.MORE_STEPS)  # few rays meet what is blurred
-    lens = {"defocus_angle": 10.0, "focus_distance": focus}
+    lens: dict[str, Any] = {"defocus_angle": 10.0, "focus_distance": focus}
     sharp, blurred = found(scene(BALL)), found(scene(BALL, **lens))
     assert share_of(blurred).sum() == pytest.approx(share_of(sharp).sum(), rel=0.04)
     assert len(blurred.rows) == 1 if focus == DISTANCE else len(blurred.rows) >= 5
@@ -110,7 +110,8 @@ def test_where_the_picture_is_uneven_nothing_is_known() -> None:
     picture[: SIZE // 2] = 100.0
     wanted = Settings(width=SIZE, height=SIZE)
     assert len(seen_lamps(scene(BALL), wanted, picture, picture).rows) == 1
-    picture[: SIZE // 2 + 1] = 100.0
+    picture[SIZE // 2 : SIZE // 2 + 2, SIZE // 2 - 1 : SIZE // 2 + 1] = 100.0
+    picture[SIZE // 2, SIZE // 2 + 1] = 100.0
     assert not len(seen_lamps(scene(BALL), wanted, picture, picture).rows)
 
 
