@@ -11,6 +11,7 @@ from tests.mutation.editor import EDITOR
 from tests.mutation.film import FILM
 from tests.mutation.glass import GLASS
 from tests.mutation.instances import INSTANCES
+from tests.mutation.judging import JUDGING
 from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
@@ -46,4 +47,5 @@ MUTANTS = [
     *PATHS,
     *EDITOR,
     *DENOISING,
+    *JUDGING,
 ]

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.error.estimate import Band, error_band
-from glrt.error.reliability import is_doubtful
-from glrt.methods.light_layers import Weights, are_trivial
+from glrt.error.judgement import judged
+from glrt.methods.light_layers import Plan, Weights, are_trivial
 from glrt.rendering.film import Film
 from glrt.rendering.weighting import mixed
 from glrt.view.state.histogram import DARK, Histogram, histogram
@@ -37,15 +37,15 @@ class Look(NamedTuple):
         return self.band.error
 
 
-def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
-    """Read a film as its light is weighed; None for one that knows no error yet."""
+def look_at(film: Film, plan: Plan, weights: Weights, seconds: float) -> Look | None:
+    """Read a film of a plan as its light is weighed; None for one that knows no error yet."""
     radiance, stderr, _ = mixed(film, weights)
     band = error_band(radiance, stderr)
     if band is None:
         return None
     mean = float(radiance.mean(dtype=np.float64))
-    observations = film.samples // film.extent.block
-    doubt = is_doubtful(radiance, stderr, observations) if are_trivial(weights) else None
+    picture = (film.samples, radiance, stderr)
+    doubt = judged(plan.scene, plan.settings, *picture) if are_trivial(weights) else None
     return Look(film.samples, seconds, band, mean, film.dropped(), doubt, histogram(radiance))
 
 
@@ -70,7 +70,7 @@ class Progress:
             return None  # of fewer samples no error is known, and reading them takes time
         if not self.is_due(session.samples, now, session.is_done):
             return None
-        look = look_at(renderer.film, session.weights, session.rendering)
+        look = look_at(renderer.film, renderer.plan, session.weights, session.rendering)
         self.record(look, now)
         return look
 
