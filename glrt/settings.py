@@ -111,7 +111,7 @@ class Settings(RenderSettings):
         le=0.98,
     )
     linked: Annotated[float, Editable(Cost.RESTART, "", (0, 1))] = Field(
-        0.0,
+        1.0,
         description="the share of the particles that is linked to the camera through single "
         "spheres of smooth glass or metal, too; 0: none",
         ge=0,

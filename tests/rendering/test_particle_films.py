@@ -21,7 +21,7 @@ from tests.support.images import same_bits
 from tests.support.renders import rendered, same
 
 SCENE = ROOMS["a lens"]
-OPTIONS: dict[str, Any] = {"caustics": "on", "bounces": 4, "sampler": "sobol"}
+OPTIONS: dict[str, Any] = {"caustics": "on", "linked": 0.0, "bounces": 4, "sampler": "sobol"}
 SIZE: dict[str, Any] = {"width": 16, "height": 12, **OPTIONS}
 
 

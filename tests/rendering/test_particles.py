@@ -21,7 +21,7 @@ from tests.support.builders import box_of_quads, disk, glass, lamp, quad, scene_
 from tests.support.images import same_bits
 from tests.support.renders import assert_agree, rendered, rendering, same
 
-ON: dict[str, Any] = {"caustics": "on"}
+ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
 CAMERA = {"position": [0, 0, 0.9], "look_at": [0, -0.3, -1], "fov": 80}
 MATERIALS: dict[str, dict[str, Any]] = {
     "matte": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},

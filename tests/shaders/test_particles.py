@@ -13,7 +13,7 @@ from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
 from tests.support.numerics import Array, directions
 
 FILES = ("integrators/particle_start.glsl", "integrators/camera_links.glsl")
-ON: dict[str, Any] = {"caustics": "on"}
+ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
 MATERIALS = {"glass": glass(), "lamp": lamp(2.0), "matte": MATTE}
 FLAT = quad([-0.5, 1, -3.5], [1, 0, 0], [0, 0, 0.8], "lamp")
 ROUND = sphere([0.2, 1, -3], 0.3, "lamp")
