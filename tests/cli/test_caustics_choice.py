@@ -154,7 +154,7 @@ def test_parts_decide_alike_and_merge(folder: Path) -> None:
         (BALL, ("--caustics", "off")),
         (BALL, ("--caustics", "on")),
         ("methods/diffuse", ()),
-        ("water", ()),
+        ("methods/mesh", ()),
     ],
 )
 def test_no_pilot_and_no_error(

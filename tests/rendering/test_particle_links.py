@@ -12,7 +12,6 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import Schedule, rounds_for_particles
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
-from tests.rendering.test_particles import BALL, LAMP, MATERIALS, ROOMS, room
 from tests.support.builders import (
     box,
     box_of_quads,
@@ -26,6 +25,7 @@ from tests.support.builders import (
 )
 from tests.support.images import same_bits
 from tests.support.meshes import icosphere, mesh
+from tests.support.particle_rooms import BALL, LAMP, MATERIALS, ROOMS, room
 from tests.support.renders import assert_agree, rendered, rendering, same
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}

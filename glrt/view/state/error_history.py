@@ -9,8 +9,7 @@ import numpy as np
 from glrt.error.estimate import Band, error_band
 from glrt.error.reliability import is_doubtful
 from glrt.methods.light_layers import Weights, are_trivial
-from glrt.rendering.film import Film
-from glrt.rendering.weighting import mixed
+from glrt.rendering.renderer import Renderer
 from glrt.view.state.histogram import DARK, Histogram, histogram
 from glrt.view.state.session import Session
 
@@ -37,9 +36,10 @@ class Look(NamedTuple):
         return self.band.error
 
 
-def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
-    """Read a film as its light is weighed; None for one that knows no error yet."""
-    radiance, stderr, _ = mixed(film, weights)
+def look_at(renderer: Renderer, weights: Weights, seconds: float) -> Look | None:
+    """Read a picture as its light is weighed; None for one that knows no error yet."""
+    film = renderer.film
+    radiance, stderr = renderer.picture(weights)
     band = error_band(radiance, stderr)
     if band is None:
         return None
@@ -70,7 +70,7 @@ class Progress:
             return None  # of fewer samples no error is known, and reading them takes time
         if not self.is_due(session.samples, now, session.is_done):
             return None
-        look = look_at(renderer.film, session.weights, session.rendering)
+        look = look_at(renderer, session.weights, session.rendering)
         self.record(look, now)
         return look
 
