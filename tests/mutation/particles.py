@@ -178,15 +178,6 @@ PARTICLES = [
         _LIGHT,
     ),
     Mutant(
-        "particles stop at glass within glass",
-        edit(
-            _PARTICLES,
-            "HAS_NESTED && passes(self.path, surface, material, side > 0.0)",
-            "false",
-        ),
-        _LIGHT,
-    ),
-    Mutant(
         "all particles are on the first layer",
         edit(_LINKS, "min(BY_LENGTH ? length : self.layer, LAYERS - 1)", "0"),
         f"{_LAYERS}::test_a_group_alone_is_the_scene_with_the_other_one_dark",
