@@ -98,8 +98,8 @@ class Settings(RenderSettings):
     )
     caustics: Annotated[Caustics, Editable(Cost.RECOMPILE)] = Field(
         "off",
-        description="on: particles from spheres and quads that shine, too, linked to the camera at "
-        "matte surfaces and weighted with the paths from the camera: less noise where light comes "
+        description="on: particles from lamps and the sun, too, linked to the camera at matte "
+        "surfaces and weighted with the paths from the camera: less noise where light comes "
         "through glass or by mirrors",
     )
     particles: Annotated[float, Editable(Cost.RESTART, "", (0.02, 2))] = Field(
@@ -107,12 +107,13 @@ class Settings(RenderSettings):
     )
     aimed: Annotated[float, Editable(Cost.RESTART, "", (0, 0.98))] = Field(
         0.5,
-        description="the share of the particles that is aimed at spheres of smooth glass or metal",
+        description="the share of the particles that is aimed at spheres of smooth glass or metal, "
+        "and at balls around boxes, cylinders and meshes of these",
         ge=0,
         le=0.98,
     )
     linked: Annotated[float, Editable(Cost.RESTART, "", (0, 1))] = Field(
-        0.0,
+        1.0,
         description="the share of the particles that is linked to the camera through single "
         "spheres of smooth glass or metal, too; 0: none",
         ge=0,

@@ -14,6 +14,7 @@ Modules, each importing only what stands above it:
 - pack_tree: the tree over shapes, a packer of leaves for each kind
 - pack_lights: lamps as rows of the kernel's blocks
 - pack_maps: images on surfaces, and where they lie on shapes
+- pack_particles: what particles from lamps read
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values
 - texel_texture: the texels of images on surfaces

@@ -26,7 +26,7 @@ from glrt.rendering.path_recorder import TOGETHER, PathRecorder, Pixel
 from glrt.rendering.path_records import particle_of, paths_of
 from glrt.rendering.path_values import NUMBERS, Path, PixelParticles, PixelPaths
 from glrt.rendering.pipelines import KernelOptions, Tier
-from glrt.rendering.tracer import dispatch_limits
+from glrt.rendering.schedule import dispatch_limits
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Settings

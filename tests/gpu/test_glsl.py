@@ -244,7 +244,7 @@ def test_other_passes_compile_without_a_warning(
     ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
     assert ctx.version_code >= 430
-    constants = {**FEATURE_SETS[features], "CASTERS": 5, "LINKED": 5}
+    constants = {**FEATURE_SETS[features], "CASTERS": 5, "LINKED": 5, "TARGETS": 2}
     (compute,) = sources("compute", constants, WRITTEN, render_pass)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []

@@ -88,7 +88,7 @@ def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
 
 
 def test_particles_and_records_of_paths_are() -> None:
-    constants = {**EVERYTHING, "CASTERS": 5, "LINKED": 5}
+    constants = {**EVERYTHING, "CASTERS": 5, "LINKED": 5, "TARGETS": 2}
     for render_pass in (PARTICLES, SPLATS, PATHS):
         (shader,) = sources("compute", constants, written_for(), render_pass)
         assert list(objections(shader)) == []

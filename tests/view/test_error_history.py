@@ -141,10 +141,10 @@ def test_a_look_tells_what_the_picture_tells(context: Context) -> None:
     with rendering(everything(), context) as renderer:
         renderer.render(1)
         with context.gl:
-            assert look_at(renderer.film, renderer.plan, (ONE,), 0.1) is None
+            assert look_at(renderer, (ONE,), 0.1) is None
         image = renderer.render(8).image()
         with context.gl:
-            look = look_at(renderer.film, renderer.plan, weights, 0.5)
+            look = look_at(renderer, weights, 0.5)
     assert look is not None
     assert (look.samples, look.seconds, look.nonfinite) == (8, 0.5, 0)
     assert look.error == pytest.approx(image.error), "light that is twice as much is as sure"
@@ -169,9 +169,9 @@ def test_an_error_that_is_not_to_be_believed_is_told_so(context: Context, method
     size = {"width": 48, "height": 36, "method": method, "sampler": "sobol"}
     scene = metal_balls(0.15) if method == "nee" else load("metals")
     with rendering(scene, context, **size) as renderer:
-        film, plan = renderer.render(256).film, renderer.plan
+        renderer.render(256)
         with context.gl:
-            known, relit = (look_at(film, plan, (weight,), 1.0) for weight in (ONE, HALF))
+            known, relit = (look_at(renderer, (weight,), 1.0) for weight in (ONE, HALF))
     assert known
     assert known.is_doubtful is (method == "nee")
     assert ("not to be believed" in told_error(known)) is (method == "nee")

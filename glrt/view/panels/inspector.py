@@ -7,7 +7,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.pass_film import Array
-from glrt.rendering.weighting import Reading, reading
+from glrt.rendering.weighting import Reading
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.panels.widgets import beside, button, edited, tip
@@ -76,7 +76,7 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
     pixel, renderer = pixel_under(app, x, y), app.session.renderer
     if not pixel or not renderer:
         return []
-    found = reading(renderer.film, app.session.weights, *pixel)
+    found = renderer.reading(app.session.weights, *pixel)
     picked = app.pick(x, y)
     thing = app.session.scene.objects[picked.number] if picked else None
     name = f", {thing.name or thing.shape}" if thing else ""

@@ -30,7 +30,8 @@ from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
-PATHS = ("method", "sampler", "roulette", "seed")
+PATHS = ("method", "sampler", "roulette", "seed", "caustics")
+PARTICLES = ("particles", "aimed", "linked")  # where caustics are on
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
@@ -123,6 +124,8 @@ def _paths(app: App) -> None:
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
+    if session.settings.caustics == "on":
+        _settings(app, PARTICLES)
 
 
 def _lengths(session: Session) -> None:
