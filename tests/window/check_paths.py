@@ -178,6 +178,22 @@ def particles_of_a_pixel_are_listed_apart_as_the_command_does(hand: Hand) -> Non
 
 
 @check
+def paths_and_particles_of_a_picture_that_has_them_make_up_its_pixel(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    hand.there(lambda: session.edit(caustics="on", samples=32, bounces=4))
+    hand.until(lambda: session.is_done)
+    ask(hand)
+    hand.until(lambda: not app.paths.is_waiting)
+    found = app.paths.found
+    assert found
+    assert found.particles
+    assert len(found.radiances) == found.particles.samples == 32
+    x, y = found.pixel
+    whole = found.mean + found.particles.mean
+    assert whole == pytest.approx(hand.there(session.image).radiance[y, x], rel=1e-5)
+
+
+@check
 def a_scene_whose_particles_cannot_be_followed_is_told(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     hand.there(lambda: session.edit(method="nee"))

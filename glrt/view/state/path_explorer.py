@@ -35,7 +35,7 @@ class PathExplorer:
         self._following: Iterator[Array] | None = None
         self._followed: list[Array] = []  # of each sample, what its particles brought
         self.is_choosing = False  # whether a click in the picture asks for its pixel
-        self.with_particles = False  # whether particles of a pixel are asked for, too
+        self.with_particles = False  # whether they are asked for where the picture has none
         self.found: PixelPaths | None = None
         self.shown: Path | None = None  # one of them
         self.is_new = False  # since the panel showed them last
@@ -55,7 +55,7 @@ class PathExplorer:
 
     def ask(self, scene: Scene, settings: Settings, pixel: tuple[int, int], samples: int) -> None:
         """Trace so many samples of a pixel in one of the next frames; it is in the full frame."""
-        how: Caustics = "on" if self.with_particles else "off"
+        how: Caustics = "on" if self.with_particles else settings.caustics
         plain = settings_for(settings, aov=(), caustics=how, samples=1)
         self._asked, self._frames = (scene, plain, pixel, min(max(samples, 1), MOST)), 0
         self._following = None
