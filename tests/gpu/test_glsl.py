@@ -31,6 +31,8 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
 TOLD = pytest.param(PATHS, marks=pytest.mark.slow)
+OF_HITS = [aov_pass(("albedo", "normal")), aov_pass(("depth", "position"))]
+OF_HITS += [aov_pass(("object",)), SURFACES]
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
     *("edges", "reproject", "fade"),
@@ -204,7 +206,6 @@ def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: 
 
 
 def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
-    assert ctx.version_code >= 430
     assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
 
 
@@ -223,16 +224,11 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         assert warnings((COMPUTE, text)) == []
 
 
-@pytest.mark.parametrize(
-    "of_hits",
-    [*map(aov_pass, [("albedo", "normal"), ("depth", "position"), ("object",)]), SURFACES],
-    ids=["albedo", "depth", "object", "surfaces"],
-)
+@pytest.mark.parametrize("of_hits", OF_HITS)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
 def test_passes_of_first_hits_compile_without_a_warning(
     ctx: moderngl.Context, features: str, of_hits: RenderPass
 ) -> None:
-    assert ctx.version_code >= 430
     constants = FEATURE_SETS[features]
     (compute,) = sources("compute", constants, WRITTEN, of_hits)
     assert imprecise(compute.text) == []
