@@ -17,6 +17,7 @@ from typing import Literal, NamedTuple, Protocol
 import moderngl
 
 from glrt.gpu.canvas import Canvas
+from glrt.gpu.program import TILE
 from glrt.methods.light_layers import Weights
 from glrt.rendering.drawn_pass import DrawnPass
 from glrt.rendering.renderer import Renderer
@@ -25,7 +26,7 @@ from glrt.rendering.surfaces import SurfacePass, Surfaces
 
 Mode = Literal["reset", "reproject"]
 
-END = 256.0  # samples of a film from which on history is not shown, at the latest
+END = 64.0  # samples of a film from which on history is not shown, at the latest
 
 
 class Fresh(NamedTuple):
@@ -56,8 +57,8 @@ class Reproject:
     def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
         """Nothing is compiled or allocated before it is needed."""
         self._reprojection = Reprojection(gl, limits)
-        self._fade = DrawnPass(gl, "fade.frag")
-        self._canvas = Canvas(gl, "f4")
+        self._evidence, self._fade = DrawnPass(gl, "evidence.frag"), DrawnPass(gl, "fade.frag")
+        self._tiles, self._canvas = Canvas(gl, "f4"), Canvas(gl, "f4")
         self._history: moderngl.Texture | None = None  # the newest of this view
         self._brought: moderngl.Texture | None = None
 
@@ -79,7 +80,12 @@ class Reproject:
 
     def _draw(self, fresh: Fresh, brought: moderngl.Texture, end: float) -> moderngl.Texture:
         target = self._canvas.sized(fresh.mean.size)
+        width, height = fresh.mean.size
+        tiles = self._tiles.sized((-(-width // TILE), -(-height // TILE)))
         textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought}
+        self._evidence.draw(tiles, textures, {})
+        assert self._tiles.texture
+        textures["evidence"] = self._tiles.texture
         values = {"samples": float(fresh.samples), "end": end}
         self._fade.draw(target, textures, values)
         self._history = self._canvas.texture
@@ -88,12 +94,11 @@ class Reproject:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self._reprojection.release()
-        self._fade.release()
-        self._canvas.release()
+        for part in (self._reprojection, self._evidence, self._fade, self._tiles, self._canvas):
+            part.release()
 
 
-OTHER_LIGHT = Limits(2.0, 1.0, 1.0)  # what was shown is wrong by an unknown amount
+OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # what was shown is wrong by an unknown amount
 
 RESOLVERS: Mapping[Mode, Callable[[moderngl.Context], Resolver]] = {"reproject": Reproject}
 
@@ -110,7 +115,8 @@ class Temporal:
         self._pass = SurfacePass(gl)
         make = RESOLVERS.get(mode)
         self._resolver = make(gl) if make else None
-        self._is_kept = False
+        self._is_kept = False  # whether there is a history to begin from
+        self._is_brought = False  # whether the view has one
 
     @property
     def surfaces(self) -> Surfaces:
@@ -134,18 +140,23 @@ class Temporal:
         now, before = self._surfaces
         is_usable = self._is_kept and before.scene and shares_objects(renderer.scene, before.scene)
         is_same_light = bool(before.scene and is_lit_alike(renderer, before))
+        self._is_brought = bool(is_usable)
         with self._gl:
             self._resolver.arrive(now, before if is_usable else None, is_same_light)
 
     def show(self, renderer: Renderer, weights: Weights | None = None) -> moderngl.Texture | None:
         """The picture of film and history, valid until the next call; None: the film alone."""
-        if not self._resolver or not self._is_kept or renderer.samples >= self.end:
+        if not self._resolver or not self.is_shown(renderer):
             return None
         return self._resolved(self._resolver, renderer, weights)
 
+    def is_shown(self, renderer: Renderer) -> bool:
+        """Whether the picture is not the film alone."""
+        return self._is_brought and renderer.samples < self.end
+
     def forget(self) -> None:
         """What was shown is no history for what comes."""
-        self._is_kept = False
+        self._is_kept = self._is_brought = False
 
     def release(self) -> None:
         """Free what the driver holds."""
@@ -163,7 +174,8 @@ class Temporal:
     ) -> moderngl.Texture:
         with self._gl:
             light = renderer.weighed(weights or renderer.plan.weights)
-            fresh = Fresh(light, renderer.film.mean, renderer.samples, self.end)
+            end = self.end if self._is_brought else 0.0
+            fresh = Fresh(light, renderer.film.mean, renderer.samples, end)
             return resolver.show(self.surfaces, fresh)
 
 

@@ -35,7 +35,7 @@ OF_HITS = [aov_pass(("albedo", "normal")), aov_pass(("depth", "position"))]
 OF_HITS += [aov_pass(("object",)), SURFACES]
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
-    *("edges", "reproject", "fade"),
+    *("edges", "reproject", "evidence", "fade"),
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
@@ -192,7 +192,7 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
         *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
         *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),
-        *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag"),
+        *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
         *DISPLAY_STAGES,
     }
 

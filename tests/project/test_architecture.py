@@ -30,7 +30,9 @@ ENTRIES = {
     "splats.comp",
     "paths.comp",
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
-ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"}
+ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
+    "evidence.frag"
+}
 NOT_OF_A_PATH = {
     *ENTRIES,
     "passes/tonemap.glsl",

@@ -4,4 +4,6 @@ Modules, each importing only what stands above it:
 
 - sequences: the scenes of a moving picture, frame by frame
 - playing: what a temporal mode shows of them
+- measure: its error, frame by frame
+- report: charts, a table, a page
 """

@@ -22,6 +22,7 @@ from glrt.view.state.grain import FirstSurface
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
+from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_size import Preview
 
 ANNOUNCED = 2  # frames that say what is about to stop them
@@ -51,15 +52,14 @@ class Session:
         self.waits = False  # for another picture, which is to get as many samples
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
-        self.surface = FirstSurface()
+        self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
         self.busy = ""  # what the next frame will wait for
         self.problem = ""  # the last refusal, for the user
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
         self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
-        self.context = context
-        self._clock = clock
+        self.context, self._clock = context, clock
         self._announced = 0
         self._preview = Preview(clock)
         self._full_size = self.state.settings.size  # of the last edit that was applied
@@ -168,6 +168,7 @@ class Session:
         """Begin to accumulate anew."""
         if self.renderer:
             self.renderer.restart()
+            self.moving.forget()
             self._begin()
 
     def advance(self, seconds: float, count: int = 0) -> None:
@@ -202,6 +203,7 @@ class Session:
 
     def release(self) -> None:
         """Free what the driver holds."""
+        self.moving.release()
         if self.rest:
             self.rest.end()
         if self.renderer:
@@ -255,19 +257,19 @@ class Session:
             self._update_renderer()
 
     def _update_renderer(self) -> None:
-        wanted = self._wanted()
+        wanted, cost = self._wanted(), None
         if not self.renderer:
-            self.renderer = self._open(wanted)
-            return self._begin()
-        self.last_cost = self.renderer.update(wanted.scene, self.layering, **dict(wanted.settings))
-        if self.last_cost in (Cost.RESTART, Cost.RECOMPILE):
+            self.renderer, cost = self._open(wanted), Cost.RECOMPILE
+        else:
+            self.moving.leave(self.renderer, self.weights)
+            edits = dict(wanted.settings)
+            cost = self.last_cost = self.renderer.update(wanted.scene, self.layering, **edits)
+        if cost in (Cost.RESTART, Cost.RECOMPILE):
             self._begin()
-        return None
+        self.problem = self.moving.arrive(self.renderer, cost) or self.problem
 
     def _begin(self) -> None:
-        assert self.renderer
-        self.restarts += 1
-        self.rendering = 0.0
+        self.restarts, self.rendering = self.restarts + 1, 0.0
 
     def _refuse(self, error: GlrtError) -> None:
         """Tell, and go back to what the renderer has; without one there is nothing to do."""

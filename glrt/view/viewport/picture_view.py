@@ -14,6 +14,7 @@ from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import View, aov_of, scale_of
 
 SURFACE = "preview: first surface under simple light"
+HISTORY = "with light of earlier views, until there are samples enough"
 
 
 @dataclass
@@ -80,6 +81,7 @@ class PictureView:
         progress = renderer.shown, session.restarts, session.weights
         content = (
             *progress,
+            session.moving.is_shown(renderer, settings.samples),
             settings.exposure,
             settings.tonemap,
             view,
@@ -97,6 +99,7 @@ class PictureView:
             return
         mean = float(session.image().radiance.mean(dtype="float64"))
         self.forget()
+        session.moving.forget()  # what is kept is the film alone
         self._draw(session, session.renderer, "picture", None)
         self.picture.keep()
         self.kept = ReferenceImage(session.state, mean, session.renderer.context)
@@ -116,6 +119,8 @@ class PictureView:
             return session.busy
         if self.is_surface:
             return SURFACE
+        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
+            return HISTORY
         if self.view == "picture":
             return ""
         if self.view == "error" and not self._knows_error(session):
@@ -170,7 +175,8 @@ class PictureView:
         if not session.is_preview:
             session.surface.end()
         if view == "picture":
-            self.picture.draw(light, session.settings, session.is_preview)
+            shown = session.moving.texture(renderer, weights) or light
+            self.picture.draw(shown, session.settings, session.is_preview)
             return self._draw_surface(session, renderer) if session.is_preview else None
 
         aov = aov_of(view)
