@@ -1,6 +1,6 @@
 """History in the window: shown while the camera moves, and not where an error is told."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
@@ -12,18 +12,36 @@ from glrt.rendering import surfaces
 from glrt.rendering.temporal import END
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
+from glrt.view.state.controls import replaced
 from glrt.view.state.error_history import Progress
+from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import Session
 from tests.support.images import same_bits
+from tests.support.renders import rendering
 from tests.support.sessions import Clock, start, walked
 
 
 @pytest.fixture
-def moving(context: Context) -> Iterator[Session]:
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def still(clock: Clock) -> Callable[[], None]:
+    """Lets so much time pass that edits have come to rest."""
+
+    def pass_time() -> None:
+        clock.now += 2 * STILL
+
+    return pass_time
+
+
+@pytest.fixture
+def moving(context: Context, clock: Clock) -> Iterator[Session]:
     """A session that shows history; of 96 samples."""
     scene = load("lamps")
     settings = settings_for(scene.render, width=24, height=16, bounces=2, samples=96)
-    session = Session(scene, settings, context, Clock())
+    session = Session(scene, settings, context, clock)
     session.moving.use("reproject")
     with context.gl:
         start(session)
@@ -120,3 +138,37 @@ def test_without_room_the_picture_goes_on_without_history(
     assert "temporal reset" in moving.problem
     assert moving.samples == 1
     assert not is_shown(moving)
+
+
+def test_views_of_a_move_have_noise_of_their_own_and_a_still_one_that_of_reset(
+    moving: Session, still: Callable[[], None]
+) -> None:
+    """Random numbers that are the same in all views would not cancel."""
+    seeds = []
+    for step in (0.05, 0.1, 0.15):
+        camera = moving.scene.camera
+        moving.edit(replaced(moving.scene, camera=replaced(camera, position=(step, 1.9, 8.0))))
+        moving.advance(0.01, count=1)
+        assert moving.renderer
+        seeds.append(moving.renderer.settings.seed)
+    assert len({*seeds, moving.settings.seed}) == 4
+    still()
+    before = moving.restarts
+    for _ in range(3):
+        moving.advance(0.01, count=1)
+    assert moving.restarts == before + 1  # no more than once
+    assert moving.renderer
+    assert moving.renderer.settings.seed == moving.settings.seed == 0
+    assert is_shown(moving)  # over what was seen while it moved
+    with rendering(moving.scene, moving.context, **dict(moving.renderer.settings)) as fresh:
+        film = fresh.render(moving.samples).image().radiance
+    assert same_bits(moving.image().radiance, film)
+
+
+def test_another_seed_is_taken_at_once(moving: Session) -> None:
+    walk(moving)
+    moving.edit(seed=7)
+    moving.advance(0.01, count=1)
+    assert moving.last_cost is Cost.RESTART
+    assert moving.renderer
+    assert moving.renderer.settings.seed not in (0, 7)  # while edits come in a row

@@ -1,12 +1,18 @@
 """What the screen shows beside the film while the camera moves: see glrt/rendering/temporal.py."""
 
+from dataclasses import replace
+
 import moderngl
 
 from glrt.errors import RenderError
 from glrt.methods.light_layers import Weights
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import END, Mode, Temporal
-from glrt.settings import Cost
+from glrt.settings import Cost, Settings, settings_for
+from glrt.view.state.edited import State
+
+MOST_SEED = 0xFFFFFFFF
+GOLDEN = 0x9E3779B1  # from one seed to the next: far from those that users choose
 
 
 class MovingPicture:
@@ -17,6 +23,30 @@ class MovingPicture:
         self._gl = gl
         self._temporal = Temporal(gl, mode)
         self._wanted = mode
+        self._begun = 0
+
+    def begin(self) -> None:
+        """Another picture begins while edits come in a row."""
+        self._begun += 1
+
+    def reseeded(self, state: State) -> State:
+        """With random numbers that no view before had: noise that is the same does not cancel.
+
+        Once edits rest the picture begins anew, with its own seed and the bits of `reset`.
+        """
+        seed = self._other_seed(state.settings.seed)
+        return replace(state, settings=settings_for(state.settings, seed=seed))
+
+    def alike(self, wanted: State, given: Settings, seed: int) -> State:
+        """What is wanted, in the size of a renderer, and with its seed if it comes from `seed`."""
+        sized = wanted.sized(*given.size)
+        if given.seed not in (seed, self._other_seed(seed)):
+            return sized
+        return replace(sized, settings=settings_for(sized.settings, seed=given.seed))
+
+    def _other_seed(self, seed: int) -> int:
+        is_needed = self._wanted != "reset"
+        return (seed + self._begun * GOLDEN) & MOST_SEED if is_needed else seed
 
     def use(self, mode: Mode) -> None:
         """Another mode begins without history."""

@@ -53,15 +53,13 @@ class Session:
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
         self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
-        self.busy = ""  # what the next frame will wait for
-        self.problem = ""  # the last refusal, for the user
+        self.busy = self.problem = ""  # what the next frame will wait for, and the last refusal
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
         self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
         self.context, self._clock = context, clock
-        self._announced = 0
-        self._preview = Preview(clock)
+        self._announced, self._preview = 0, Preview(clock)
         self._full_size = self.state.settings.size  # of the last edit that was applied
 
     @property
@@ -203,9 +201,9 @@ class Session:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self.moving.release()
         if self.rest:
             self.rest.end()
+        self.moving.release()
         if self.renderer:
             self.renderer.release()
 
@@ -221,8 +219,7 @@ class Session:
             self._preview.deliver()
         is_early = held < FIRST_SAMPLES and (self.is_preview or not renderer.is_baked)
         if is_early:
-            width, height = renderer.size
-            self._preview.record(spent, done * width * height)
+            self._preview.record(spent, done * renderer.size[0] * renderer.size[1])
 
     def _apply_pending(self, seconds: float) -> bool:
         """Whether there is something to render; what compiles is announced first."""
@@ -237,6 +234,7 @@ class Session:
             if self._preview.goes_on(pixels, seconds):
                 return True
             self._preview.begin(pixels, seconds)
+            self.moving.begin()
             self.surface.is_apt = bool(self.renderer and self.state.moves(self.renderer.scene))
         if self.is_behind:
             try:
@@ -277,7 +275,8 @@ class Session:
         self._preview.end()
         if not self.renderer:
             raise error
-        settings = settings_for(self.renderer.settings, aov=self.settings.aov)
+        own = self.settings.model_dump(include={"aov", "seed"})
+        settings = settings_for(self.renderer.settings, **own)
         by_length = self.renderer.plan.layering == "lengths"
         self.state = State(self.renderer.scene, settings, by_length).sized(*self._full_size)
 
@@ -288,7 +287,7 @@ class Session:
             return Cost.RECOMPILE
         if not self.is_behind:
             return None
-        wanted = self._wanted().sized(*renderer.settings.size)
+        wanted = self.moving.alike(self._wanted(), renderer.settings, self.settings.seed)
         cost = renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
         is_resized = self._full_size != self.settings.size
         return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost
@@ -297,4 +296,5 @@ class Session:
         """What the renderer is to show: while edits restart it, at a size that keeps up."""
         factor = self._preview.factor
         shown = (self.aov,) if self.aov else NEEDED if factor > 1 and self.surface.is_wanted else ()
-        return State(self.scene, self.settings).showing(*shown).coarser(factor)
+        state = State(self.scene, self.settings).showing(*shown).coarser(factor)
+        return self.moving.reseeded(state) if self._preview.is_under_way else state
