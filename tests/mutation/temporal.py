@@ -22,9 +22,9 @@ TEMPORAL = [
         f"{WHERE}::test_a_sky_follows_the_directions",
     ),
     Mutant(
-        "what was hidden takes the history of what hid it",
+        "an object takes the history of another one in its place",
         edit(REPROJECTION, "if (there.w != object || object < 0.0) return false;", ""),
-        f"{WHERE}::test_what_was_hidden_has_no_history",
+        f"{WHERE}::test_another_object_in_its_place_gives_nothing",
     ),
     Mutant(
         "surfaces may turn",
@@ -57,7 +57,10 @@ TEMPORAL = [
     ),
     Mutant(
         "pixels at the edge of a lamp have history",
-        edit("reproject.frag", " || has_flag(facing, LAMP_EDGE)", ""),
+        (
+            Edit("shaders_glsl/reproject.frag", " || has_flag(facing, LAMP_EDGE)", ""),
+            Edit(f"shaders_glsl/{REPROJECTION}", "has_flag(other, LAMP_EDGE) || ", ""),
+        ),
         f"{WHERE}::test_it_counts_for_less_where_its_motion_is_wrong",
     ),
     Mutant(

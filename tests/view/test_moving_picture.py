@@ -98,7 +98,8 @@ def test_no_error_is_told_while_history_is_shown(moving: Session) -> None:
     moving.advance(0.01, count=40)
     assert moving.samples >= moving.known_from
     assert is_shown(moving)
-    assert progress.follow(moving, 1000.0) is None
+    with moving.context.gl:
+        assert progress.follow(moving, 1000.0) is None
     moving.moving.forget()
     with moving.context.gl:
         assert progress.follow(moving, 2000.0)
