@@ -39,6 +39,10 @@ PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
 SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
 PATHS = RenderPass({"compute": ("paths.comp",)}, (), {"OF_PARTICLES": False})
 PARTICLE_PATHS = PATHS._replace(constants={"OF_PARTICLES": True})
+SURFACES = RenderPass(
+    {"compute": ("surfaces.comp",), "fragment": ("trace.vert", "surfaces.frag")},
+    ("position", "normal"),
+)
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 

@@ -3,6 +3,7 @@
 import moderngl
 
 from glrt.gpu.glsl import Source
+from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Film
 from glrt.rendering.particle_tracer import Losses
 from glrt.rendering.pass_film import Array
@@ -35,6 +36,11 @@ class Progress:
     def film(self) -> Film:
         """What has been gathered."""
         return self._tracer.film
+
+    @property
+    def device_scene(self) -> DeviceScene:
+        """The scene in the driver's memory, until the next edit: for passes beside the picture."""
+        return self._tracer.device_scene
 
     @property
     def tier(self) -> Tier:

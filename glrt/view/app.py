@@ -238,6 +238,7 @@ class App:
         """A frame's work: edits, samples, and what is shown of them."""
         try:
             count = self.preferences.samples_per_frame
+            self.session.moving.use(self.preferences.temporal)
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)
             self.show.draw(self.session)

@@ -13,10 +13,9 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, files_anew, read, shader_files
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, RenderPass, aov_pass
+from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, SURFACES, RenderPass, aov_pass
 from glrt.rendering.pipelines import sources
 from glrt.resources import folder
-from glrt.settings import Aov
 from tests.gpu.test_precise import computed_returns, imprecise
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
@@ -32,7 +31,12 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
 TOLD = pytest.param(PATHS, marks=pytest.mark.slow)
-DISPLAYS = ("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify")
+OF_HITS = [aov_pass(("albedo", "normal")), aov_pass(("depth", "position"))]
+OF_HITS += [aov_pass(("object",)), aov_pass(("bounces",)), SURFACES]
+DISPLAYS = [
+    *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
+    *("edges", "reproject", "evidence", "fade"),
+]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 
 
@@ -187,6 +191,9 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
         *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
         "passes/color_scale.glsl",
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
+        *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
+        *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),
+        *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
         *DISPLAY_STAGES,
     }
 
@@ -200,7 +207,6 @@ def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: 
 
 
 def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
-    assert ctx.version_code >= 430
     assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
 
 
@@ -219,20 +225,17 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         assert warnings((COMPUTE, text)) == []
 
 
-@pytest.mark.parametrize(
-    "aovs", [("albedo", "normal"), ("depth", "position"), ("object",), ("bounces",)]
-)
+@pytest.mark.parametrize("of_hits", OF_HITS)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
-def test_aovs_compile_without_a_warning(
-    ctx: moderngl.Context, features: str, aovs: tuple[Aov, ...]
+def test_passes_of_first_hits_compile_without_a_warning(
+    ctx: moderngl.Context, features: str, of_hits: RenderPass
 ) -> None:
-    assert ctx.version_code >= 430
     constants = FEATURE_SETS[features]
-    (compute,) = sources("compute", constants, WRITTEN, aov_pass(aovs))
+    (compute,) = sources("compute", constants, WRITTEN, of_hits)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []
     assert warnings((COMPUTE, compute.text)) == []
-    vertex, fragment = sources("fragment", constants, WRITTEN, aov_pass(aovs))
+    vertex, fragment = sources("fragment", constants, WRITTEN, of_hits)
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 

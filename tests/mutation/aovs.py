@@ -60,7 +60,11 @@ AOVS = [
     ),
     Mutant(
         "the object is that of the pixel's corner",
-        edit(HIT, "(vec2(place) + 0.5) / vec2(frame.size)", "vec2(place) / vec2(frame.size)"),
+        edit(
+            "integrators/middle_ray.glsl",
+            "(vec2(place) + 0.5) / vec2(frame.size)",
+            "vec2(place) / vec2(frame.size)",
+        ),
         "rendering/test_aovs.py::test_objects_have_their_place_in_the_scene_file",
     ),
     Mutant(

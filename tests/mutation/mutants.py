@@ -23,6 +23,7 @@ from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
 from tests.mutation.sphere_links import SPHERE_LINKS
+from tests.mutation.temporal import TEMPORAL
 from tests.mutation.textures import TEXTURES
 from tests.mutation.transport import TRANSPORT
 
@@ -48,4 +49,5 @@ MUTANTS = [
     *EDITOR,
     *DENOISING,
     *JUDGING,
+    *TEMPORAL,
 ]

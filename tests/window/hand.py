@@ -15,6 +15,7 @@ from imgui_bundle import imgui
 from numpy.typing import NDArray
 
 from glrt.view.panels.navigation import navigate
+from glrt.view.state.controls import replaced
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT
@@ -94,7 +95,7 @@ class Hand:
             self.session.paused, self.session.problem = False, ""
             self.session.by_length = False
             self.session.rest = None  # no other process, but where a check wants it
-            app.preferences = self._preferences
+            app.preferences = replaced(self._preferences, temporal="reset")  # the film alone
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
             app.files._mark_saved()
             app.files.dialogs.close()

@@ -36,6 +36,7 @@ DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 PREFERENCES = controls_of(Preferences)
+MOVING = ("mode", "temporal")
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value
@@ -155,7 +156,7 @@ def _camera(app: App) -> None:
         app.edit_scene("", partial(_with_camera, focus_distance=None))
     if imgui.button("home"):
         app.home()
-    _preferences(app, [c for c in PREFERENCES if c.name in ("mode",)])
+    _preferences(app, [c for c in PREFERENCES if c.name in MOVING])
 
 
 def _display(app: App) -> None:
@@ -171,7 +172,7 @@ def _frame(app: App) -> None:
 
 
 def _window(app: App) -> None:
-    shown = [c for c in PREFERENCES if c.name not in ("mode", *FREE_SAMPLES)]
+    shown = [c for c in PREFERENCES if c.name not in (*MOVING, *FREE_SAMPLES)]
     _preferences(app, shown)
     imgui.separator_text("what an edit costs")
     legend()

@@ -16,6 +16,7 @@ from glrt.view.viewport.views import View, aov_of, scale_of
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
+HISTORY = "with light of earlier views, until there are samples enough"
 
 
 @dataclass
@@ -89,6 +90,7 @@ class PictureView:
         progress = renderer.shown, session.restarts, session.weights
         content = (
             *progress,
+            session.moving.is_shown(renderer, settings.samples),
             settings.exposure,
             settings.tonemap,
             view,
@@ -106,6 +108,7 @@ class PictureView:
             return
         mean = float(session.image().radiance.mean(dtype="float64"))
         self.forget()
+        session.moving.forget()  # what is kept is the film alone
         self._draw(session, session.renderer, "picture", None)
         self.picture.keep()
         self.kept = ReferenceImage(session.state, mean, session.renderer.context)
@@ -125,6 +128,8 @@ class PictureView:
             return session.busy
         if self.is_surface:
             return SURFACE
+        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
+            return HISTORY
         if self.view == "picture":
             return ""
         if self.view == "error" and not self._knows_error(session):
@@ -181,7 +186,8 @@ class PictureView:
         if not session.is_preview:
             session.surface.end()
         if view == "picture":
-            self.picture.draw(light, session.settings, session.is_preview)
+            shown = session.moving.texture(renderer, weights) or light
+            self.picture.draw(shown, session.settings, session.is_preview)
             return self._draw_surface(session, renderer) if session.is_preview else None
 
         aov = aov_of(view)
