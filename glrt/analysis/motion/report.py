@@ -52,7 +52,7 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
         f"references of each view, over {FRAMES} frames of one sample a pixel. {size}"
     )
     yield ""
-    yield "| scene | what moves | mode | rays a pixel and frame | mean error | against reset |"
+    yield "| scene | what moves | mode | rays a pixel and frame | mean error | lower than with reset by |"
     yield "|---|---|---|---|---|---|"
     for track in tracks:
         base = next(
@@ -63,7 +63,7 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
             ),
             None,
         )
-        gain = f"{base / track.mean_error:.2f} times lower" if base else "-"
+        gain = f"{base / track.mean_error:.2f} times" if base else "-"
         rays = sum(seen.rays for seen in track.seen) / len(track.seen)
         yield (
             f"| {track.scene} | {_WORDS[track.sequence]} | {track.mode} | {rays:.1f} "
