@@ -98,7 +98,7 @@ def test_files_hold_the_figures(tmp_path: Path) -> None:
     for suffix in (".svg", ".png"):
         assert (tmp_path / f"room.temporal{suffix}").stat().st_size > 1000
     page = save_page(TRACKS, "Small.", tmp_path).read_text()
-    assert "| room | orbit, 1 degree a frame | reproject | 5.7 | 0.500 | 1.33 times |" in page
+    assert "| room | orbit, 1 degree a frame | reproject | 5.7 | 0.500 | 1.33 |" in page
 
 
 def test_the_command_refuses_modes_that_are_none(tmp_path: Path) -> None:

@@ -31,8 +31,8 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 WRITTEN = written_for()
 TOLD = pytest.param(PATHS, marks=pytest.mark.slow)
-OF_HITS = [aov_pass(("albedo", "normal")), aov_pass(("depth", "position"))]
-OF_HITS += [aov_pass(("object",)), aov_pass(("bounces",)), SURFACES]
+OF_PIXELS = [aov_pass(("albedo", "normal")), aov_pass(("depth", "position"))]
+OF_PIXELS += [aov_pass(("object",)), aov_pass(("bounces",)), SURFACES]
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
     *("edges", "reproject", "evidence", "fade"),
@@ -183,13 +183,12 @@ def test_every_shader_file_is_compiled_by_a_test_here() -> None:
     by_structs = re.findall(r'#include "([^"]+)"', read("structs/scene.glsl"))
     assert files == {*FILES, *by_structs} | {
         *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
-        "integrators/aov_numbers.glsl",
+        *("integrators/aov_numbers.glsl", "passes/color_scale.glsl"),
         *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"),
         *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         *("trace.comp", "paths.comp", "structs/path_records.glsl"),
         *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
-        "passes/color_scale.glsl",
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
         *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
         *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),
@@ -225,17 +224,17 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         assert warnings((COMPUTE, text)) == []
 
 
-@pytest.mark.parametrize("of_hits", OF_HITS)
+@pytest.mark.parametrize("render_pass", OF_PIXELS)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
-def test_passes_of_first_hits_compile_without_a_warning(
-    ctx: moderngl.Context, features: str, of_hits: RenderPass
+def test_aovs_and_surfaces_compile_without_a_warning(
+    ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
     constants = FEATURE_SETS[features]
-    (compute,) = sources("compute", constants, WRITTEN, of_hits)
+    (compute,) = sources("compute", constants, WRITTEN, render_pass)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []
     assert warnings((COMPUTE, compute.text)) == []
-    vertex, fragment = sources("fragment", constants, WRITTEN, of_hits)
+    vertex, fragment = sources("fragment", constants, WRITTEN, render_pass)
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 

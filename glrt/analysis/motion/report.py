@@ -52,7 +52,8 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
         f"references of each view, over {FRAMES} frames of one sample a pixel. {size}"
     )
     yield ""
-    yield "| scene | what moves | mode | rays a pixel and frame | mean error | lower than with reset by |"
+    columns = ["scene", "what moves", "mode", "rays a pixel and frame", "mean error"]
+    yield f"| {' | '.join(columns)} | times lower than reset |"
     yield "|---|---|---|---|---|---|"
     for track in tracks:
         base = next(
@@ -63,7 +64,7 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
             ),
             None,
         )
-        gain = f"{base / track.mean_error:.2f} times" if base else "-"
+        gain = f"{base / track.mean_error:.2f}" if base else "-"
         rays = sum(seen.rays for seen in track.seen) / len(track.seen)
         yield (
             f"| {track.scene} | {_WORDS[track.sequence]} | {track.mode} | {rays:.1f} "
