@@ -31,6 +31,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - window_tour: frame times of the window, driven by a script
 - window_films: animations of the window for the documentation
 - drags: whether the picture in the window follows a drag
+- redraw: how much clearer the picture is while the camera moves
 - studio: principled balls under a studio map of a package
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - real_models: pictures of models that packages carry

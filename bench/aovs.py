@@ -1,4 +1,4 @@
-"""What AOVs cost: renders with all five, with two of them, and with none, in turns."""
+"""What AOVs cost: renders with all of surfaces, with two, with bounces, and with none, in turns."""
 
 import sys
 import time
@@ -11,14 +11,16 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.settings import Aov
+from glrt.settings import OF_PATHS, Aov
 
 SCENES = "cornell", "lamps", "lens", "metals", "sky", "weekend"
 SIZE = 256  # pixels
 SAMPLES = 64  # per pixel
+FIVE: tuple[Aov, ...] = tuple(aov for aov in get_args(Aov) if aov not in OF_PATHS)
 CHOICES: dict[str, tuple[Aov, ...]] = {
     "albedo, normal": ("albedo", "normal"),
-    "all five": get_args(Aov),
+    "all five": FIVE,
+    "bounces": OF_PATHS,
 }
 
 

@@ -14,13 +14,14 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
 from bench.screens import screen
 from bench.window_tour import play
 from glrt.image.sources import load
+from glrt.rendering.temporal import Mode
 from glrt.scene.scene import Scene
 from glrt.view.state.controls import replaced
 from glrt.view.state.scene_edits import with_material, with_object
@@ -59,6 +60,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--scene", default="cornell", help="scene to show (default: cornell)")
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of each drag")
+    modes = get_args(Mode)
+    parser.add_argument("--temporal", choices=modes, default="reset", help="(default: reset)")
     parsed = parser.parse_args(arguments)
     has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
     if not has_display and not shutil.which("Xvfb"):
@@ -66,17 +69,21 @@ def main(arguments: list[str] | None = None) -> int:
         return 3
     with nullcontext() if has_display else screen("1280x840") as name:
         os.environ.update({"DISPLAY": name} if name else {})
-        print("\n".join(told(*measure(parsed.scene, parsed.size, parsed.seconds))))
+        print("\n".join(told(*measure(parsed.scene, parsed.size, parsed.seconds, parsed.temporal))))
     return 0
 
 
-def measure(scene: str, size: tuple[int, int], seconds: float) -> tuple[str, list[Drag]]:
+def measure(
+    scene: str, size: tuple[int, int], seconds: float, temporal: Mode = "reset"
+) -> tuple[str, list[Drag]]:
     """Drag each for some seconds; a description with the driver, and what was seen."""
     drags: list[Drag] = []
     drawn_by: list[str] = []
     opened = load(scene)
 
     def script(window: Any) -> Script:
+        app = window.app
+        app.preferences = replaced(app.preferences, temporal=temporal)
         for what, step in steps_of(opened).items():
             window.app.session.edit(opened)
             yield from _settled(window)
@@ -84,7 +91,7 @@ def measure(scene: str, size: tuple[int, int], seconds: float) -> tuple[str, lis
         drawn_by.append(window.app.session.renderer.context.renderer)
 
     play(opened, script, width=size[0], height=size[1])
-    return f"{scene}, {size[0]} x {size[1]}, {drawn_by[0]}", drags
+    return f"{scene}, {size[0]} x {size[1]}, {temporal}, {drawn_by[0]}", drags
 
 
 def steps_of(scene: Scene) -> dict[str, Step]:

@@ -34,15 +34,16 @@ class Way(NamedTuple):
     edits: Sequence[Edit] = ()  # of shader sources
 
 
+STRAIGHT = {"caustics": "on", "linked": 0.0}
 SWITCHES = {
     "defaults": Way({}),
     "independent": Way({"sampler": "independent"}),
     "no roulette": Way({"roulette": False}),
     "nee": Way({"method": "nee"}),
     "naive": Way({"method": "naive"}),
-    "particles": Way({"caustics": "on"}),
-    "few particles": Way({"caustics": "on", "particles": 0.1, "aimed": 0.98}),
-    "many particles": Way({"caustics": "on", "particles": 1.0, "aimed": 0.2}),
+    "particles": Way(STRAIGHT),
+    "few particles": Way({**STRAIGHT, "particles": 0.1, "aimed": 0.98}),
+    "many particles": Way({**STRAIGHT, "particles": 1.0, "aimed": 0.2}),
     "linked particles": Way({"caustics": "on", **LINKED}),
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")

@@ -50,7 +50,7 @@ def editor(window: Any, frames: Frames) -> Script:
 
 
 def paths(window: Any, frames: Frames) -> Script:
-    """A pixel is asked for; some of its samples; the view from outside turns."""
+    """A pixel is asked for; some of its samples; the view from outside turns; its particles."""
     app = window.app
     yield from shown(window, frames)
     app.choose_paths()
@@ -66,6 +66,12 @@ def paths(window: Any, frames: Frames) -> Script:
     for yaw in (60.0, 90.0, 120.0, 35.0):
         app.outside = (yaw, 25.0)
         yield from shown(window, frames)
+    app.paths.with_particles = True
+    app.ask_paths(*PIXEL)
+    while app.paths.is_waiting:
+        yield
+    app.paths.shown = app.paths.found.particles.paths[0]
+    yield from shown(window, frames)
 
 
 def pair(window: Any, frames: Frames) -> Script:

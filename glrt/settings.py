@@ -16,12 +16,13 @@ Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
 Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
-Aov = Literal["albedo", "normal", "depth", "position", "object"]
+Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces"]
 Denoise = Literal["none", "oidn", "nlm", "auto"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # of a denoiser
+OF_PATHS: tuple[Aov, ...] = ("bounces",)  # AOVs of whole paths, not of first surfaces
 
 
 class Cost(StrEnum):
@@ -97,8 +98,8 @@ class Settings(RenderSettings):
     )
     caustics: Annotated[Caustics, Editable(Cost.RECOMPILE)] = Field(
         "off",
-        description="on: particles from spheres and quads that shine, too, linked to the camera at "
-        "matte surfaces and weighted with the paths from the camera: less noise where light comes "
+        description="on: particles from lamps and the sun, too, linked to the camera at matte "
+        "surfaces and weighted with the paths from the camera: less noise where light comes "
         "through glass or by mirrors",
     )
     particles: Annotated[float, Editable(Cost.RESTART, "", (0.02, 2))] = Field(
@@ -106,12 +107,13 @@ class Settings(RenderSettings):
     )
     aimed: Annotated[float, Editable(Cost.RESTART, "", (0, 0.98))] = Field(
         0.5,
-        description="the share of the particles that is aimed at spheres of smooth glass or metal",
+        description="the share of the particles that is aimed at spheres of smooth glass or metal, "
+        "and at balls around boxes, cylinders and meshes of these",
         ge=0,
         le=0.98,
     )
     linked: Annotated[float, Editable(Cost.RESTART, "", (0, 1))] = Field(
-        0.0,
+        1.0,
         description="the share of the particles that is linked to the camera through single "
         "spheres of smooth glass or metal, too; 0: none",
         ge=0,
@@ -128,8 +130,9 @@ class Settings(RenderSettings):
     )
     aov: Annotated[tuple[Aov, ...], Editable(Cost.FREE)] = Field(
         (),
-        description="what else EXR files tell of the first surface behind each pixel: "
-        f"{', '.join(get_args(Aov))}",
+        description="what else EXR files tell of each pixel: of the first surface behind it "
+        f"{', '.join(aov for aov in get_args(Aov) if aov not in OF_PATHS)}; of its paths "
+        f"{', '.join(OF_PATHS)}",
     )
     denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
         "none",

@@ -12,6 +12,7 @@
 #include "sampling/hole_numbers.glsl"
 #include "shapes/all_shapes.glsl"
 #include "integrators/camera.glsl"
+#include "integrators/middle_ray.glsl"
 #include "film/finite.glsl"
 #include "film/pixel.glsl"
 #include "integrators/aov_numbers.glsl"

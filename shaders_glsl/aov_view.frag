@@ -1,6 +1,7 @@
 // An AOV as colours. Film row 0 is on top.
 
 #include "passes/tonemap.glsl"
+#include "passes/color_scale.glsl"
 #include "sampling/hash.glsl"
 #include "integrators/aov_numbers.glsl"
 
@@ -9,6 +10,8 @@ uniform int aov;
 uniform vec3 eye;         // position of the camera, less whole cells
 uniform float distance;   // along the view axis, that is shown as middle grey
 uniform float cell;       // after which colours of the position repeat
+uniform float most;       // bounces that have the last colour
+uniform vec3 colors[COLORS];  // of numbers of bounces, sRGB
 
 in vec2 place;
 out vec4 color;
@@ -24,6 +27,7 @@ vec3 color_of(vec4 value) {
     if (aov == ALBEDO) return encode_srgb(clamp(value.rgb, 0.0, 1.0));
     if (aov == NORMAL) return 0.5 + 0.5 * value.rgb;
     if (value.a == 0.0) return vec3(0.0);  // nothing is met
+    if (aov == BOUNCES) return color_at(colors, value.r / most);
     if (aov == DEPTH) return vec3(distance / (distance + max(value.r, 0.0)));
     if (aov == POSITION) return fract((value.rgb + eye) / cell);
     if (aov == OBJECT && value.r > 0.0) return color_of_object(uint(value.r));

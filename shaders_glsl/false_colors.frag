@@ -2,11 +2,11 @@
 // dropped, or how its light differs from another film's. Film row 0 is on top.
 
 #include "film/most_layers.glsl"
+#include "passes/color_scale.glsl"
 
 const int SHOWS_ERROR = 0;
 const int SHOWS_DROPPED = 1;
 const int SHOWS_DIFFERENCE = 2;
-const int COLORS = 11;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
 const vec3 UNKNOWN = vec3(0.5);
 const float DIM = 0.25;  // of the picture below the marks
@@ -82,15 +82,9 @@ float relative_difference(ivec2 texel) {
     return (here - there) / sqrt(there * there + dark);
 }
 
-vec3 color_at(float share) {
-    precise float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
-    int below = min(int(at), COLORS - 2);
-    return mix(colors[below], colors[below + 1], at - float(below));
-}
-
 vec3 color_of(float number) {
-    if (!is_logarithmic) return color_at((number - range.x) / (range.y - range.x));
-    return color_at(log(max(number, range.x) / range.x) / log(range.y / range.x));
+    if (!is_logarithmic) return color_at(colors, (number - range.x) / (range.y - range.x));
+    return color_at(colors, log(max(number, range.x) / range.x) / log(range.y / range.x));
 }
 
 void main() {

@@ -121,7 +121,7 @@ int lamp = 0;                        // object that a particle is from
 precise vec3 shining = vec3(0.0);    // radiance there
 
 // Of what a particle brings the frame, what it brings this pixel: a mean over the particles of a sample.
-void splat(vec2 film, vec3 radiance) {
+void splat(vec2 film, vec3 radiance, int layer) {
     if (ivec2(floor(film)) != place) {
         begin_light();
         return;
@@ -135,6 +135,8 @@ void splat(vec2 film, vec3 radiance) {
 #include "integrators/particles.glsl"
 
 vec3 lamp_normal(Light light, vec3 position) {
+    if (is_of_triangle(light)) return normalized(lamp_triangle(light.shape).across);
+    if (is_of_disk(light)) return disk_of(light).normal;
     if (!is_of_sphere(light)) return quad_of(light).normal;
     precise Sphere sphere = sphere_at(light.shape);
     precise vec3 normal = (position - sphere.center) / sphere.radius;
@@ -152,8 +154,13 @@ void replay_particle() {
     precise Particle particle = start_particle(rng);
     if (particle.power == vec3(0.0)) return;
     precise Ray ray = particle.path.ray;
-    precise vec3 normal = lamp_normal(light_at(particle.light), ray.origin);
-    lamp = light_at(particle.light).shape;
+    bool is_of_sun = HAS_SUN && particle.light == SUN_LIGHT;
+    precise vec3 normal = ray.direction;
+    lamp = FROM_SUN;
+    if (!is_of_sun) {
+        normal = lamp_normal(light_at(particle.light), ray.origin);
+        lamp = object_number(light_at(particle.light).shape);
+    }
     shining = particle.power * (particle.emission / PI);
     record_vertex(ray.origin, normal, normal, lamp, 0.0, particle.path.throughput);
     here.event = EVENT_SENT;

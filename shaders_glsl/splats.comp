@@ -31,19 +31,31 @@ float take_sum(int at) {
     return sum;
 }
 
-void main() {
-    ivec2 picture = imageSize(target_mean);
-    ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
-    ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
-    if (any(greaterThanEqual(texel, picture))) return;
+// Adds radiance to a film at a texel.
+void add_observation(ivec2 texel, vec3 radiance) {
     precise Pixel pixel = empty_pixel();
     if (frame.is_empty == 0) pixel = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
-    int at = 6 * (texel.y * picture.x + texel.x);
-    precise float red = take_sum(at);
-    precise float green = take_sum(at + 2);
-    precise float blue = take_sum(at + 4);
-    precise vec3 radiance = vec3(red, green, blue) * (splat_unit() / (frame.particles * float(frame.sample_count)));
     add_sample(pixel, radiance, 0);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
+}
+
+// What all particles bring, and beside it the layers of that, if there are any.
+void main() {
+    ivec2 picture = ivec2(imageSize(target_mean).x / (LAYERS + 1), imageSize(target_mean).y);
+    ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
+    ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
+    if (any(greaterThanEqual(texel, picture))) return;
+    precise float unit = splat_unit() / (frame.particles * float(frame.sample_count));
+    precise vec3 sum = vec3(0.0);
+    for (int layer = 0; layer < max(LAYERS, 1); layer += 1) {
+        int at = 6 * ((layer * picture.y + texel.y) * picture.x + texel.x);
+        precise float red = take_sum(at);
+        precise float green = take_sum(at + 2);
+        precise float blue = take_sum(at + 4);
+        precise vec3 units = vec3(red, green, blue);
+        sum += units;
+        if (LAYERS > 0) add_observation(texel + ivec2((layer + 1) * picture.x, 0), units * unit);
+    }
+    add_observation(texel, sum * unit);
 }

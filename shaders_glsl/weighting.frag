@@ -6,7 +6,7 @@ uniform sampler2D mean;
 uniform sampler2D layers;       // side by side: over one half of the observations, below over the other
 uniform int layer_count;        // 0: the mean alone is weighed
 uniform vec3 weights[MOST_LAYERS];
-uniform sampler2D particles;    // what they bring, as large as the mean
+uniform sampler2D particles;    // what they bring, and beside that its layers
 uniform bool has_particles;
 
 in vec2 place;
@@ -26,6 +26,11 @@ void main() {
     precise vec3 sum = vec3(0.0);
     for (int i = 0; i < layer_count; i += 1) sum += weights[i] * layer_mean(texel, i);
     if (layer_count == 0) sum = weights[0] * texelFetch(mean, min(texel, size - 1), 0).rgb;
-    if (has_particles) sum += texelFetch(particles, min(texel, size - 1), 0).rgb;
+    if (has_particles && layer_count == 0) sum += weights[0] * texelFetch(particles, min(texel, size - 1), 0).rgb;
+    if (has_particles) {
+        for (int i = 0; i < layer_count; i += 1) {
+            sum += weights[i] * texelFetch(particles, texel + ivec2((i + 1) * size.x, 0), 0).rgb;
+        }
+    }
     color = vec4(sum, 1.0);
 }

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt import files
 from glrt.error.estimate import DARK
-from glrt.error.reliability import is_doubtful
+from glrt.error.judgement import judged
 from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
@@ -203,9 +203,11 @@ def _rendered(
 
 def _is_doubtful(halves: list[Image]) -> bool:
     first, second = halves
-    radiance = 0.5 * (first.radiance + second.radiance)
-    stderr = 0.5 * np.hypot(first.stderr, second.stderr)
-    return bool(is_doubtful(radiance, stderr, first.samples + second.samples))
+    radiance = np.float32(0.5) * (first.radiance + second.radiance)
+    stderr = np.float32(0.5) * np.hypot(first.stderr, second.stderr)
+    assert first.recipe
+    samples = first.samples + second.samples
+    return bool(judged(first.recipe.scene, first.recipe.settings, samples, radiance, stderr))
 
 
 def _key(

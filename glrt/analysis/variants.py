@@ -51,7 +51,7 @@ def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dic
 
     And with links, where there are spheres to link them through.
     """
-    changes: dict[str, Any] = {"method": LEAD, "caustics": "on"}
+    changes: dict[str, Any] = {"method": LEAD, "caustics": "on", "linked": 0.0}
     if not caster_bits(scene) or refusal(scene, settings_for(settings, **changes)):
         return
     yield f"{LEAD}, particles", changes

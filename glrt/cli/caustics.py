@@ -67,7 +67,7 @@ def told(found: "Finding") -> str:
     """What a pilot chose, and why, in a sentence."""
     from glrt.analysis.method_choice.caustics import CHOICES
 
-    times = f"{found.gain:.2g} times" if found.gain < MANY else f"over {MANY} times"
+    times = f"about {found.gain:.2g} times" if found.gain < MANY else f"over {MANY} times"
     if found.settings.caustics == "off":
         return f"Rendering with --caustics off: particles would be {times} as efficient."
     chosen = " ".join(f"--{name} {getattr(found.settings, name):g}" for name in CHOICES[0])

@@ -8,11 +8,16 @@ import argparse
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from typing import get_args
 
 from glrt import files
-from glrt.analysis.chart.experiment import Plan, Tell, measure_scene
-from glrt.analysis.chart.files import save_chart, save_page
+from glrt.analysis.chart import files as method_files
+from glrt.analysis.chart.experiment import Plan, Tell, frame_of, measure_scene
+from glrt.analysis.chart.files import save_chart
+from glrt.analysis.motion.measure import tracks_of
+from glrt.analysis.motion.report import PAGE, save_page, save_tracks
 from glrt.analysis.plot import check_matplotlib
 from glrt.cli.options import SCENE, add_context, add_files, file_rules
 from glrt.cli.process import file_names
@@ -20,6 +25,7 @@ from glrt.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
 from glrt.rendering.stopping import Interruption
+from glrt.rendering.temporal import Mode
 from glrt.scene.scene import Scene
 from glrt.signals import INTERRUPTED
 
@@ -46,26 +52,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar = "N" if kind is int else "S"
         note = f"{text} (default: {default:g})"
         parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
+    parser.add_argument(
+        "--temporal",
+        metavar="MODE,...",
+        help="chart the error of what the window shows while the camera moves and after the light "
+        f"changes, in place of methods; of {', '.join(get_args(Mode))}. No clock is read: --rounds "
+        "and --seconds are not used",
+    )
     add_context(parser)
     add_files(parser)
     parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
 
 
+REFERENCE = 512  # samples of each half of a reference of --temporal
 _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 
 
 def run(arguments: argparse.Namespace) -> int:
     """A chart of each scene and a page of all of them in a folder; returns the exit code."""
     check_matplotlib()
-    plan = _plan(arguments)
+    plan, modes = _plan(arguments), _modes(arguments.temporal)
     scenes = _scenes(arguments.scenes, file_rules(arguments))
     folder = Path(arguments.output)
-    files.make_folder(folder, "chart.md")
+    files.make_folder(folder, PAGE if modes else "chart.md")
     with Interruption().watched() as interruption:
         try:
             with _progress(arguments.quiet) as tell:
                 tell_or_stop = _stopping(tell, interruption)
-                page = _chart(scenes, plan, folder, arguments.context, tell_or_stop)
+                work = partial(_temporal, modes) if modes else _chart
+                page = work(scenes, plan, folder, arguments.context, tell_or_stop)
         except KeyboardInterrupt:
             print(
                 f"glrt: interrupted; the rounds so far are kept in {file_names([folder])}, and the "
@@ -103,7 +118,37 @@ def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, te
         rounds = folder / f"{name}.rounds.json"
         experiments.append(measure_scene(name, scene, plan, context, rounds, tell_of_all))
         save_chart(experiments[-1], folder)
-    return save_page(experiments, folder)
+    return method_files.save_page(experiments, folder)
+
+
+def _temporal(
+    modes: tuple[Mode, ...],
+    scenes: dict[str, Scene],
+    plan: Plan,
+    folder: Path,
+    route: Choice,
+    tell: Tell,
+) -> Path:
+    context = open_context(route)
+    tracks = []
+    for number, (name, scene) in enumerate(scenes.items()):
+
+        def tell_of_all(text: str, share: float, before: int = number) -> None:
+            tell(text, (before + share) / len(scenes))
+
+        settings = frame_of(scene, plan.height)
+        found = tracks_of(name, scene, settings, context, modes, REFERENCE, tell_of_all)
+        save_tracks(name, scene.title or name, found, folder)
+        tracks += found
+    return save_page(tracks, f"Pictures are {plan.height} pixels high.", folder)
+
+
+def _modes(given: str | None) -> tuple[Mode, ...]:
+    names = tuple(given.split(",")) if given is not None else ()
+    known = {name: name for name in get_args(Mode)}
+    if unknown := [name for name in names if name not in known]:
+        raise UsageError(f"--temporal takes {', '.join(known)}; got {unknown[0]!r}.")
+    return tuple(known[name] for name in dict.fromkeys(names))
 
 
 def _plan(arguments: argparse.Namespace) -> Plan:

@@ -45,9 +45,6 @@ def run(arguments: argparse.Namespace) -> int:
     """Show the window until it is closed; exit code 3 where none can be opened."""
     scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
-    if settings.caustics == "on" and "caustics" not in arguments:
-        settings = settings_for(settings, caustics="off")
-        print("glrt: the window follows no particles: --caustics off.", file=sys.stderr)
     if settings.denoise != "none":
         settings = settings_for(settings, denoise="none")
         print("glrt: the window shows the plain picture: --denoise none.", file=sys.stderr)

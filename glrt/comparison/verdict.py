@@ -28,7 +28,8 @@ Flags = NDArray[np.bool_]
 LEAST = 1e-9  # of alpha and bias
 HEAVY = 0.5  # of the noise in pixels that met rare light: a picture's errors are not believed
 SLACK = 1.1  # the standard errors of another renderer may be a tenth off: the spread allows it
-ITS_NOISE = ("method", "roulette", "sampler", "caustics", "particles", "aimed")  # settings of a way
+ITS_NOISE = ("method", "roulette", "sampler", "caustics")  # settings of a way
+OF_PARTICLES = ("particles", "aimed", "linked")  # and of the particles, where there are any
 
 
 def compare(
@@ -113,7 +114,8 @@ def _same_method(image: Image, reference: Image) -> bool:
     if not (image.recipe and reference.recipe):
         return False
     a, b = image.recipe.settings, reference.recipe.settings
-    return all(getattr(a, name) == getattr(b, name) for name in ITS_NOISE)
+    names = ITS_NOISE + (OF_PARTICLES if a.caustics == "on" else ())
+    return all(getattr(a, name) == getattr(b, name) for name in names)
 
 
 def _compared(

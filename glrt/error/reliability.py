@@ -17,31 +17,61 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glrt.error.estimate import BAND, DARK, relative_error
+from glrt.error.neighbours import brightest_beside
+from glrt.error.seen_lamps import Seen
 
 Pixels = NDArray[np.float32]
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 LEAST_OBSERVATIONS = 4  # fewer do not tell a standard error
-TIMES = 1.5  # the true error over the estimate
-DOUBTFUL = 0.3  # the chance of that from which on it is doubted: docs/results/stress.md
+TIMES = 1.7  # the true error over the estimate
+DOUBTFUL = 0.25  # the chance of that from which on it is doubted: docs/results/stress.md
 TOGETHER = (1, 4, 16, 64, 256)  # pixels that may bring it about
 SURE = 100  # hits: with more a pixel is known
+RARE = 20.0  # times as bright as usual: the fewer samples meet what makes a pixel so
 
 
-def is_doubtful(radiance: ArrayLike, stderr: ArrayLike, observations: int) -> bool | None:
+def is_doubtful(
+    radiance: ArrayLike,
+    stderr: ArrayLike,
+    observations: int,
+    seen: Seen | None = None,
+    spark: float = 0.0,
+) -> bool | None:
     """Whether the estimated error of a picture, (H, W, 3) each, is not to be believed.
 
     It is not where for some k there is a chance of DOUBTFUL that k pixels are too bright, each by
-    so much that together they make the error TIMES as large. None where that cannot be judged:
-    below four observations, without an estimate, or without noise or light.
+    so much that together they make the error TIMES as large; nor where the pixels whose truth is
+    `seen` do that by themselves; nor where a single pixel would, once a sample met a lamp through
+    glass and made it `spark` times as bright as usual. None where that cannot be judged: below
+    four observations, without an estimate, or without noise or light.
     """
     error = relative_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
     if not error or not math.isfinite(error):
         return None
-    found = _unsure(np.asarray(radiance, np.float32), np.asarray(stderr, np.float32))
-    size = np.asarray(radiance)[..., 0].size
-    return any(_chance(found, size * error**2, k) >= DOUBTFUL for k in TOGETHER)
+    values, errors = np.asarray(radiance, np.float32), np.asarray(stderr, np.float32)
+    room = (TIMES**2 - 1) * values[..., 0].size * error**2
+    if seen is not None and seen.rows.size:
+        room -= _excess(values, errors, seen)
+        errors = errors.copy()
+        errors[seen.rows, seen.columns] = 0  # no chance is left there
+    if room <= 0 or (room < 1 and spark >= RARE):
+        return True
+    found = _unsure(values, errors)
+    return any(_chance(found, room, k) >= DOUBTFUL for k in TOGETHER)
+
+
+def _excess(values: Pixels, errors: Pixels, seen: Seen) -> float:
+    """By how much the squared errors of pixels are above the estimated ones, over channels."""
+    value = values[seen.rows, seen.columns].astype(np.float64)
+    apart, variance = value - seen.radiance, np.square(errors[seen.rows, seen.columns], dtype=float)
+    mean = values.mean(dtype=np.float64)
+    true_mean = max(mean - apart.sum() / values.size, 0.0)
+    true = np.square(apart) / (np.square(seen.radiance) + DARK * true_mean**2)
+    estimated = variance / (np.square(value) + DARK * mean**2)
+    excess: float = (true - estimated).sum() / values.shape[2]
+    return excess
 
 
 class Unsure(NamedTuple):
@@ -54,13 +84,13 @@ class Unsure(NamedTuple):
     channels: int
 
 
-def _chance(found: Unsure, squared: float, together: int) -> float:
-    """That so many pixels do that to an error whose square, times the pixels, is `squared`.
+def _chance(found: Unsure, room: float, together: int) -> float:
+    """That so many pixels add `room` to the sum of squared relative errors.
 
     A pixel brings its share of that if its relative error is the root of `bound`, for which it must
     be bright enough: in the denominator stands no less than DARK.
     """
-    bound = (TIMES**2 - 1) * squared / together
+    bound = room / together
     places = found.brightness > bound * DARK
     hits, shape, log_gamma = (part[places] for part in found[1:4])
     limit = hits / (1 + math.sqrt(bound))
@@ -99,16 +129,6 @@ def _of_rows(values: Pixels, errors: Pixels, top: int, end: int) -> tuple[Array,
     value, error = (part[top:end].astype(np.float64) for part in (values, errors))
     places = (error > 0) & (value > 0) & (value**2 < SURE * error**2)
     certain = values[max(top - 1, 0) : end + 1] - errors[max(top - 1, 0) : end + 1]
-    beside = _brightest_beside(certain)[min(top, 1) :][: len(value)]
+    beside = brightest_beside(certain)[min(top, 1) :][: len(value)]
     squares = np.square(value[places])
     return squares, squares / np.square(error[places]), beside[places] > 0.5 * value[places]
-
-
-def _brightest_beside(values: Pixels) -> Pixels:
-    """Of the eight neighbours of each pixel, by channel; -inf for a picture of one pixel."""
-    height, width = values.shape[:2]
-    framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=-math.inf)
-    found = np.full_like(values, -math.inf)
-    for y, x in ((y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)):
-        np.maximum(found, framed[y : y + height, x : x + width], out=found)
-    return found

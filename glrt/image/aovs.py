@@ -1,7 +1,8 @@
-"""AOVs (arbitrary output variables): what the first surface behind each pixel is.
+"""AOVs (arbitrary output variables): what the first surface behind each pixel is, and its paths.
 
 Where nothing is met, albedo and normal are 0 and count; depth is infinite and position 0 where no
-sample meets anything, and samples that meet nothing do not count. In an EXR file an AOV is a layer
+sample meets anything, and samples that meet nothing do not count. `bounces` is how often the paths
+scatter before they end. In an EXR file an AOV is a layer
 of its name; its standard error and its counts stand in channels of their own.
 """
 
@@ -20,6 +21,7 @@ CHANNELS: dict[Aov, str] = {
     "depth": "Z",
     "position": "XYZ",
     "object": "I",
+    "bounces": "N",
 }
 
 if list(CHANNELS) != list(get_args(Aov)):
@@ -30,7 +32,7 @@ if list(CHANNELS) != list(get_args(Aov)):
 class AovImage:
     """One AOV of a picture, row 0 on top."""
 
-    value: NDArray[Any]  # (H, W, 3) float32; depth (H, W) float32; object (H, W) uint32
+    value: NDArray[Any]  # (H, W, 3) float32; depth, bounces (H, W); object (H, W) uint32
     stderr: NDArray[np.float32] | None = None  # of the value, of its shape; None for object
     count: NDArray[np.uint32] | None = None  # (H, W): samples in the mean
     observations: NDArray[np.uint32] | None = None  # (H, W): as of the radiance

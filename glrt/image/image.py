@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from glrt import files
 from glrt.denoise.denoising import Denoised
 from glrt.error.estimate import relative_error
-from glrt.error.reliability import is_doubtful
+from glrt.error.judgement import judged
 from glrt.errors import SceneError, UsageError
 from glrt.image import aovs, denoised_channels, particle_film
 from glrt.image.aovs import AovImages
@@ -93,8 +93,8 @@ class Image:
         """
         if self.recipe is None or self.recipe.traced is not None:
             return None
-        observations = self.samples // self.recipe.settings.block
-        return is_doubtful(self.radiance, self.stderr, observations)
+        recipe = self.recipe
+        return judged(recipe.scene, recipe.settings, self.samples, self.radiance, self.stderr)
 
     def with_aovs(self, names: tuple[Aov, ...]) -> "Image":
         """The picture with these of its AOVs alone."""

@@ -196,4 +196,6 @@ def _aov_image(name: str, film: Moments) -> AovImage:
     if name == "depth":
         value = np.where(film.samples > 0, mean, np.float32(np.inf))
         return AovImage(value[..., 0], stderr[..., 0], *counts)
+    if name == "bounces":
+        return AovImage(mean[..., 0], stderr[..., 0], *counts)
     return AovImage(mean, stderr, *counts)

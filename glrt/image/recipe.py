@@ -16,6 +16,9 @@ from glrt.scene.scene import Scene
 from glrt.scene.toml import LARGEST, parse_scene, scene_to_dict
 from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for
 
+# What recipes meant before they had a key, where that is not its default now.
+BEFORE_THEM: dict[str, Any] = {"linked": 0.0}
+
 Factor = Annotated[float, Field(ge=0)]
 Factors = tuple[Factor, Factor, Factor]
 
@@ -135,6 +138,8 @@ class Recipe(Frozen):
             return with_hashes(parse_scene(scene, f"{source} ({what} of its recipe)"), hashes)
 
         table["scene"] = parsed(table["scene"], "scene")
+        if isinstance(table.get("settings"), dict):
+            table["settings"] = {**BEFORE_THEM, **table["settings"]}
         light = table.get("traced")
         if isinstance(light, dict) and isinstance(light.get("scene"), dict):
             table["traced"] = {**light, "scene": parsed(light["scene"], "scene traced,")}

@@ -42,7 +42,7 @@ MEANINGS: dict[Way, str] = {
     Way.RESUME: "`--resume`: go on from a picture",
     Way.PART: "`--part`: a range of the samples",
     Way.MERGED: "a picture of `glrt merge`, rendered again",
-    Way.AOV: "`--aov`: albedo, normal, depth, position, object",
+    Way.AOV: "`--aov`: albedo, normal, depth, position, object, bounces",
     Way.LAYERS: "a picture relit in the window, and the window's film",
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
@@ -71,7 +71,9 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         Way.INDEPENDENT,
     ),
-    Way.PARTICLES: (*(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.INDEPENDENT),),
+    Way.PARTICLES: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
+    ),
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.INDEPENDENT, Way.CLASSIC),
@@ -98,7 +100,6 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
     frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
     frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
-    frozenset({Way.PARTICLES, Way.LAYERS}): "what particles bring is not kept by layers",
     frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",

@@ -9,7 +9,7 @@ from glrt.methods.contents import (
     Contents,
     contents_of,
 )
-from glrt.methods.particles import caster_bits, link_bits
+from glrt.methods.particles import caster_bits, link_bits, sun_sends_particles, targets_of
 from glrt.methods.table import METHODS
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
@@ -75,6 +75,7 @@ class Needs:
     quads_by_area: bool  # points on lamps even in area, not in solid angle
     has_particles: bool  # from lamps, linked to the camera
     casters: int  # smooth spheres at which some of them are aimed: a bit for each
+    targets: int  # balls around other smooth shapes at which some of them are aimed
     linked: int  # smooth spheres through which some of them are linked: a bit for each
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
@@ -90,7 +91,8 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         plain = [field.name for field in fields(self) if field.name not in _SETS]
         values = {name.upper(): getattr(self, name) for name in plain}
-        return {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, "COUNT_RAYS": False}
+        counts = {"COUNT_RAYS": False, "COUNT_BOUNCES": False}
+        return {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
 
 
 def everything() -> dict[str, bool | int]:
@@ -102,7 +104,7 @@ def everything() -> dict[str, bool | int]:
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
     numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0, "casters": 0}
-    numbers["linked"] = 0
+    numbers |= {"targets": 0, "linked": 0}
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
@@ -117,13 +119,12 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     traits = METHODS[settings.method]
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
-    follows_particles = settings.caustics == "on" and is_lit and traits.weights_both
+    sends_particles = is_lit or sun_sends_particles(scene)
+    follows_particles = settings.caustics == "on" and sends_particles and traits.weights_both
     metals = [m for m in found.materials.values() if m.type == "metal"]
-    types = {m.type for m in found.materials.values() if not m.is_transparent}
-    types |= {"dielectric"} if traits.follows and found.solid_glasses else set()
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
-        materials=frozenset(types),
+        materials=_types(found, traits.follows),
         lamps=frozenset(found.sampled if is_lit else ()),
         has_sphere_tree=found.has_sphere_tree,
         has_tree=bool(found.tree_kinds),
@@ -163,6 +164,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
         has_particles=follows_particles,
         casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
+        targets=len(targets_of(scene)) if follows_particles and settings.aimed else 0,
         linked=link_bits(scene) if follows_particles and settings.linked else 0,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
@@ -170,6 +172,11 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         clusters=found.clusters if traits.chooses_lights else 0,
         block=settings.block,
     )
+
+
+def _types(found: Contents, follows: bool) -> frozenset[str]:
+    types = {m.type for m in found.materials.values() if not m.is_transparent}
+    return frozenset(types | ({"dielectric"} if follows and found.solid_glasses else set()))
 
 
 def has_image(scene: Scene) -> bool:

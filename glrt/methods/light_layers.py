@@ -13,6 +13,7 @@ from glrt.gpu.structs import read_constants
 from glrt.methods.contents import Contents, contents_of
 from glrt.methods.features import needs_of
 from glrt.scene.materials import Opaque
+from glrt.scene.names import less_names
 from glrt.scene.own_trees import Apart, after_moves
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
 from glrt.scene.values import Radiance
@@ -138,15 +139,17 @@ def are_trivial(weights: Weights) -> bool:
 
 
 def _weights(film: Plan, scene: Scene, settings: Settings) -> Weights | None:
+    """What weighs a film so; None where light is wanted that it lacks. Names are none of it."""
+    traced, wanted = less_names(film.scene, scene)
     if film.layering == "lengths":
-        return _length_weights(film, settings) if film.scene == scene else None
+        return _length_weights(film, settings) if traced == wanted else None
     if cost_of_change(film.settings, settings) is not Cost.FREE:
         return None
-    if film.scene == scene:
+    if traced == wanted:
         return (ONE,)
-    if film.layering == "none" or _unlit(film.scene) != _unlit(scene):
+    if film.layering == "none" or _unlit(traced) != _unlit(wanted):
         return None
-    return _group_weights(film.scene, scene)
+    return _group_weights(traced, wanted)
 
 
 def _length_weights(film: Plan, settings: Settings) -> Weights | None:

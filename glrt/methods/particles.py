@@ -1,21 +1,38 @@
 """Particles from lamps: which they leave, what they are aimed at, and where they cannot go."""
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from glrt.methods.contents import Contents, contents_of, is_sampled
 from glrt.methods.table import METHODS
-from glrt.scene.glasses import glasses_of, holds
+from glrt.scene.cylinder import Cylinder
+from glrt.scene.glasses import around_camera, glasses_of, holds
 from glrt.scene.materials import Dielectric, Material, Metal
+from glrt.scene.meshes import Mesh
 from glrt.scene.objects import Array, Object
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Sphere
+from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
+from glrt.scene.solids import Box
 from glrt.settings import Settings
 
 BITS = 31  # of a number in the shaders that stand for spheres
 TOUCHING = 1e-6  # of a radius: what reaches no deeper into a sphere touches it
+MOST_TARGETS = 8  # balls around other shapes, at which particles are aimed
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
+
+
+class Ball(NamedTuple):
+    """Around shapes, in the scene's coordinates."""
+
+    center: Array  # (3,) float64
+    radius: float
+
+    def holds(self, other: "Ball") -> bool:
+        """Whether another ball lies within."""
+        apart = float(np.linalg.norm(other.center - self.center))
+        return apart + other.radius <= self.radius * (1 + TOUCHING)
 
 
 def particle_groups(settings: Settings) -> int:
@@ -36,9 +53,45 @@ def linked_groups(settings: Settings) -> int:
 
 
 def emitters_of(scene: Scene) -> list[Object]:
-    """The lamps that particles leave."""
-    flat = (thing for thing in scene.visible if isinstance(thing, Sphere | Quad))
-    return [thing for thing in flat if is_sampled(scene.materials[thing.material])]
+    """The lamps that particles leave, beside the sun."""
+    known = (thing for thing in scene.visible if isinstance(thing, Sphere | Quad | Disk | Mesh))
+    return [thing for thing in known if is_sampled(scene.materials[thing.material])]
+
+
+def sun_sends_particles(scene: Scene) -> bool:
+    """Whether the sun shines on shapes that a ball holds."""
+    finite = any(not isinstance(thing, Plane) for thing in scene.visible)
+    return finite and any(scene.sun_radiance)
+
+
+def targets_of(scene: Scene) -> list[Ball]:
+    """Balls around boxes, cylinders and meshes of smooth glass or metal: particles are aimed there.
+
+    The largest come first; one within another is left out, as are those beyond MOST_TARGETS.
+    """
+    solids = (thing for thing in scene.visible if isinstance(thing, Box | Cylinder | Mesh))
+    smooth = (thing for thing in solids if is_smooth(scene.materials[thing.material]))
+    found: list[Ball] = []
+    for ball in sorted(map(_ball, smooth), key=lambda ball: -ball.radius):
+        if len(found) < MOST_TARGETS and not any(other.holds(ball) for other in found):
+            found.append(ball)
+    return found
+
+
+def ball_around(scene: Scene) -> Ball | None:
+    """Around all shapes but planes: where particles from the sun go. None where there are none."""
+    balls = [_ball(thing) for thing in scene.visible if not isinstance(thing, Plane)]
+    if not balls:
+        return None
+    centers = np.array([ball.center for ball in balls])
+    radii = np.array([ball.radius for ball in balls])
+    low, high = (centers - radii[:, None]).min(axis=0), (centers + radii[:, None]).max(axis=0)
+    center = (low + high) / 2
+    return Ball(center, float((np.linalg.norm(centers - center, axis=1) + radii).max()))
+
+
+def _ball(thing: Object) -> Ball:
+    return Ball(np.array(thing.middle, np.float64), thing.reach)
 
 
 def caster_bits(scene: Scene) -> int:
@@ -55,8 +108,8 @@ def caster_bits(scene: Scene) -> int:
 def link_bits(scene: Scene) -> int:
     """The spheres through which particles can be linked to the camera: a bit for each.
 
-    Of those that particles are aimed at, but not of thin glass, of glass that lies in denser one,
-    and of those within which something lies.
+    Of those that particles are aimed at, but not of thin glass, of glass with a priority, of glass
+    that lies in denser one, and of those within which something lies.
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     bits = caster_bits(scene)
@@ -66,7 +119,9 @@ def link_bits(scene: Scene) -> int:
 
 def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
     material = scene.materials[sphere.material]
-    return not isinstance(material, Dielectric) or (not material.thin and material.ior >= 1)
+    if not isinstance(material, Dielectric):
+        return True
+    return not material.thin and material.ior >= 1 and material.priority is None
 
 
 def _is_empty(scene: Scene, sphere: Sphere) -> bool:
@@ -109,15 +164,17 @@ def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
     found = contents_of(scene)
     if not METHODS[settings.method].weights_both:
         yield f"particles are weighed by the method mis alone, not by {settings.method}"
-    if not emitters_of(scene):
-        yield "no sphere and no quad shines: particles leave these alone"
+    if not emitters_of(scene) and not sun_sends_particles(scene):
+        yield "no sphere, quad, disk, mesh or sun shines: particles leave these alone"
     if found.has_many_lights:
         yield f"of {found.sampled_lamps} lamps, too many to choose among for each particle"
     for what, there in _beyond(found).items():
         if there:
             yield f"{what}, which particles do not follow yet"
-    if _shines_in_tinted_glass(scene):
-        yield "a lamp lies in tinted glass, where particles do not know what they lose"
+    if _shines_in_tinted_glass(scene) or _sun_shines_in_it(scene):
+        yield "a lamp or the sun is in tinted glass or in one with a priority: none starts there"
+    if around_camera(scene, scene.finishes).counts:
+        yield "the camera is in glass with a priority, where nothing is linked to it"
 
 
 def _beyond(found: Contents) -> dict[str, bool]:
@@ -125,13 +182,25 @@ def _beyond(found: Contents) -> dict[str, bool]:
         "there are meshes with smooth normals": found.is_smooth,
         "there are normal maps": "normal" in found.mapped,
         "some surfaces have holes": bool(found.holed),
-        "some glasses overlap by priority": bool(found.media),
     }
 
 
-def _shines_in_tinted_glass(scene: Scene) -> bool:
+def _dense(scene: Scene) -> list[Shape]:
+    """What is of tinted glass or of glass with a priority."""
     glasses = glasses_of(scene, scene.finishes)
-    names = {name for name, glass in glasses.items() if any(glass.absorption)}
-    tinted = [thing for thing in scene.visible if thing.material in names]
-    centers = [np.array(lamp.middle, np.float64) for lamp in emitters_of(scene)]
-    return any(holds(glass, center) for glass in tinted for center in centers)
+    dense = {n for n, it in glasses.items() if any(it.absorption) or it.priority is not None}
+    return [thing for thing in scene.visible if thing.material in dense]
+
+
+def _shines_in_tinted_glass(scene: Scene) -> bool:
+    around = _dense(scene)
+    centers = [np.array(lamp.middle, np.float64) for lamp in emitters_of(scene)] if around else []
+    return any(holds(glass, center) for glass in around for center in centers)
+
+
+def _sun_shines_in_it(scene: Scene) -> bool:
+    """Whether it stands on the inner side of a plane of such glass."""
+    planes = [thing for thing in _dense(scene) if isinstance(thing, Plane)]
+    return scene.sun is not None and any(
+        float(np.dot(plane.normal, scene.sun.towards)) < 0 for plane in planes
+    )

@@ -14,6 +14,7 @@ Modules, each importing only what stands above it:
 - pack_tree: the tree over shapes, a packer of leaves for each kind
 - pack_lights: lamps as rows of the kernel's blocks
 - pack_maps: images on surfaces, and where they lie on shapes
+- pack_particles: what particles from lamps read
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values
 - texel_texture: the texels of images on surfaces
@@ -34,6 +35,7 @@ Modules, each importing only what stands above it:
 - path_recorder: the kernel that writes it down
 - path_replay: samples of single pixels traced again
 - path_file: paths as JSON, and where two of them differ
+- drawn_pass: a fragment shader over all pixels of a picture
 - weighting: a film's layers under weights
 - display: the display pass
 - false_colors: numbers of pixels as colours
@@ -43,6 +45,9 @@ Modules, each importing only what stands above it:
 - progress: what a render tells of itself
 - halver: keeps the first half of a render, for a denoiser
 - renderer: scene and settings to samples, step by step
+- surfaces: the first surface behind the middle of each pixel, by which samples are found again
+- reprojection: what was shown of one view, brought to another
+- temporal: what the screen shows while the camera moves
 - stopping: render to a limit of samples, time or error
 - parts: a merged picture rendered again
 """

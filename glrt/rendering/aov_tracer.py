@@ -1,9 +1,10 @@
-"""AOVs on the driver: what the first surface behind each pixel is, gathered as the picture grows.
+"""AOVs on the driver: of first surfaces and of whole paths, gathered as the picture grows.
 
 Whole observations are gathered: a picture that ends inside one has AOVs of all its samples.
 """
 
 import time
+from collections.abc import Iterator
 from contextlib import ExitStack
 from typing import Any
 
@@ -21,9 +22,16 @@ from glrt.rendering.kernel_switch import AnyKernel, ready
 from glrt.rendering.pack_shapes import order_of_kernel
 from glrt.rendering.pass_film import Array, PassFilm
 from glrt.rendering.passes import SLOTS, aov_pass
-from glrt.rendering.schedule import DispatchPolicy, DispatchRange, Schedule, rounds_of_search
+from glrt.rendering.schedule import (
+    DispatchPolicy,
+    DispatchRange,
+    Schedule,
+    iterations_per_sample,
+    rounds_for_particles,
+    rounds_of_search,
+)
 from glrt.scene.scene import Scene
-from glrt.settings import Aov, Settings
+from glrt.settings import OF_PATHS, Aov, Settings
 
 
 class _Stage:
@@ -40,7 +48,7 @@ class _Stage:
         self.aovs = aovs
         render_pass, size = aov_pass(aovs), plan.settings.size
         self._tiles = tile_count(*size)
-        self.schedule = Schedule(self._tiles, _most_observations(context, plan))
+        self.schedule = Schedule(self._tiles, _most_observations(context, plan, aovs))
         what = f"{' and '.join(aovs)} of {size[0]} x {size[1]} pixels"
         with ExitStack() as refused:
             self.film = PassFilm(context.gl, what, dict.fromkeys(render_pass.outputs, size))
@@ -90,7 +98,7 @@ class AovTracer:
         start = time.perf_counter()
         with ExitStack() as refused:
             refused.callback(lambda: self.release(before))
-            for pair in (aovs[first : first + 2] for first in range(0, len(aovs), 2)):
+            for pair in _together(aovs):
                 self._stages.append(_Stage(context, plan, scene, pair, known.get(pair)))
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start if aovs else 0.0
@@ -107,13 +115,13 @@ class AovTracer:
 
     def check(self, plan: Plan) -> None:
         """SceneError if an observation of a plan is beyond the driver's loop limit."""
-        if self.aovs:
-            _most_observations(self._context, plan)
+        for stage in self._stages:
+            _most_observations(self._context, plan, stage.aovs)
 
     def restart(self, plan: Plan) -> None:
         """Forget everything, and begin a plan that these kernels serve."""
         for stage in self._stages:
-            stage.schedule.limit(_most_observations(self._context, plan))
+            stage.schedule.limit(_most_observations(self._context, plan, stage.aovs))
             stage.film.restart(plan.first_sample)
 
     @property
@@ -138,11 +146,27 @@ class AovTracer:
 
     def mean(self, aov: Aov) -> moderngl.Texture | None:
         """The texture that holds an AOV so far, in the kernel's terms; None if it is empty."""
+        film, prefix = self._holding(aov)
+        return film.sources[f"{prefix}mean"] if film else None
+
+    def pixel(self, aov: Aov, x: int, y: int) -> Array | None:
+        """The mean of an AOV in one pixel, and its standard error, in the kernel's terms: (2, 3).
+
+        (0, 0) is upper left. None if the AOV is empty, or nothing was met there.
+        """
+        film, prefix = self._holding(aov)
+        if film is None:
+            return None
+        names = f"{prefix}mean", f"{prefix}variance"
+        mean, variance = (film.read_output(name, y, y + 1)[0, x] for name in names)
+        return np.stack([mean[:3], _standard_error(variance)]) if mean[3] else None
+
+    def _holding(self, aov: Aov) -> tuple[PassFilm | None, str]:
+        """The film that holds an AOV, and the prefix of its outputs; None if it is empty."""
         for stage in self._stages:
-            for name, prefix in zip(stage.aovs, SLOTS, strict=False):
-                if name == aov and stage.film.samples:
-                    return stage.film.sources[f"{prefix}mean"]
-        return None
+            if aov in stage.aovs and stage.film.samples:
+                return stage.film, SLOTS[stage.aovs.index(aov)]
+        return None, ""
 
     def read(self, scene: Scene) -> AovImages:
         """The AOVs so far; the scene is that of the plan."""
@@ -162,19 +186,40 @@ class AovTracer:
                 stage.kernel.release()
 
 
-def _most_observations(context: Context, plan: Plan) -> int:
+def _together(aovs: tuple[Aov, ...]) -> Iterator[tuple[Aov, ...]]:
+    """Those that share a pass: two at most, and each of whole paths alone."""
+    of_surfaces = tuple(aov for aov in aovs if aov not in OF_PATHS)
+    yield from (of_surfaces[first : first + 2] for first in range(0, len(of_surfaces), 2))
+    yield from ((aov,) for aov in aovs if aov in OF_PATHS)
+
+
+def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> int:
     """How many observations a dispatch takes; SceneError if not even one."""
-    block = plan.settings.block
-    iterations = block * (1 + rounds_of_search(plan.scene))
-    rounds = usable_rounds(context, iterations)
-    certain = block * (1 + rounds_of_search(plan.scene, 0))
-    if rounds is not None and certain > rounds:
+    block, is_of_paths = plan.settings.block, aovs[0] in OF_PATHS
+    iterations, certain = _rounds_of_paths(plan) if is_of_paths else _rounds_of_rays(plan)
+    rounds = usable_rounds(context, block * iterations)
+    if rounds is not None and block * certain > rounds:
+        what = f"{block} {'paths' if is_of_paths else 'camera rays'}"
+        which = f"--aov {aovs[0]}" if is_of_paths else "--aov"
         raise SceneError(
-            f"--aov is beyond this driver's loop limit here: {block} camera rays take up to "
-            f"{certain} rounds of its loops, and it stops silently after {rounds}. Leave --aov "
-            "out, use --sampler independent, fewer objects or a GPU."
+            f"{which} is beyond this driver's loop limit here: {what} take up to "
+            f"{block * certain} rounds of its loops, and it stops silently after {rounds}. Leave "
+            "it out, use --sampler independent, fewer objects"
+            f"{', fewer bounces' if is_of_paths else ''} or a GPU."
         )
-    return 1 << 10 if rounds is None else max(1, rounds // iterations)
+    return 1 << 10 if rounds is None else max(1, rounds // (block * iterations))
+
+
+def _rounds_of_rays(plan: Plan) -> tuple[int, int]:
+    """Of the loops of one camera ray: as many as are likely, and those that are certain."""
+    return 1 + rounds_of_search(plan.scene), 1 + rounds_of_search(plan.scene, 0)
+
+
+def _rounds_of_paths(plan: Plan) -> tuple[int, int]:
+    """The same of a whole path."""
+    more = rounds_for_particles(plan.scene, plan.settings)
+    likely = iterations_per_sample(plan.scene, plan.settings)
+    return likely + more, iterations_per_sample(plan.scene, plan.settings, 0) + more
 
 
 def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:
@@ -191,8 +236,9 @@ def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:
         eye = np.array(scene.camera.position, np.float64)
         value = np.where(is_met, value + eye, 0.0).astype(np.float32)
     if aov == "depth":
-        value = np.where(is_met, value, np.float32(np.inf))[..., 0]
-        stderr = stderr[..., 0]
+        value = np.where(is_met, value, np.float32(np.inf))
+    if aov in ("depth", "bounces"):
+        value, stderr = value[..., 0], stderr[..., 0]
     counts = (part.astype(np.uint32) for part in (count, observations))
     return AovImage(np.ascontiguousarray(value), np.ascontiguousarray(stderr), *counts)
 

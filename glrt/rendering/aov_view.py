@@ -7,11 +7,18 @@ import numpy as np
 
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
+from glrt.rendering.false_colors import VIRIDIS, Scale
 from glrt.rendering.passes import aov_number
 from glrt.scene.camera import Camera
 from glrt.settings import Aov
 
 _VERSION = "410 core"
+MOST_BOUNCES = 16  # that are told apart
+
+
+def scale_of_bounces(limit: int) -> Scale:
+    """The colours of numbers of bounces, where paths have so many at most."""
+    return Scale(VIRIDIS, 0.0, float(min(max(limit, 1), MOST_BOUNCES)), is_logarithmic=False)
 
 
 def cell_of(camera: Camera) -> float:
@@ -27,10 +34,11 @@ class AovView:
         self._gl = gl
         self._program: moderngl.Program | None = None
 
-    def draw(self, aov: Aov, mean: moderngl.Texture, camera: Camera) -> None:
+    def draw(self, aov: Aov, mean: moderngl.Texture, camera: Camera, bounces: int = 10) -> None:
         """Albedo as sRGB; normals around middle grey; near things bright; a colour an object.
 
-        What lies as far as the camera focuses is middle grey in the view of the depth.
+        What lies as far as the camera focuses is middle grey in the view of the depth. `bounces` is
+        the limit of the paths.
         """
         program = self._program or self._compile()
         mean.use(0)
@@ -42,6 +50,8 @@ class AovView:
             "eye": tuple(eye.tolist()),
             "distance": camera.resolved_focus_distance,
             "cell": cell,
+            "colors": VIRIDIS,
+            "most": scale_of_bounces(bounces).high,
         }
         for name, value in values.items():
             program[name] = value

@@ -16,15 +16,17 @@ from glrt.gpu.struct_arrays import FILE, Arrays, block_of, write_rows
 from glrt.methods.contents import Contents
 from glrt.methods.features import needs_of
 from glrt.methods.light_layers import Plan
+from glrt.methods.particles import ball_around
 from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_maps import images_of, textures_of
-from glrt.rendering.pack_shapes import NUMBERED
+from glrt.rendering.pack_particles import with_targets
 from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
+    SHAPES,
     SKY_TREE,
     TEXELS,
     KernelOptions,
@@ -77,10 +79,13 @@ class DeviceScene:
         start = time.perf_counter()
         self._tree = _tree(plan.scene, contents, before)
         built = time.perf_counter()
-        self._arrays = _packed(plan.scene, contents, self._tree, before)
+        packed = _packed(plan.scene, contents, self._tree, before)
+        self._arrays = with_targets(packed, plan.scene, plan.settings)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._glass = around_camera(plan.scene, contents.finishes)
         needs = needs_of(plan.scene, plan.settings, contents)
+        has_sun = needs.has_particles and needs.has_sun
+        self._bounds = ball_around(plan.scene) if has_sun else None
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**needs.constants(), **plan.constants(), **stack, **variant}
@@ -129,7 +134,7 @@ class DeviceScene:
 
     def has_shapes_of(self, other: "DeviceScene") -> bool:
         """Whether constants written for one scene do for the other: to the last bit."""
-        return all(same_rows(self._arrays[name], other._arrays[name]) for name in NUMBERED)
+        return all(same_rows(self._arrays[name], other._arrays[name]) for name in SHAPES)
 
     def dispatch(
         self,
@@ -146,7 +151,7 @@ class DeviceScene:
         """
         numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
         density = self._sky_table.density if self._sky_table else 0.0
-        around = self._tree, self._glass, density
+        around = self._tree, self._glass, density, self._bounds
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, *around))
         self._write_tree()
         resources = {**self._resources, **own}

@@ -11,10 +11,12 @@ from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import FILE, Arrays
 from glrt.methods.contents import Contents, contents_of
 from glrt.methods.features import everything
+from glrt.methods.particles import ball_around
 from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_maps import images_of, textures_of
+from glrt.rendering.pack_particles import with_targets
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, scene_text, upload
@@ -56,6 +58,8 @@ def evaluate(
         **(constants or {}),
     }
     arrays = pack_scene(scene, contents, tree=tree) if scene else no_rows()
+    if scene and settings:
+        arrays = with_targets(arrays, scene, settings)
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
     resources = resources_of(gl, scene, arrays, tree, settings)
@@ -83,6 +87,7 @@ def resources_of(
         glass = around_camera(scene, scene.finishes)
         density = sampling.density if sampling else 0.0
         around: Any = {"tree": tree, "glass": glass, "sky_density": density}
+        around["bounds"] = ball_around(scene)
         settings = settings or settings_for(scene.render)
         frame = pack_frame(scene, settings, counts, 0, 1, **around)
     sky: dict[str, Resource] = {}
@@ -118,7 +123,7 @@ def no_rows() -> dict[str, Array]:
     trees = ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint")
     images, lamps = (
         ("Axes", "Uv", "Tangent", "Map", "Maps"),
-        ("Emitter", "Light", "Cluster", "Aim"),
+        ("Emitter", "Light", "Cluster", "Aim", "Target"),
     )
     others = (*trees, *images, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -10,13 +10,14 @@ from glrt.accel.sphere_nodes import pack_nodes
 from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
-from glrt.methods.particles import emitters_of, linked_groups, particle_groups, particles_a_sample
+from glrt.methods.particles import Ball
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_details import pack_conductors, pack_facets
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
 from glrt.rendering.pack_maps import pack_coordinates, pack_maps
 from glrt.rendering.pack_materials import pack_emitters, pack_materials
 from glrt.rendering.pack_mesh import pack_tints
+from glrt.rendering.pack_particles import particle_fields
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
@@ -26,8 +27,6 @@ from glrt.scene.values import BLACK
 from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
-
-UNIT_BITS = 40  # of the radiance of the brightest lamp, in units of what particles add to pixels
 
 
 def pack_scene(
@@ -65,21 +64,7 @@ def pack_scene(
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
         "Aim": pack_aims(lamps, eye, STRUCTS["Aim"]),
-    }
-
-
-def _particle_fields(scene: Scene, settings: Settings) -> dict[str, float]:
-    """The fields of the frame that particles read: as far below the brightest lamp as floats go."""
-    if settings.caustics == "off":
-        return dict.fromkeys(("particles", "aimed", "splat_unit", "linked", "linked_groups"), 0)
-    brightest = max(max(scene.emission_of(lamp)) for lamp in emitters_of(scene))
-    unit = 2.0 ** (math.frexp(brightest)[1] - UNIT_BITS) if brightest else 1.0
-    return {
-        "particles": particles_a_sample(settings),
-        "aimed": settings.aimed,
-        "splat_unit": unit,
-        "linked": linked_groups(settings) / particle_groups(settings),
-        "linked_groups": linked_groups(settings),
+        "Target": np.zeros(0, STRUCTS["Target"]),  # with_targets has them
     }
 
 
@@ -112,12 +97,13 @@ def pack_frame(
     tree: SceneTree | None = None,
     glass: Around = AIR,
     sky_density: float = 0.0,
+    bounds: Ball | None = None,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
     `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
     film is not read. `glass` is around the camera; `sky_density` is that of samples of the sky, as
-    sky_table.py has it.
+    sky_table.py has it; `bounds` are those that particles from the sun fill.
     """
     bottom, *horizon, top = scene.background_colors
     frame = {
@@ -129,7 +115,7 @@ def pack_frame(
         "sun_direction": scene.sun.towards if scene.sun else (0.0, 1.0, 0.0),
         "sun_versine": scene.sun.versine if scene.sun else 0.0,
         "sun_radiance": scene.sun_radiance,
-        **_particle_fields(scene, settings),
+        **particle_fields(scene, settings, bounds),
         "camera_absorption": glass.absorption,
         "camera_counts": glass.counts,
         "sky_density": sky_density,

@@ -17,7 +17,7 @@ from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
 from glrt.image.particle_film import ParticleFilm, observations_of, summed
-from glrt.methods.light_layers import Plan
+from glrt.methods.light_layers import Plan, Weights, are_trivial
 from glrt.methods.particles import particle_groups
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import AnyKernel, ready
@@ -56,10 +56,16 @@ class _Numbered:
 
 
 class ParticleTracer:
-    """Gathers what particles bring to the picture of a plan."""
+    """Gathers what particles bring to the picture of a plan: in all, and beside it by layers."""
 
-    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
-        """Allocate a film and a sum, and compile.
+    def __init__(
+        self,
+        context: Context,
+        plan: Plan,
+        scene: DeviceScene,
+        before: "ParticleTracer | None" = None,
+    ) -> None:
+        """Allocate a film and a sum, and compile, unless `before` has the same kernels.
 
         RenderError if the driver has no room for them.
         """
@@ -74,13 +80,19 @@ class ParticleTracer:
         start = time.perf_counter()
         with ExitStack() as refused:
             what = f"the particles of {size[0]} x {size[1]} pixels"
-            self.film = PassFilm(context.gl, what, dict.fromkeys(PARTICLES.outputs, size))
+            wide = size[0] * (plan.layers + 1), size[1]
+            self.film = PassFilm(context.gl, what, dict.fromkeys(PARTICLES.outputs, wide))
             refused.callback(self.film.release)
-            self._sums = _block_of_sums(context, what, HEAD + PIXEL * size[0] * size[1])
+            words = PIXEL * size[0] * size[1] * max(plan.layers, 1)
+            self._sums = _block_of_sums(context, what, HEAD + words)
             refused.callback(self._sums.release)
-            self._kernel = ready(context, scene.shaders_of(PARTICLES), self._dispatch)
-            refused.callback(self._kernel.release)
-            self._fold = ready(context, scene.shaders_of(SPLATS), self._dispatch_fold)
+            if before:
+                self._kernel: AnyKernel = before._kernel
+                self._fold: AnyKernel = before._fold
+            else:
+                self._kernel = ready(context, scene.shaders_of(PARTICLES), self._dispatch)
+                refused.callback(self._kernel.release)
+                self._fold = ready(context, scene.shaders_of(SPLATS), self._dispatch_fold)
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start
         self.restart(plan.first_sample)
@@ -113,14 +125,27 @@ class ParticleTracer:
         if self._begun == self._block:
             self._end()
 
-    def added_to(self, radiance: Array, stderr: Array) -> tuple[Array, Array, ParticleFilm]:
-        """A picture and its standard error, (H, W, 3) float32 each, with what particles bring.
+    def added_to(
+        self, radiance: Array, stderr: Array, weights: Weights, first: int = 0
+    ) -> tuple[Array, Array, ParticleFilm]:
+        """Rows of a picture under weights, from `first` on, with what particles bring there.
 
-        And the two films apart.
+        They and their standard error are (H, W, 3) float32. And the two films apart. Layers are of
+        different particles: their variances add.
         """
-        height = radiance.shape[0]
-        read = (self.film.read_output(name, 0, height) for name in PARTICLES.outputs)
-        film = ParticleFilm(radiance, *(rows[..., :3].copy() for rows in read))
+        height, width, _ = radiance.shape
+        read = (self.film.read_output(name, first, first + height) for name in PARTICLES.outputs)
+        mean, variance = (
+            rows[..., :3].reshape(height, self._plan.layers + 1, width, 3) for rows in read
+        )
+        is_whole = are_trivial(weights) or not self._plan.layers
+        layers = slice(0, 1) if is_whole else slice(1, None)
+        factors = np.array(weights[:1] if is_whole else weights, np.float32)[:, None]
+        film = ParticleFilm(
+            radiance,
+            (mean[:, layers] * factors).sum(axis=1, dtype=np.float32),
+            (variance[:, layers] * factors**2).sum(axis=1, dtype=np.float32),
+        )
         return *summed(film, stderr, self.film.samples), film
 
     def resume(self, samples: int, film: ParticleFilm) -> None:
@@ -137,10 +162,13 @@ class ParticleTracer:
         """Of all that were linked to the camera since the beginning."""
         return self._lost
 
-    def release(self) -> None:
-        """Free what the driver holds."""
-        for part in (self.film, self._sums, self._kernel, self._fold):
-            part.release()
+    def release(self, after: "ParticleTracer | None" = None) -> None:
+        """Free what the driver holds, but for kernels that another one has taken over."""
+        self.film.release()
+        self._sums.release()
+        if not after or after._kernel is not self._kernel:
+            self._kernel.release()
+            self._fold.release()
 
     def _begin(self, most_samples: int | None = None) -> None:
         """Begin an observation anew."""

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.settings import Aov
+from glrt.settings import OF_PATHS, Aov
 
 Resolved = Literal["compute", "fragment"]
 Constants = Mapping[str, bool | int]
@@ -32,10 +32,17 @@ RADIANCE = RenderPass(
     {"compute": ("trace.comp",), "fragment": ("trace.vert", "trace.frag")},
     ("mean", "variance", "block", "layers"),  # the last two only where a film keeps them
 )
+BOUNCES = RADIANCE._replace(
+    outputs=("mean", "variance", "block"), constants={"COUNT_BOUNCES": True, "LAYERS": 0}
+)
 PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
 SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
 PATHS = RenderPass({"compute": ("paths.comp",)}, (), {"OF_PARTICLES": False})
 PARTICLE_PATHS = PATHS._replace(constants={"OF_PARTICLES": True})
+SURFACES = RenderPass(
+    {"compute": ("surfaces.comp",), "fragment": ("trace.vert", "surfaces.frag")},
+    ("position", "normal"),
+)
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 
@@ -45,7 +52,9 @@ def aov_number(aov: Aov) -> int:
 
 
 def aov_pass(aovs: Sequence[Aov]) -> RenderPass:
-    """The pass that fills one or two AOVs, which share their camera rays."""
+    """The pass that fills one or two AOVs, which share their camera rays; one of paths alone."""
+    if aovs[0] in OF_PATHS:
+        return BOUNCES
     numbers = [*map(aov_number, aovs), AOV_NUMBERS["NO_AOV"]]
     return RenderPass(
         {"compute": ("aov.comp",), "fragment": ("trace.vert", "aov.frag")},

@@ -26,7 +26,7 @@ from glrt.rendering.path_recorder import TOGETHER, PathRecorder, Pixel
 from glrt.rendering.path_records import particle_of, paths_of
 from glrt.rendering.path_values import NUMBERS, Path, PixelParticles, PixelPaths
 from glrt.rendering.pipelines import KernelOptions, Tier
-from glrt.rendering.tracer import dispatch_limits
+from glrt.rendering.schedule import dispatch_limits
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -83,24 +83,21 @@ class PathReplay:
         """
         if self._particles is None:
             return None
-        settings, found = self._plan.settings, []
+        settings = self._plan.settings
         samples = settings.block * observations_of(settings.samples, settings.block)
-        count = self._particle_count
-        for sample in range(samples):
+        return arrived([*self.arriving(pixel, samples)])
+
+    def arriving(self, pixel: Pixel, samples: int) -> Iterator[Array]:
+        """Their records for `arrived`, of one sample after the other; none if no particles go."""
+        count = self._particle_count if self._particles else 0
+        for sample in range(samples if self._particles else 0):
+            found = []
             for lane in range(0, count, FOLLOWED):
                 lanes = lane, min(lane + FOLLOWED, count)
-                found.append(
-                    self._particles.records(pixel, sample, 1, lanes, vertices=False).lights
-                )
-        lights = np.concatenate(found)
-        lights = lights[np.isfinite(lights["added"]).all(axis=1)]
-        lights = lights[np.lexsort((lights["number"], lights["lane"], lights["sample_index"]))]
-        names = zip(lights["sample_index"].tolist(), lights["lane"].tolist(), strict=True)
-        brought: dict[tuple[int, int], Array] = {}
-        for name, light in zip(names, lights, strict=True):
-            brought[name] = brought.get(name, np.zeros(3, np.float32)) + light["added"]
-        radiances = np.array([*brought.values()], np.float32).reshape(-1, 3)
-        return PixelParticles(samples, tuple(brought), radiances, ())
+                assert self._particles
+                batch = self._particles.records(pixel, sample, 1, lanes, vertices=False)
+                found.append(batch.lights)
+            yield np.concatenate(found)
 
     def particle_path(self, pixel: Pixel, sample: int, number: int) -> Path | None:
         """The path of a particle by its sample and its number; None: it does not arrive."""
@@ -121,6 +118,19 @@ class PathReplay:
         self._paths.release()
         if self._particles:
             self._particles.release()
+
+
+def arrived(records: Sequence[Array]) -> PixelParticles:
+    """The particles that reach a pixel, by what each brings: `records` are those of its samples."""
+    lights = np.concatenate(records)
+    lights = lights[np.isfinite(lights["added"]).all(axis=1)]
+    lights = lights[np.lexsort((lights["number"], lights["lane"], lights["sample_index"]))]
+    names = zip(lights["sample_index"].tolist(), lights["lane"].tolist(), strict=True)
+    brought: dict[tuple[int, int], Array] = {}
+    for name, light in zip(names, lights, strict=True):
+        brought[name] = brought.get(name, np.zeros(3, np.float32)) + light["added"]
+    radiances = np.array([*brought.values()], np.float32).reshape(-1, 3)
+    return PixelParticles(len(records), tuple(brought), radiances, ())
 
 
 def check_method(settings: Settings) -> None:

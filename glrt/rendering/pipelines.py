@@ -22,6 +22,7 @@ ENVIRONMENT = "environment_image"  # the texture of the image of the sky
 SKY_TREE = "environment_tree"  # that of the tree by which it is sampled
 TEXELS = "map_texels"  # that of the images on surfaces
 MOST_BAKED = 32  # shapes
+SHAPES = (*NUMBERED, "Target")  # arrays that follow from them alone, and that are read in loops
 
 
 class Variant(NamedTuple):
@@ -91,7 +92,7 @@ def upload(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resour
 
 
 def _constant(tier: Tier) -> tuple[str, ...]:
-    return NUMBERED if tier == "baked" else ()
+    return SHAPES if tier == "baked" else ()
 
 
 def sources(

@@ -3,8 +3,10 @@
 import moderngl
 
 from glrt.gpu.glsl import Source
+from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Film
 from glrt.rendering.particle_tracer import Losses
+from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.tracer import Tracer
 from glrt.settings import Aov
@@ -36,6 +38,11 @@ class Progress:
         return self._tracer.film
 
     @property
+    def device_scene(self) -> DeviceScene:
+        """The scene in the driver's memory, until the next edit: for passes beside the picture."""
+        return self._tracer.device_scene
+
+    @property
     def tier(self) -> Tier:
         """Where the kernel that stays through edits finds its shapes."""
         return self._tracer.device_scene.tier
@@ -59,6 +66,10 @@ class Progress:
     def aov_mean(self, aov: Aov) -> moderngl.Texture | None:
         """An AOV so far, for the window; None if it is not gathered or empty."""
         return self._tracer.aovs.mean(aov)
+
+    def aov_pixel(self, aov: Aov, x: int, y: int) -> Array | None:
+        """The mean of an AOV in one pixel and its standard error, (2, 3); None if it has none."""
+        return self._tracer.aovs.pixel(aov, x, y)
 
     @property
     def is_baked(self) -> bool:

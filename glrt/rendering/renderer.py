@@ -21,11 +21,12 @@ from glrt.methods.combinations import check_render
 from glrt.methods.light_layers import ONE, Layering, Weights, plan_for
 from glrt.rendering.display import displayed
 from glrt.rendering.halver import Halver, check_rest
+from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
-from glrt.rendering.weighting import Mixer, mixed
+from glrt.rendering.weighting import Mixer, Reading, mixed, read_row
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, SettingOptions, Settings, settings_for
@@ -209,8 +210,22 @@ class Renderer(Progress):
         with self.context.gl:
             aovs = self._tracer.aov_images()
             mean, noise, state = mixed(self.film, weights)
-            radiance, stderr, films = self._tracer.with_particles(mean, noise)
+            waiting = self._tracer.with_particles(mean, noise, weights, waits=True)
+        radiance, stderr, films = waiting
         return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)
+
+    def reading(self, weights: Weights, x: int, y: int) -> Reading:
+        """What the pixel in column x and row y holds, (0, 0) upper left: in this context."""
+        row, radiance, error = read_row(self.film, weights, y)
+        radiance, error, _ = self._tracer.with_particles(radiance, error, weights, y)
+        finite = self.film.samples - int(row.dropped[0, x])
+        return Reading(radiance[0, x], error[0, x], finite)
+
+    def picture(self, weights: Weights) -> tuple[Array, Array]:
+        """Radiance and its standard error, (H, W, 3) float32 each, under weights: as `reading`."""
+        mean, noise, _ = mixed(self.film, weights)
+        radiance, stderr, _ = self._tracer.with_particles(mean, noise, weights)
+        return radiance, stderr
 
     def resume(self, image: Image) -> "Renderer":
         """Go on from a picture, to the bits of one render; UsageError says why not, if not."""

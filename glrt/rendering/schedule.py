@@ -11,11 +11,14 @@ from itertools import count
 from typing import NamedTuple
 
 from glrt.errors import SceneError
+from glrt.gpu.context import Context
+from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.methods.contents import MESH, Contents, contents_of
 from glrt.methods.features import has_image
-from glrt.methods.particles import caster_bits, link_bits
+from glrt.methods.light_layers import Plan
+from glrt.methods.particles import caster_bits, link_bits, targets_of
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
@@ -77,8 +80,13 @@ def rounds_for_particles(scene: Scene, settings: Settings) -> int:
     """Rounds beside those: paths weighed against aimed particles, and links through spheres."""
     if settings.caustics == "off":
         return 0
-    spheres = 1 + contents_of(scene).shapes["sphere"]
+    found = contents_of(scene)
+    spheres = 1 + found.shapes["sphere"]
     weighed = 2 * spheres if settings.aimed and caster_bits(scene) else 0
+    if settings.aimed and (targets := targets_of(scene)):
+        weighed += 2 * (1 + len(targets))
+    if scene.sun:
+        weighed += 1 + found.shapes["plane"]
     linked = settings.linked and link_bits(scene)
     links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(scene) if linked else 0
     return (settings.bounces + 1) * (weighed + links)
@@ -132,6 +140,19 @@ def _rounds_of_shading(found: Contents, settings: RenderSettings, search: int) -
     if METHODS[settings.method].follows:
         return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
     return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
+
+
+def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
+    """How many rounds of loops a dispatch may take, None: any; and how many samples.
+
+    SceneError if not one.
+    """
+    scene, settings = plan.scene, plan.settings
+    more = rounds_for_particles(scene, settings)
+    iterations = iterations_per_sample(scene, settings) + more
+    rounds = usable_rounds(context, iterations)
+    least = iterations_per_sample(scene, settings, 0) + more
+    return rounds, most_samples(iterations, rounds, least)
 
 
 def most_samples(iterations: int, rounds: int | None, least: int | None = None) -> int:

@@ -8,12 +8,11 @@ from dataclasses import replace
 import moderngl
 
 from glrt.gpu.context import Context
-from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
 from glrt.image.particle_film import ParticleFilm
-from glrt.methods.light_layers import Plan
+from glrt.methods.light_layers import Plan, Weights
 from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
@@ -26,9 +25,7 @@ from glrt.rendering.schedule import (
     DispatchPolicy,
     DispatchRange,
     Schedule,
-    iterations_per_sample,
-    most_samples,
-    rounds_for_particles,
+    dispatch_limits,
     whole_frame,
 )
 from glrt.settings import Cost, Settings
@@ -67,10 +64,10 @@ class Tracer:
                     before.switch.schedule.drop()  # the first dispatch writes to its frame
                 self.switch = self._compiled()
                 refused.callback(self.switch.release)
-            self.particles: ParticleTracer | None = None
-            if plan.settings.caustics == "on":
-                self.particles = ParticleTracer(context, plan, self.device_scene)
-                refused.callback(self.particles.release)
+            self.particles = self._particles_for(before)
+            if self.particles:
+                known = before.particles if before else None
+                refused.callback(self.particles.release, known)
             self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
         if not before:
@@ -85,7 +82,7 @@ class Tracer:
         after = Tracer(self._context, plan, self._options, self)
         self.device_scene.release()
         if self.particles:
-            self.particles.release()
+            self.particles.release(after.particles)
         if after.film is not self.film:
             self.film.release()
         if after.aovs is not self.aovs:
@@ -153,21 +150,30 @@ class Tracer:
         return self.aovs.read(self._plan.scene)
 
     def with_particles(
-        self, radiance: Array, stderr: Array
+        self, radiance: Array, stderr: Array, weights: Weights, first: int = 0, waits: bool = False
     ) -> tuple[Array, Array, ParticleFilm | None]:
-        """A picture of the film, with what particles bring to it; and the two films apart."""
+        """Rows of the film under weights, with what particles bring; and the two films apart.
+
+        What particles bring so far, if they have brought anything, unless it `waits` for them all.
+        """
         if not self.particles:
             return radiance, stderr, None
-        self.catch_up()
-        return self.particles.added_to(radiance, stderr)
+        if waits or not self.particles.film.samples:
+            self._catch_up_particles()
+        return self.particles.added_to(radiance, stderr, weights, first)
 
     @property
     def shown_particles(self) -> moderngl.Texture | None:
-        """What particles bring to the film; they gather as many samples as it has."""
+        """What particles bring to the film: a mean over their observations that are complete."""
         if not self.particles:
             return None
-        self.catch_up()
+        if not self.particles.film.samples:
+            self._catch_up_particles()
         return self.particles.film.sources["mean"]
+
+    def _catch_up_particles(self) -> None:
+        while self._lacks_particles:
+            self._work_behind(HEADLESS, math.inf)
 
     @property
     def lost_particles(self) -> Losses:
@@ -198,8 +204,7 @@ class Tracer:
         target = self.film.samples + samples
         while self.film.samples < target:
             self._at_once(min(self.most_samples, target - self.film.samples))
-        while self._lacks_particles:
-            self._work_behind(HEADLESS, math.inf)
+        self._catch_up_particles()
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
         """One dispatch: of what is behind, else one that the schedule of the picture plans.
@@ -237,6 +242,14 @@ class Tracer:
             return before.aovs
         known = before.aovs if before else None
         return AovTracer(self._context, plan, self.device_scene, known)
+
+    def _particles_for(self, before: "Tracer | None") -> ParticleTracer | None:
+        """What gathers particles, if there are any: by the kernels of `before` where they fit."""
+        if self._plan.settings.caustics == "off":
+            return None
+        is_same = before and self.device_scene.has_kernel_of(before.device_scene)
+        known = before.particles if before and is_same else None
+        return ParticleTracer(self._context, self._plan, self.device_scene, known)
 
     @property
     def _lacks_particles(self) -> bool:
@@ -278,16 +291,3 @@ class Tracer:
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles)
-
-
-def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
-    """How many rounds of loops a dispatch may take, None: any; and how many samples.
-
-    SceneError if not one.
-    """
-    scene, settings = plan.scene, plan.settings
-    more = rounds_for_particles(scene, settings)
-    iterations = iterations_per_sample(scene, settings) + more
-    rounds = usable_rounds(context, iterations)
-    least = iterations_per_sample(scene, settings, 0) + more
-    return rounds, most_samples(iterations, rounds, least)

@@ -24,11 +24,10 @@ class Reading(NamedTuple):
     samples: int  # that were finite
 
 
-def reading(film: Film, weights: Weights, x: int, y: int) -> Reading:
-    """Of the pixel in column x and row y, (0, 0) upper left."""
+def read_row(film: Film, weights: Weights, y: int) -> tuple[Exposure, Array, Array]:
+    """Row y of a film, and its radiance and standard error under weights, (1, W, 3) each."""
     row = film.read(slice(y, y + 1))
-    radiance, error = _mixed(row, weights)
-    return Reading(radiance[0, x], error[0, x], film.samples - int(row.dropped[0, x]))
+    return row, *_mixed(row, weights)
 
 
 def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]:
@@ -86,7 +85,8 @@ class Mixer:
 
         To it `particles` are added, if there are any.
         """
-        if are_trivial(weights) and not particles:
+        is_plain = are_trivial(weights)
+        if is_plain and not particles:
             return film.mean
         program = self._program or self._compile()
         film.mean.use(0)
@@ -98,7 +98,7 @@ class Mixer:
         if particles:
             particles.use(2)
             program["particles"] = 2
-        program["layer_count"] = film.extent.layers
+        program["layer_count"] = 0 if is_plain else film.extent.layers
         program["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
         with self._gl.scope(self._canvas.sized(film.size)):
             self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)

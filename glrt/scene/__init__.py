@@ -45,6 +45,7 @@ Modules, each importing only what stands above it:
 - tables: the parts of a scene as plain tables, and tables as TOML
 - nesting: glasses that overlap by priority
 - scene: all of it together, and whether the parts fit
+- names: scenes without their names, which no light depends on
 - model_scene: scenes of model files alone
 - toml: scene files read
 - toml_lists: objects that come and go in the text of a scene file

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 from pydantic import Field, create_model, model_validator
 
-from glrt.scene.objects import Array, Object
+from glrt.scene.objects import Array, Object, dots
 from glrt.scene.solids import nearest_of_two
 from glrt.scene.values import SMALLEST, Length, Number, Triple, Vector
 
@@ -118,7 +118,7 @@ class Cylinder(_Ended):
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
         """To the near side; from inside, or through an open end, to the far side."""
         axis, half = rows[:, 3:6], rows[:, 6]
-        start, heading = ((origin - rows[:, :3]) * axis).sum(axis=1), axis @ direction
+        start, heading = ((origin - rows[:, :3]) * axis).sum(axis=1), dots(axis, direction)
         near, far = _to_walls(rows, origin, direction)
         ends = np.stack([(-half - start) / heading, (half - start) / heading])
         first, last = np.maximum(near, np.fmin(*ends)), np.minimum(far, np.fmax(*ends))
@@ -133,7 +133,7 @@ def _to_walls(rows: Array, origin: Array, direction: Array) -> tuple[Array, Arra
     axis, radius = rows[:, 3:6], rows[:, 7]
     offset = origin - rows[:, :3]
     beside = offset - (offset * axis).sum(axis=1)[:, None] * axis
-    across = direction - (axis @ direction)[:, None] * axis
+    across = direction - dots(axis, direction)[:, None] * axis
     square = (across * across).sum(axis=1)
     middle = -(beside * across).sum(axis=1) / square
     closest = beside + middle[:, None] * across

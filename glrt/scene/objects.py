@@ -66,7 +66,10 @@ class Object(Tagged):
     @staticmethod
     @abstractmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind."""
+        """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind.
+
+        Or n rays, (n, 3) each, to one shape.
+        """
 
 
 class Sided(Object):
@@ -83,18 +86,24 @@ class Sided(Object):
         return self.emission_side == "front"
 
 
+def dots(vectors: Array, direction: Array) -> Array:
+    """(n,): of n vectors and a direction, or of each with one of n directions."""
+    products: Array = (vectors * direction).sum(axis=-1)
+    return products
+
+
 def along_and_rest(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array]:
     """(n,): how far a ray goes to the middle of its chord through n balls, and half the chord.
 
     `rows` are centre and radius; the half chord is NaN beside a ball.
     """
     to_center = rows[:, :3] - origin
-    along: Array = to_center @ direction
+    along = dots(to_center, direction)
     aside = to_center - along[:, None] * direction
     return along, np.sqrt(rows[:, 3] ** 2 - np.square(aside).sum(axis=1))
 
 
 def to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
     """(n,): how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
-    distances: Array = ((points - origin) * normals).sum(axis=1) / (normals @ direction)
+    distances: Array = ((points - origin) * normals).sum(axis=1) / dots(normals, direction)
     return np.where(distances > 0, distances, math.inf)

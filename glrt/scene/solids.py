@@ -88,7 +88,7 @@ class Box(Object):
         """To the near side; from inside to the far side."""
         center, halves, axes = rows[:, :3], rows[:, 3:6], rows[:, 6:].reshape(-1, 3, 3)
         start = (axes * (origin - center)[:, None]).sum(axis=2)
-        along = axes @ direction
+        along = (axes * direction[..., None, :]).sum(axis=2)
         ends = np.stack([(-halves - start) / along, (halves - start) / along])
         near = np.fmax.reduce(np.fmin(*ends), axis=1)
         far = np.fmin.reduce(np.fmax(*ends), axis=1)

@@ -67,6 +67,8 @@ class App:
     unsaved: bool = False  # preferences
     awaited: tuple[Action, int] | None = None  # the key that is to be chosen: which of an action
     is_deaf: bool = False  # to keys, until they are let go
+    navigates: bool = False  # whether keys move in the panel
+    was_busy: bool = False  # whether a widget had the keys a frame ago
 
     def __post_init__(self, source: str) -> None:
         """Know what was opened."""
@@ -236,6 +238,7 @@ class App:
         """A frame's work: edits, samples, and what is shown of them."""
         try:
             count = self.preferences.samples_per_frame
+            self.session.moving.use(self.preferences.temporal)
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)
             self.show.draw(self.session)

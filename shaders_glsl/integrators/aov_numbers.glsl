@@ -6,3 +6,4 @@ const int NORMAL = 2;
 const int DEPTH = 3;
 const int POSITION = 4;
 const int OBJECT = 5;
+const int BOUNCES = 6;

@@ -1,6 +1,11 @@
 // Links of particles to the camera, from a matte vertex: straight, or through one sphere. What they bring is handed
 // to `splat`.
 
+// The layer of the film that takes what reaches the camera after so many scattering events.
+int layer_of(Particle self, int length) {
+    return LAYERS == 0 ? 0 : min(BY_LENGTH ? length : self.layer, LAYERS - 1);
+}
+
 // The place on the film, in pixels of the frame, of a ray that reaches the camera at a place on the lens.
 vec2 place_on_film(vec3 direction, vec2 lens) {
     precise vec3 d = direction / dot(direction, frame.camera.forward);
@@ -44,7 +49,7 @@ void link_straight(Particle self, Vertex vertex, Ray ray, Eye eye) {
     precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
     record_link(frame.particles * self.emission, pdf, weight);
-    splat(place, value);
+    splat(place, value, layer_of(self, self.path.depth + 1));
 }
 
 // Where a way through a sphere meets it, on the side of the eye and on that of the vertex.
@@ -101,7 +106,7 @@ void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
     if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
     record_link(self.emission, rho, weight);
-    splat(place, value);
+    splat(place, value, layer_of(self, self.path.depth + 2 + chords));
 }
 
 // Brings the camera what a particle scatters to it at a matte vertex; `ray` leaves there. `by_spheres`: through one

@@ -25,11 +25,7 @@ vec3 aov_of(int aov, Ray ray, Hit hit) {
 
 // 1 + the number of the shape in the middle of the pixel, through the middle of the lens; 0 for none.
 Pixel object_of(ivec2 place) {
-    precise vec2 at = (vec2(place) + 0.5) / vec2(frame.size);
-    precise vec3 direction = frame.camera.forward + (2.0 * at.x - 1.0) * frame.camera.tan_x * frame.camera.right
-                           + (1.0 - 2.0 * at.y) * frame.camera.tan_y * frame.camera.up;
-    precise vec3 unit_direction = normalized(direction);
-    precise Ray ray = Ray(vec3(0.0), unit_direction, NO_SHAPE, false);
+    precise Ray ray = middle_ray(place);
     leave_vertex(0u, 0);  // one number for all pixels: what is there in part is seen whole, or not at all
     precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
     precise Pixel pixel = empty_pixel();

@@ -7,6 +7,7 @@ struct Particle {
     float emission;  // that density, as pdf_emission has it
     float kappa;     // of its path, as particle_weights.glsl has it
     int light;
+    int layer;       // of its light group
 };
 
 // A point on a lamp, and the normal on the side that a particle leaves from.
@@ -17,6 +18,10 @@ struct Leaving {
     bool is_front;
 };
 
+Leaving leave_flat(vec3 position, vec3 normal, int material, bool back) {
+    return Leaving(position, back ? -normal : normal, material, !back);
+}
+
 Leaving place_on(Light light, vec2 u, bool back) {
     if (is_of_sphere(light)) {
         precise Sphere sphere = sphere_at(light.shape);
@@ -24,45 +29,95 @@ Leaving place_on(Light light, vec2 u, bool back) {
         precise vec3 position = sphere.center + sphere.radius * normal;
         return Leaving(position, normal, sphere.material, true);
     }
+    if (is_of_triangle(light)) {
+        precise LampTriangle triangle = lamp_triangle(light.shape);
+        precise vec2 shares = sample_triangle(u);
+        precise vec3 place = triangle.a + shares.x * triangle.edge_b + shares.y * triangle.edge_c;
+        return leave_flat(place, normalized(triangle.across), mesh_at(triangle.mesh).material, back);
+    }
+    if (is_of_disk(light)) {
+        precise Disk disk = disk_of(light);
+        precise vec2 across = disk.radius * sample_disk(u);
+        precise vec3 place = disk.center + frame_around(disk.normal) * vec3(across, 0.0);
+        return leave_flat(place, disk.normal, disk.material, back);
+    }
     precise Quad quad = quad_of(light);
     precise vec3 position = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v;
-    precise vec3 normal = back ? -quad.normal : quad.normal;
-    return Leaving(position, normal, quad.material, !back);
+    return leave_flat(position, quad.normal, quad.material, back);
 }
 
-// Towards a sphere, evenly over the cone that it fills; from inside of it, nowhere.
-vec3 direction_to(Sphere sphere, vec3 position, vec2 u) {
-    precise vec3 away = sphere.center - position;
-    precise float drop = cone_of_sphere(away, sphere.radius);
+// Towards a ball, evenly over the cone that it fills; from inside of it, nowhere.
+vec3 direction_to(Target ball, vec3 position, vec2 u) {
+    precise vec3 away = ball.center - position;
+    precise float drop = cone_of_sphere(away, ball.radius);
     if (drop == 0.0) return vec3(0.0);
     precise vec3 direction = normalized(frame_around(normalized(away)) * sample_cone(drop, u));
     return direction;
+}
+
+Path particle_path(Ray ray) {
+    precise Path path = start_path(ray);
+    path.absorption = vec3(0.0);
+    path.counts = 0u;
+    return path;
+}
+
+// Where light comes along the line through p before it meets the ball around the scene, or a plane.
+vec3 before_the_scene(vec3 p, vec3 direction) {
+    precise float along = dot(p - frame.bounds_center, direction);
+    precise vec3 start = p - (along + 2.0 * frame.bounds_radius) * direction;
+    if (!HAS_PLANE) return start;
+    precise float farthest = 0.0;
+    int i = 0;
+    for (; i < plane_count(); ++i) {
+        precise Plane plane = plane_at(i);
+        precise float t = plane_distance(Ray(start, -direction, NO_SHAPE, false), plane.point, plane.normal);
+        if (t > farthest && t < FAR) farthest = t;
+    }
+    note_end(i, plane_count());
+    start -= 2.0 * farthest * direction;
+    return start;
+}
+
+// `aim`: what it is aimed at, or NOT_AIMED.
+Particle start_from_sun(int aim, vec2 u, vec2 v) {
+    precise vec3 towards = normalized(frame_around(frame.sun_direction) * sample_cone(frame.sun_versine, u));
+    precise Target ball = Target(frame.bounds_center, frame.bounds_radius);
+    if (aim != NOT_AIMED) ball = aimed_at(aim);
+    precise vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
+    precise Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
+    precise float emission = pdf_from_sun(ray.origin, -towards, aim);
+    precise vec3 power = vec3(0.0);
+    if (emission > 0.0) power = frame.sun_radiance * (PI / emission);
+    return Particle(particle_path(ray), power, emission, 0.0, SUN_LIGHT, SUN_LAYER);
 }
 
 Particle start_particle(precise inout Sampler rng) {
     precise vec2 choice = next_2d(rng);
     precise vec2 u = next_2d(rng);
     precise vec2 v = next_2d(rng);
+    int aim = NOT_AIMED;
+    if (is_aimed()) {
+        precise vec2 pick = next_2d(rng);
+        if (pick.x < frame.aimed) aim = choose_aim(pick.y);
+    }
+    if (HAS_SUN) {
+        if (choice.x < frame.from_sun) return start_from_sun(aim, u, v);
+        choice.x = (choice.x - frame.from_sun) / (1.0 - frame.from_sun);
+    }
     int index = choose_emitter(choice.x);
     precise Light light = light_at(index);
     precise Leaving leaving = place_on(light, u, choice.y >= 0.5);
     precise vec3 direction = normalized(frame_around(leaving.normal) * sample_cosine_hemisphere(v));
     bool is_front = leaving.is_front;
-    int aim = NOT_AIMED;
-    if (CASTERS != 0) {
-        int casters = bitCount(CASTERS);
-        precise vec2 pick = next_2d(rng);
-        if (pick.x < frame.aimed) {
-            aim = sphere_of(CASTERS, min(int(pick.y * float(casters)), casters - 1));
-            direction = direction_to(sphere_at(aim), leaving.position, v);
-            if (!is_of_sphere(light)) is_front = dot(direction, quad_of(light).normal) > 0.0;
-        }
+    if (aim != NOT_AIMED) {
+        direction = direction_to(aimed_at(aim), leaving.position, v);
+        if (!is_of_sphere(light)) is_front = dot(direction, leaving.normal) > 0.0 == leaving.is_front;
     }
-    precise Path path = start_path(Ray(leaving.position, direction, light.shape, false));
-    path.absorption = vec3(0.0);
-    path.counts = 0u;
     precise float emission = pdf_emission(index, leaving.position, direction, aim);
+    precise Material material = material_at(leaving.material);
     precise vec3 power = vec3(0.0);
-    if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material_at(leaving.material), direction, is_front) * (PI / emission);
-    return Particle(path, power, emission, 0.0, index);
+    if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material, direction, is_front) * (PI / emission);
+    precise Path path = particle_path(Ray(leaving.position, direction, light.shape, false));
+    return Particle(path, power, emission, 0.0, index, material.layer);
 }

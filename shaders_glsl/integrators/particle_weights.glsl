@@ -11,7 +11,7 @@
 
 // What particles scatter at; at other surfaces they end.
 bool carries_particles(Material material) {
-    return is_delta(material) ? !is_medium(material) : material.kind == MATTE;
+    return is_delta(material) || material.kind == MATTE;
 }
 
 // Density per solid angle of rays from the camera, over the whole frame, at their place on the lens.
@@ -30,7 +30,8 @@ float pdf_film(vec3 direction, float cosine, float distance) {
 
 // Of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
 float sample_beside_particles(LightSample light, float scattered, float rho) {
-    precise vec3 point = light.ray.origin + light.distance * light.ray.direction;
+    precise vec3 point = light.ray.origin;
+    if (light.light != SUN_LIGHT) point += light.distance * light.ray.direction;
     precise float ratio = scattered / light.pdf;
     precise float over = 0.0;
     if (light.light != NO_LIGHT) {

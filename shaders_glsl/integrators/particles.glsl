@@ -5,7 +5,9 @@ const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs
 // P1 / P0 of a particle at the first vertex that it meets; `ray` leaves there, in any direction.
 float kappa_of(int light, Vertex vertex, Ray ray, vec3 towards, float distance) {
     ray.direction = towards;
-    precise float sampled = pdf_light(light, ray, distance, total_weight(ray));
+    precise float sampled = 0.0;
+    if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
+    else sampled = pdf_light(light, ray, distance, total_weight(ray));
     precise float kappa = sampled * PI / vertex.wo.z;
     return kappa;
 }
@@ -23,6 +25,7 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     if (HAS_ATTENUATION) absorb(self.path, material, side < 0.0, hit.distance);
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
                   self.path.throughput);
+    if (HAS_NESTED && passes(self.path, surface, material, side > 0.0)) return true;
     if (!carries_particles(material)) return false;
     precise mat3 around = frame_around(facing);
     precise Vertex vertex = vertex_of(around, to_local(around, -direction), material, side > 0.0);
@@ -30,6 +33,11 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     if (!is_delta(material)) {
         if (self.path.depth == 0) self.kappa = kappa_of(self.light, vertex, ray, -direction, hit.distance);
         link_to_camera(self, vertex, ray, by_spheres, rng);
+    }
+    uint beyond = self.path.counts;
+    if (is_medium(material)) {
+        beyond = counts_beyond(self.path.counts, material.details, side > 0.0);
+        vertex.eta = ior_of_medium(self.path.counts) / ior_of_medium(beyond);
     }
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(self.path, material, side > 0.0) : vec3(0.0);
     precise Scattering next = sample_material(vertex, rng);
@@ -41,6 +49,7 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     ray.inward = (side < 0.0) != next.crosses;
     self.path.ray = ray;
     if (HAS_ATTENUATION && next.crosses) self.path.absorption = behind;
+    if (HAS_NESTED && next.crosses) self.path.counts = beyond;
     self.path.depth += 1;
     return true;
 }

@@ -184,7 +184,12 @@ void gather_sun(precise inout Path path) {
     if (!meets_sun(path.ray.direction)) return;
     precise vec3 light = path.scale * path.throughput * frame.sun_radiance;
     if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
-    if (SAMPLE_SUN && path.pdf > 0.0) {
+    if (HAS_PARTICLES && path.rho > 0.0) {
+        precise float kappa = path.pdf > 0.0 ? pdf_sun() / path.pdf : 0.0;
+        precise float weight = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SUN_LIGHT, kappa, path.rho);
+        record_weight(kappa * path.pdf, weight);
+        light *= weight;
+    } else if (SAMPLE_SUN && path.pdf > 0.0) {
         precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, pdf_sun()) : 0.0;
         record_weight(pdf_sun(), weight);
         light *= weight;

@@ -11,6 +11,12 @@ vec3 rays_of_sample() {
     return rays;
 }
 
+// What a sample adds: its radiance, or how often its path has scattered before it ended.
+vec3 value_of(Path path) {
+    if (COUNT_RAYS) return rays_of_sample();
+    return COUNT_BOUNCES ? vec3(float(path.depth)) : path.radiance;
+}
+
 // One loop over the segments of all paths: a lane whose path has ended starts its next sample at
 // once, and does not wait for its neighbours. `place`: pixel in the full frame. Returns how many
 // samples are lost because the driver ended a loop early: this one, or one that a ray ran.
@@ -22,7 +28,7 @@ int add_samples(precise inout Pixel pixel, precise inout Layers layers, ivec2 pl
     while (index < end) {
         if (extend_path(path, rng)) continue;
         if (loop_was_cut) break;
-        add_sample(pixel, COUNT_RAYS ? rays_of_sample() : path.radiance, index);
+        add_sample(pixel, value_of(path), index);
         if (LAYERS > 0) add_layers(layers, path, index);
         index += 1;
         rng = sampler_at(place, index, frame.seed);

@@ -1,31 +1,24 @@
-// Particles leave lamps that are spheres or quads, where HAS_PARTICLES. A lamp is chosen by its share of the
+// Particles leave the lamps that are sampled, and the sun, where HAS_PARTICLES. A lamp is chosen by its share of the
 // flux, a point evenly over its area, a direction by the cosine; or, of a share `frame.aimed` of the particles,
-// a direction evenly over the cone that a smooth sphere fills: these make caustics. CASTERS: a bit for each of
-// those spheres, by its number.
+// a direction evenly over the cone that a ball fills: these make caustics. CASTERS: a bit for each sphere of smooth
+// glass or metal, by its number; TARGETS: how many balls there are around other such shapes.
+//
+// From the sun, particles come along its rays, spread evenly over the disk that a ball fills across them: the ball
+// around the scene, or one that is aimed at.
 
 const int NOT_AIMED = -1;
+const int FIRST_TARGET = 1 << 20;  // beyond all spheres: the number of what is aimed at, where that is no sphere
 
-bool emits_particles(Light light) {
-    return !is_of_triangle(light) && !is_of_disk(light);
-}
+// Balls that are aimed at.
+int ball_count() { return bitCount(CASTERS) + TARGETS; }
 
-// Of the flux of all lamps that particles leave.
-float flux_of_particles() {
-    if (!HAS_DISK_LIGHT && !HAS_MESH_LIGHT) return 1.0;
-    precise float sum = 0.0;
-    for (int i = 0; i < CLUSTERS; ++i) {
-        if (emits_particles(light_at(i))) sum += cluster_at(i).probability;
-    }
-    return sum;
-}
+bool is_aimed() { return CASTERS != 0 || TARGETS > 0; }
 
 int choose_emitter(float u) {
-    precise float target = u * flux_of_particles();
     precise float sum = 0.0;
     int chosen = NO_LIGHT;
     for (int i = 0; i < CLUSTERS; ++i) {
-        if (!emits_particles(light_at(i))) continue;
-        if (chosen == NO_LIGHT || sum <= target) chosen = i;
+        if (chosen == NO_LIGHT || sum <= u) chosen = i;
         sum += cluster_at(i).probability;
     }
     return chosen;
@@ -33,23 +26,35 @@ int choose_emitter(float u) {
 
 bool is_caster(int sphere) { return (CASTERS >> sphere & 1) != 0; }
 
-// Density per solid angle of directions aimed at smooth spheres from p; `certain`: the sphere that one was aimed
-// at, which rounding may have taken past its rim. Over a cone it is 1 / (2 PI (1 - cos)), written without the
-// difference.
+// 1 / (1 - cos) of the cone that a ball fills, written without the difference; 0 where the line passes by, or from
+// inside. `certain`: whether one was aimed at it, which rounding may have taken past its rim.
+float narrowness(vec3 center, float radius, vec3 p, vec3 direction, bool certain) {
+    precise vec3 away = center - p;
+    precise float along = dot(away, direction);
+    precise vec3 beside = away - along * direction;
+    precise float d2 = dot(away, away);
+    precise float r2 = radius * radius;
+    bool meets = certain || along > 0.0 && dot(beside, beside) < r2;
+    if (!(meets && d2 > r2)) return 0.0;
+    precise float inverse = (d2 + sqrt(d2 * (d2 - r2))) / r2;
+    return inverse;
+}
+
+// Density per solid angle of directions aimed at balls from p; `certain`: the number of the ball that one was aimed at.
 float pdf_aimed(vec3 p, vec3 direction, int certain) {
     precise float sum = 0.0;
-    for (int i = 0; i < sphere_count(); ++i) {
-        if (!is_caster(i)) continue;
-        precise Sphere sphere = sphere_at(i);
-        precise vec3 away = sphere.center - p;
-        precise float along = dot(away, direction);
-        precise vec3 beside = away - along * direction;
-        precise float d2 = dot(away, away);
-        precise float r2 = sphere.radius * sphere.radius;
-        bool meets = i == certain || along > 0.0 && dot(beside, beside) < r2;
-        if (meets && d2 > r2) sum += (d2 + sqrt(d2 * (d2 - r2))) / r2;
+    if (CASTERS != 0) {
+        for (int i = 0; i < sphere_count(); ++i) {
+            if (!is_caster(i)) continue;
+            precise Sphere sphere = sphere_at(i);
+            sum += narrowness(sphere.center, sphere.radius, p, direction, i == certain);
+        }
     }
-    precise float pdf = sum * (0.5 / (PI * float(bitCount(CASTERS))));
+    for (int i = 0; i < TARGETS; ++i) {
+        precise Target target = target_at(i);
+        sum += narrowness(target.center, target.radius, p, direction, FIRST_TARGET + i == certain);
+    }
+    precise float pdf = sum * (0.5 / (PI * float(ball_count())));
     return pdf;
 }
 
@@ -64,33 +69,99 @@ int sphere_of(int bits, int n) {
     return NOT_AIMED;
 }
 
+// The number of what is aimed at, of `u` from 0 to 1.
+int choose_aim(float u) {
+    int n = min(int(u * float(ball_count())), ball_count() - 1);
+    int casters = bitCount(CASTERS);
+    return n < casters ? sphere_of(CASTERS, n) : FIRST_TARGET + n - casters;
+}
+
+Target aimed_at(int number) {
+    if (TARGETS > 0 && (CASTERS == 0 || number >= FIRST_TARGET)) return target_at(number - FIRST_TARGET);
+    precise Sphere sphere = sphere_at(number);
+    return Target(sphere.center, sphere.radius);
+}
+
+// Density per area of the lines across the disk that a ball fills; 0 on those that pass by.
+float density_across(vec3 center, float radius, vec3 p, vec3 direction, bool certain) {
+    precise vec3 away = center - p;
+    precise vec3 beside = away - dot(away, direction) * direction;
+    precise float r2 = radius * radius;
+    if (!certain && dot(beside, beside) >= r2) return 0.0;
+    precise float density = 1.0 / (PI * r2);
+    return density;
+}
+
+// PI times the density of particles from the sun on a line through p, per area across it and per solid angle; the sun
+// lies in that direction.
+float pdf_from_sun(vec3 p, vec3 direction, int certain) {
+    precise float density = density_across(frame.bounds_center, frame.bounds_radius, p, direction, false);
+    if (is_aimed()) {
+        precise float sum = 0.0;
+        if (CASTERS != 0) {
+            for (int i = 0; i < sphere_count(); ++i) {
+                if (!is_caster(i)) continue;
+                precise Sphere sphere = sphere_at(i);
+                sum += density_across(sphere.center, sphere.radius, p, direction, i == certain);
+            }
+        }
+        for (int i = 0; i < TARGETS; ++i) {
+            precise Target target = target_at(i);
+            sum += density_across(target.center, target.radius, p, direction, FIRST_TARGET + i == certain);
+        }
+        density = (1.0 - frame.aimed) * density + frame.aimed * sum / float(ball_count());
+    }
+    precise float pdf = PI * frame.from_sun * pdf_sun() * density;
+    return pdf;
+}
+
 // What the density of aimed directions is per, in place of solid angle: the least cosine keeps it finite.
 const float LEAST_COSINE = 9.5367431640625e-7;
 
-// PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
-// does. `certain` as pdf_aimed has it.
-float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
-    precise Light light = light_at(index);
-    if (!emits_particles(light)) return 0.0;
-    precise float area = 0.0;
-    precise float cosine = 0.0;
-    bool has_two_sides = false;
+// A lamp, seen along a ray that leaves it.
+struct Aspect {
+    float area;      // of one side
+    float cosine;    // 0: nothing leaves so
+    float by_cosine; // the share of particles of this side that leave by the cosine
+};
+
+Aspect aspect_of(Light light, vec3 p, vec3 direction) {
     if (is_of_sphere(light)) {
         precise Sphere sphere = sphere_at(light.shape);
-        area = 4.0 * PI * sphere.radius * sphere.radius;
-        cosine = dot(p - sphere.center, direction) / sphere.radius;
-        if (cosine <= 0.0) return 0.0;  // light from inside a lamp is found by scattering alone
-    } else {
-        precise Quad quad = quad_of(light);
-        area = quad.width * quad.height;
-        cosine = abs(dot(quad.normal, direction));
-        has_two_sides = true;
+        precise float area = 4.0 * PI * sphere.radius * sphere.radius;
+        precise float cosine = dot(p - sphere.center, direction) / sphere.radius;
+        return Aspect(area, larger(cosine, 0.0), 1.0);  // light from inside a lamp is found by scattering alone
     }
-    precise float by_angle = has_two_sides ? 0.5 : 1.0;
-    if (CASTERS != 0) {
+    if (is_of_triangle(light)) {
+        precise vec3 across = lamp_triangle(light.shape).across;
+        precise float area = length(across);
+        precise float cosine = abs(dot(across, direction)) / area;
+        return Aspect(area, cosine, 0.5);
+    }
+    if (is_of_disk(light)) {
+        precise Disk disk = disk_of(light);
+        precise float area = PI * disk.radius * disk.radius;
+        precise float cosine = abs(dot(disk.normal, direction));
+        return Aspect(area, cosine, 0.5);
+    }
+    precise Quad quad = quad_of(light);
+    precise float area = quad.width * quad.height;
+    precise float cosine = abs(dot(quad.normal, direction));
+    return Aspect(area, cosine, 0.5);
+}
+
+// PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
+// does. `certain` as pdf_aimed has it. Of the sun, p is any point on the line.
+float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
+    if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);
+    precise Aspect aspect = aspect_of(light_at(index), p, direction);
+    if (aspect.by_cosine == 1.0 && aspect.cosine == 0.0) return 0.0;
+    precise float by_angle = aspect.by_cosine;
+    if (is_aimed()) {
         precise float aimed = frame.aimed * PI * pdf_aimed(p, direction, certain);
-        by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(cosine, LEAST_COSINE);
+        by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(aspect.cosine, LEAST_COSINE);
     }
-    precise float pdf = cluster_at(index).probability / flux_of_particles() * by_angle / area;
+    precise float pdf = cluster_at(index).probability * by_angle / aspect.area;
+    if (HAS_SUN) pdf *= 1.0 - frame.from_sun;
     return pdf;
 }

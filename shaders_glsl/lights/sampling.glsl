@@ -167,10 +167,8 @@ LampPoint disk_point(Ray ray, int shape, vec2 u) {
 
 LampPoint triangle_point(Ray ray, int shape, vec2 u) {
     precise LampTriangle triangle = lamp_triangle(shape);
-    precise float root = sqrt(u.x);
-    precise float share_b = root * (1.0 - u.y);
-    precise float share_c = root * u.y;
-    precise vec3 offset = triangle.a - ray.origin + share_b * triangle.edge_b + share_c * triangle.edge_c;
+    precise vec2 shares = sample_triangle(u);
+    precise vec3 offset = triangle.a - ray.origin + shares.x * triangle.edge_b + shares.y * triangle.edge_c;
     return flat_point(offset, mesh_at(triangle.mesh).material, triangle.across);
 }
 

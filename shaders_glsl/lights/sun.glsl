@@ -16,5 +16,5 @@ LightSample sample_sun(Ray ray, precise inout Sampler rng) {
     precise vec2 u = next_2d(rng);
     precise vec3 local = sample_cone(frame.sun_versine, u);
     ray.direction = normalized(frame_around(frame.sun_direction) * local);
-    return LightSample(ray, FAR, pdf_sun(), frame.sun_radiance, NO_SHAPE, SUN_LAYER, NO_LIGHT);
+    return LightSample(ray, FAR, pdf_sun(), frame.sun_radiance, NO_SHAPE, SUN_LAYER, SUN_LIGHT);
 }

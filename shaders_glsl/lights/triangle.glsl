@@ -28,6 +28,13 @@ bool is_beside(LampTriangle triangle, vec3 origin) {
     return abs(z) > 0.0;
 }
 
+// Shares of the edges, even in area.
+vec2 sample_triangle(vec2 u) {
+    precise float root = sqrt(u.x);
+    precise vec2 shares = vec2(root * (1.0 - u.y), root * u.y);
+    return shares;
+}
+
 // Points even in area, in every method.
 float pdf_triangle(LampTriangle triangle, Ray ray, float distance) {
     precise float facing = abs(dot(ray.direction, triangle.across));  // the area that it shows

@@ -42,10 +42,13 @@ struct Frame {
     float splat_unit;        // radiance of one unit of what particles add to pixels (particles.comp)
     vec3 camera_absorption;  // of the glass around the camera, per unit length
     uint camera_counts;      // of the glasses with a priority around it (integrators/media.glsl)
+    vec3 bounds_center;     // of a ball around all shapes but planes, where particles leave the sun
+    float bounds_radius;
     float background_turn;  // of its image about +y, in turns from 0 to 1
     float sky_density;      // of its samples per solid angle: lights/sky_sampling.glsl
     float particles;        // that leave lamps, for each sample of a pixel; where HAS_PARTICLES
     float aimed;            // their share that is aimed at smooth spheres
     float linked;           // their share that is linked to the camera through spheres, too, where LINKED is not 0
     int linked_groups;      // the work groups of them
+    float from_sun;         // the share of the particles that leaves the sun
 };

@@ -2,6 +2,7 @@
 
 const int NO_LIGHT = -1;
 const int SEVERAL = -2;  // lamps, so no shape
+const int SUN_LIGHT = -3;  // in place of the number of a lamp
 
 const int PARTS = 8;  // of a cluster, among many lamps
 
@@ -21,6 +22,12 @@ struct Cluster {
     int first;
     int count;
     int shape;          // of the lamp if it is one, else SEVERAL
+};
+
+// What particles are aimed at, beside spheres of smooth glass or metal: a ball around a shape of these.
+struct Target {
+    vec3 center;
+    float radius;
 };
 
 // The directions into which the lamps of a cluster or a part emit: within a cone, at each of their points.

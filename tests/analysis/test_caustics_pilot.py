@@ -2,6 +2,7 @@
 
 import random
 import time
+from typing import Any
 
 import pytest
 
@@ -134,12 +135,56 @@ def test_the_frame_of_the_pilot_is_the_whole_one() -> None:
 
 
 def test_a_pilot_is_a_small_share_of_a_render() -> None:
-    """Of the samples of its four pictures, 4 / LEAST at most."""
-    scene = load("cornell")
-    assert may_gain(scene, settings_for(scene.render))
-    assert not may_gain(scene, settings_for(scene.render, samples=64))
+    """Of the samples of its four pictures, 4 / LEAST at most; a shorter one has a smaller one."""
+    scene = load("cornell")  # 512 x 512 pixels, 256 samples
+    sizes = {256: caustics.LONG, 128: caustics.LONG, 64: caustics.SHORT, 32: caustics.SHORT, 31: 0}
+    for samples, pixels in sizes.items():
+        settings = settings_for(scene.render, samples=samples)
+        assert caustics._pilot_of(settings, samples) == pixels
+        assert may_gain(scene, settings) == (pixels > 0)
     assert not may_gain(scene, settings_for(scene.render, width=64, height=64))
-    assert may_gain(scene, settings_for(scene.render, samples=64, width=2048, crop=(0, 0, 9, 9)))
+    assert may_gain(scene, settings_for(scene.render, samples=31, width=2048, crop=(0, 0, 9, 9)))
+
+
+@pytest.mark.parametrize(
+    ("given", "has_links", "tried"),
+    [
+        ({}, True, CHOICES[2]),
+        ({}, False, CHOICES[0]),
+        ({"linked": 0.0}, True, CHOICES[0]),
+        ({"particles": 0.3}, True, {**CHOICES[2], "particles": 0.3}),
+    ],
+    ids=str,
+)
+def test_a_short_pilot_tries_one_choice(
+    given: dict[str, float], has_links: bool, tried: dict[str, float]
+) -> None:
+    assert caustics._choices(given, has_links, is_short=True) == [tried]
+
+
+@pytest.mark.parametrize(("error", "pixels"), [(None, 64), (0.02, 64), (0.04, 16), (0.5, None)])
+def test_the_error_that_is_wanted_tells_how_long_a_render_is(
+    error: float | None, pixels: int | None, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its samples by the plain picture: here 2,500, 625, and 4, where 880 and 160 have a pilot."""
+    sizes: list[int] = []
+    monkeypatch.setattr(caustics, "LONG", 64)
+    monkeypatch.setattr(caustics, "SHORT", 16)
+
+    def picture(*given: Any) -> None:
+        sizes.append(given[-1])
+
+    def gain(*given: Any) -> float:
+        sizes.append(given[-1])
+        return 2.0
+
+    monkeypatch.setattr(caustics, "_picture", picture)
+    monkeypatch.setattr(caustics, "_gain", gain)
+    monkeypatch.setattr(caustics, "_samples_to", lambda error, _: 1 / error**2)
+    settings = Settings(width=32, height=16, samples=1 << 20)
+    found = particles_worth(load(BALL), settings, context, error=error)
+    assert (found is None) == (pixels is None)
+    assert sizes[-1] == (pixels or 64)
 
 
 def test_an_error_that_few_samples_reach_is_not_worth_a_choice(context: Context) -> None:

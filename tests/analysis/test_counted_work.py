@@ -78,7 +78,7 @@ def test_work_grows_with_paths_and_with_what_is_looked_for(context: Context) -> 
 def test_rays_of_particles_are_counted_whatever_the_lamps_shine(context: Context) -> None:
     """Where light is added up, units are those of the brightest lamp, and too much is cut."""
     scene = load("cornell")
-    settings = settings_for(scene.render, width=16, height=16, caustics="on")
+    settings = settings_for(scene.render, width=16, height=16, caustics="on", linked=0.0)
     found = {
         rays_per_sample(with_lights(scene, {"lamp": factor}), settings, context)
         for factor in (1e-6, 1.0, 1e6)

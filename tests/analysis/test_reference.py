@@ -158,7 +158,9 @@ class Noisy:
 
     def image(self) -> Any:
         radiance = np.full((2, 2, 3), self.level)
-        return SimpleNamespace(radiance=radiance, stderr=0.1 * radiance, samples=64)
+        recipe = SimpleNamespace(scene=LIT, settings=self.settings)
+        moments = {"radiance": radiance, "stderr": 0.1 * radiance, "samples": 64}
+        return SimpleNamespace(**moments, recipe=recipe)
 
 
 def test_a_reference_takes_no_more_samples_than_a_picture_holds() -> None:

@@ -17,6 +17,7 @@ def test_a_row_has_a_ratio_for_each_choice(
         ["", *aovs.CHOICES], 2
     )
     fixed = {"": [1.0] * 6, "albedo, normal": [1.1] * 6, "all five": [1.25] * 6}
+    fixed["bounces"] = [2.0] * 6
     monkeypatch.setattr(aovs, "times_of", lambda *_: fixed)
     told = aovs.row("sky", load("sky"), context, 6)
-    assert told == "| sky | 1.100 (1.100-1.100) | 1.250 (1.250-1.250) |"
+    assert told == "| sky | 1.100 (1.100-1.100) | 1.250 (1.250-1.250) | 2.000 (2.000-2.000) |"

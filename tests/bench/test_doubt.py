@@ -16,7 +16,6 @@ from bench.doubt import (
     true_ratio,
 )
 from bench.fooling_scenes import KINDS, fooling_scene
-from glrt.image.image import Image
 from tests.support.noisy_images import flat
 
 # The last one is overestimated: a caution is not in vain.
@@ -35,13 +34,13 @@ def test_rates_are_of_what_is_wrong_and_of_what_is_right() -> None:
 
 def test_noise_of_the_reference_is_no_error() -> None:
     image = flat(1.0, 0.1, 64)
-    draw = np.random.default_rng(1).normal(size=image.radiance.shape)
-    reference = flat(1.0, 0.05, 64)
-    shaken = Image((1 + 0.05 * draw).astype(np.float32), reference.stderr, 64)
-    ratio = true_ratio(image, shaken)
+    draw = np.random.default_rng(1).normal(size=(2, *image.radiance.shape))
+    halves = [1 + 0.05 * part for part in draw]
+    ratio = true_ratio(image, halves)
     assert ratio is not None
-    assert ratio < 0.3
-    assert true_ratio(flat(1.0, 0.0, 64), reference) is None
+    assert ratio < 0.2
+    assert true_ratio(image, [half + 0.1 for half in halves]) == pytest.approx(0.9, abs=0.1)
+    assert true_ratio(flat(1.0, 0.0, 64), halves) is None
 
 
 def test_each_kind_is_drawn_from_the_seed() -> None:
@@ -53,7 +52,8 @@ def test_each_kind_is_drawn_from_the_seed() -> None:
 
 
 def test_a_table_of_two_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(doubt, "REFERENCE", 256)
+    monkeypatch.setattr(doubt, "HALF", 128)
+    monkeypatch.setattr(doubt, "DIRECT", 256)
     found = [finding for task in tasks(3, 1, 1) for finding in findings(task)]
     assert [one.samples for one in found] == [*LOOKS, *LOOKS]
     told = report(found)

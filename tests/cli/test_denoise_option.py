@@ -111,6 +111,6 @@ def test_pilots_and_trials_measure_plain_pictures(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(caustics, "Renderer", lambda _, settings, *__, **___: seen.append(settings))
     wanted = Settings(denoise="nlm", aov=("depth",))
     with pytest.raises(AttributeError):  # there is no renderer to release
-        caustics._picture(load("cornell"), wanted, Context.__new__(Context))
+        caustics._picture(load("cornell"), wanted, Context.__new__(Context), 64)
     seen.append(search._small_frame(wanted))
     assert [(found.denoise, found.aov) for found in seen] == [("none", ())] * 2

@@ -10,13 +10,12 @@ import pytest
 from glrt.errors import RenderError
 from glrt.gpu import glsl
 from glrt.gpu.evaluate import path_files
-from glrt.gpu.glsl import Source, files_anew, read, shader_files
+from glrt.gpu.glsl import Source, files_anew, read
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, RenderPass, aov_pass
+from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, SURFACES, RenderPass, aov_pass
 from glrt.rendering.pipelines import sources
 from glrt.resources import folder
-from glrt.settings import Aov
 from tests.gpu.test_precise import computed_returns, imprecise
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
@@ -24,16 +23,10 @@ from tests.support.kernel_text import written_for
 
 INCLUDES = path_files()
 FILES = [name for name in INCLUDES if name != FILE]
-TONEMAP_ENTRY = """
-layout(local_size_x = 1) in;
-#include "passes/tonemap.glsl"
-layout(std430) buffer Data { vec4 data; };
-void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
-"""
 WRITTEN = written_for()
 TOLD = pytest.param(PATHS, marks=pytest.mark.slow)
-DISPLAYS = ("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify")
-DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
+OF_PIXELS = [aov_pass(("albedo", "normal")), aov_pass(("depth", "position"))]
+OF_PIXELS += [aov_pass(("object",)), aov_pass(("bounces",)), SURFACES]
 
 
 @pytest.fixture
@@ -173,41 +166,12 @@ OFTEN = [  # each of the others differs from "everything" by a feature, and take
 # --- what the driver thinks ----------------------------------------------------------------
 
 
-def test_every_shader_file_is_compiled_by_a_test_here() -> None:
-    root = folder("shaders_glsl")
-    files = {str(path.relative_to(root)) for path in shader_files()}
-    by_structs = re.findall(r'#include "([^"]+)"', read("structs/scene.glsl"))
-    assert files == {*FILES, *by_structs} | {
-        *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
-        "integrators/aov_numbers.glsl",
-        *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"),
-        *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
-        *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
-        *("trace.comp", "paths.comp", "structs/path_records.glsl"),
-        *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
-        *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
-        *DISPLAY_STAGES,
-    }
-
-
 @pytest.mark.parametrize("features", FEATURE_SETS)
 def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: str) -> None:
     assert ctx.version_code >= 430
     assert (
         warnings((COMPUTE, Source("trace.comp", FEATURE_SETS[features], texts=WRITTEN).text)) == []
     )
-
-
-def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
-    assert ctx.version_code >= 430
-    assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
-
-
-@pytest.mark.parametrize("name", DISPLAYS)
-def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
-    assert ctx.version_code >= 430
-    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(f"{name}.frag").text)]
-    assert warnings(*stages) == []
 
 
 def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
@@ -218,18 +182,17 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         assert warnings((COMPUTE, text)) == []
 
 
-@pytest.mark.parametrize("aovs", [("albedo", "normal"), ("depth", "position"), ("object",)])
+@pytest.mark.parametrize("render_pass", OF_PIXELS)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
-def test_aovs_compile_without_a_warning(
-    ctx: moderngl.Context, features: str, aovs: tuple[Aov, ...]
+def test_aovs_and_surfaces_compile_without_a_warning(
+    ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
-    assert ctx.version_code >= 430
     constants = FEATURE_SETS[features]
-    (compute,) = sources("compute", constants, WRITTEN, aov_pass(aovs))
+    (compute,) = sources("compute", constants, WRITTEN, render_pass)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []
     assert warnings((COMPUTE, compute.text)) == []
-    vertex, fragment = sources("fragment", constants, WRITTEN, aov_pass(aovs))
+    vertex, fragment = sources("fragment", constants, WRITTEN, render_pass)
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 
@@ -241,7 +204,7 @@ def test_other_passes_compile_without_a_warning(
     ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
     assert ctx.version_code >= 430
-    constants = {**FEATURE_SETS[features], "CASTERS": 5, "LINKED": 5}
+    constants = {**FEATURE_SETS[features], "CASTERS": 5, "LINKED": 5, "TARGETS": 2}
     (compute,) = sources("compute", constants, WRITTEN, render_pass)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []

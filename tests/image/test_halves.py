@@ -12,7 +12,7 @@ from glrt.image.halves import halves_of
 from glrt.image.moments import combined, without
 from glrt.scene.scene import Scene
 from tests.image.test_moments import assert_same, cut
-from tests.rendering.test_particles import ROOMS
+from tests.support.particle_rooms import ROOMS
 from tests.support.raw_samples import BLOCK, moments_of, noise
 
 OPTIONS: dict[str, Any] = {"width": 16, "height": 12, "bounces": 4, "aov": ("albedo", "normal")}

@@ -100,6 +100,16 @@ def test_every_setting_is_written_out_so_that_new_defaults_change_no_old_recipe(
     assert set(json.loads(recipe.to_json())["settings"]) == set(Settings.model_fields)
 
 
+@pytest.mark.parametrize("caustics", ["off", "on"])
+def test_a_recipe_from_before_there_were_links_has_none(recipe: Recipe, caustics: str) -> None:
+    """Their default is not 0."""
+    settings = {**json.loads(recipe.to_json())["settings"], "caustics": caustics}
+    assert settings.pop("linked") > 0
+    text = json.dumps({**json.loads(recipe.to_json()), "settings": settings})
+    found = Recipe.from_json(text, "test").settings
+    assert (found.caustics, found.linked) == (caustics, 0.0)
+
+
 def test_the_json_is_one_line_of_ascii(recipe: Recipe) -> None:
     assert recipe.to_json().isascii()
     assert "\n" not in recipe.to_json()

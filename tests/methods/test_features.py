@@ -178,6 +178,7 @@ def needs_with(flags: set[str]) -> Needs:
         method=method,
         roulette="ROULETTE" in flags,
         caustics="on" if "HAS_PARTICLES" in flags else "off",
+        linked=0.0,
     )
     return needs_of(scene, settings)
 

@@ -60,7 +60,11 @@ AOVS = [
     ),
     Mutant(
         "the object is that of the pixel's corner",
-        edit(HIT, "(vec2(place) + 0.5) / vec2(frame.size)", "vec2(place) / vec2(frame.size)"),
+        edit(
+            "integrators/middle_ray.glsl",
+            "(vec2(place) + 0.5) / vec2(frame.size)",
+            "vec2(place) / vec2(frame.size)",
+        ),
         "rendering/test_aovs.py::test_objects_have_their_place_in_the_scene_file",
     ),
     Mutant(
@@ -129,5 +133,35 @@ AOVS = [
             ),
         ),
         "image/test_aovs.py::test_an_aov_that_lost_a_channel_is_left_out",
+    ),
+    Mutant(
+        "the last bounce of a path is not counted",
+        edit("integrators/samples.glsl", "float(path.depth)", "float(max(path.depth - 1, 0))"),
+        "rendering/test_bounces_aov.py::test_no_path_ends_early_in_a_closed_room_without_roulette",
+    ),
+    Mutant(
+        "a path that roulette ended counts the bounce that it did not take",
+        edit(
+            "integrators/path.glsl",
+            "roulette_ends(path.throughput, rng)) return goes_on(END_BY_ROULETTE);",
+            "roulette_ends(path.throughput, rng)) { path.depth += 1; return false; }",
+        ),
+        "rendering/test_bounces_aov.py::test_roulette_ends_as_many_as_their_chances_say",
+    ),
+    Mutant(
+        "what is beyond the limit of bounces has colours of its own",
+        (
+            Edit(
+                "glrt/rendering/aov_view.py",
+                "float(min(max(limit, 1), MOST_BOUNCES))",
+                "float(MOST_BOUNCES)",
+            ),
+        ),
+        "rendering/test_bounces_aov.py::test_colours_reach_from_none_to_the_limit",
+    ),
+    Mutant(
+        "dispatches of bounces are as large as those of camera rays",
+        host("if is_of_paths else _rounds_of_rays", "if False else _rounds_of_rays"),
+        "rendering/test_bounces_aov.py::test_what_is_beyond_the_loop_limit_is_refused_by_name",
     ),
 ]

@@ -6,6 +6,7 @@ from tests.mutation.mutant import Mutant
 _OUTLINE = "view/viewport/outline.py"
 _EDITS = "view/state/scene_edits.py"
 _LISTS = "scene/toml_lists.py"
+_NAMES = "scene/names.py"
 
 EDITOR: list[Mutant] = [
     bug(
@@ -77,5 +78,40 @@ EDITOR: list[Mutant] = [
         '"hidden" if light.hidden else "sampled"',
         '"sampled"',
         "view/test_path_lines.py::test_sampled_points_are_as_far_as_they_are",
+    ),
+    bug(
+        "another name restarts the picture",
+        _NAMES,
+        "    if _are_named_alike(first, second):",
+        "    if first is not None:",
+        "rendering/test_renamed.py::test_other_names_lose_no_sample",
+    ),
+    bug(
+        "two light groups that become one are taken for a name",
+        _NAMES,
+        "groups[group] if group else thing.group",
+        "None",
+        "rendering/test_renamed.py::test_what_is_more_than_a_name_is_told_apart",
+    ),
+    bug(
+        "the order of materials is taken for names",
+        _NAMES,
+        "for number, name in enumerate(scene.materials)}",
+        "for number, name in enumerate(sorted(scene.materials))}",
+        "rendering/test_renamed.py::test_what_is_more_than_a_name_is_told_apart",
+    ),
+    bug(
+        "intensities of light groups are lost with their names",
+        _NAMES,
+        "for name, value in scene.lights.items()}",
+        "for name, value in ()}",
+        "rendering/test_renamed.py::test_light_is_weighed_on_under_other_names",
+    ),
+    bug(
+        "a particle is linked to its lamp and not to the camera",
+        "view/viewport/path_lines.py",
+        'Line(places[at], np.array(eye), "linked")',
+        'Line(places[at], places[0], "linked")',
+        "view/test_path_lines.py::test_a_particle_is_linked_to_the_camera_from_where_it_was_seen",
     ),
 ]

@@ -72,7 +72,7 @@ MESHES = [
     ),
     Mutant(
         "points on triangles are dense at one corner",
-        edit("lights/sampling.glsl", "float root = sqrt(u.x);", "float root = u.x;"),
+        edit("lights/triangle.glsl", "float root = sqrt(u.x);", "float root = u.x;"),
         f"{_TRUTHS}::test_a_lamp_of_triangles_lights_as_one_of_a_quad",
     ),
     Mutant(

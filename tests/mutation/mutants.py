@@ -11,6 +11,7 @@ from tests.mutation.editor import EDITOR
 from tests.mutation.film import FILM
 from tests.mutation.glass import GLASS
 from tests.mutation.instances import INSTANCES
+from tests.mutation.judging import JUDGING
 from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
@@ -22,6 +23,7 @@ from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
 from tests.mutation.sphere_links import SPHERE_LINKS
+from tests.mutation.temporal import TEMPORAL
 from tests.mutation.textures import TEXTURES
 from tests.mutation.transport import TRANSPORT
 
@@ -46,4 +48,6 @@ MUTANTS = [
     *PATHS,
     *EDITOR,
     *DENOISING,
+    *JUDGING,
+    *TEMPORAL,
 ]

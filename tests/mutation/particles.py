@@ -8,6 +8,8 @@ _PARTICLES = "integrators/particles.glsl"
 _LINKS = "integrators/camera_links.glsl"
 _PATH = "integrators/path.glsl"
 _SHADERS = "shaders/test_particles.py"
+_LAYERS = "rendering/test_particle_layers.py"
+_SOURCES = "shaders/test_particle_sources.py"
 _PICTURES = "rendering/test_particles.py"
 _LIGHT = f"{_PICTURES}::test_particles_change_the_noise_alone"
 
@@ -34,12 +36,16 @@ PARTICLES = [
     ),
     Mutant(
         "a quad shines to one side alone",
-        edit(_EMISSION, "has_two_sides ? 0.5 : 1.0", "1.0"),
+        edit(
+            _EMISSION,
+            "dot(quad.normal, direction));\n    return Aspect(area, cosine, 0.5)",
+            "dot(quad.normal, direction));\n    return Aspect(area, cosine, 1.0)",
+        ),
         f"{_SHADERS}::test_directions_from_a_lamp_have_a_density",
     ),
     Mutant(
         "particles leave a ball inwards, too",
-        edit(_EMISSION, "if (cosine <= 0.0) return 0.0;", "cosine = abs(cosine);"),
+        edit(_EMISSION, "larger(cosine, 0.0), 1.0)", "abs(cosine), 1.0)"),
         f"{_SHADERS}::test_no_particle_leaves_a_ball_inwards",
     ),
     Mutant(
@@ -118,5 +124,77 @@ PARTICLES = [
         "the film of particles keeps its last observation alone",
         edit("splats.comp", "frame.is_empty == 0", "frame.is_empty == 2"),
         f"{_PICTURES}::test_cornell_keeps_its_light",
+    ),
+    Mutant(
+        "particles leave a disk as if it filled its square",
+        edit(_EMISSION, "PI * disk.radius * disk.radius", "4.0 * disk.radius * disk.radius"),
+        f"{_SHADERS}::test_directions_from_a_lamp_have_a_density",
+    ),
+    Mutant(
+        "half of a triangle that shines sends particles",
+        edit(
+            "lights/triangle.glsl",
+            "vec2 shares = vec2(root * (1.0 - u.y), root * u.y);",
+            "vec2 shares = vec2(0.5 * root * (1.0 - u.y), root * u.y);",
+        ),
+        f"{_SHADERS}::test_points_on_a_triangle_are_even_in_area",
+    ),
+    Mutant(
+        "of balls around solids one is forgotten in the density",
+        edit(
+            _EMISSION,
+            "FIRST_TARGET + i == certain);\n    }\n    precise float pdf = sum *",
+            "FIRST_TARGET + i == certain) * 0.5;\n    }\n    precise float pdf = sum *",
+        ),
+        f"{_SOURCES}::test_directions_towards_a_ball_around_a_solid_have_a_density",
+    ),
+    Mutant(
+        "what is aimed from the sun is not in the density",
+        edit(_EMISSION, "density + frame.aimed * sum / float(ball_count());", "density;"),
+        f"{_SOURCES}::test_lines_from_the_sun_have_a_density",
+    ),
+    Mutant(
+        "particles from the sun start beyond no plane",
+        edit("integrators/particle_start.glsl", "start -= 2.0 * farthest * direction;", ""),
+        f"{_SOURCES}::test_particles_come_from_beyond_the_planes",
+    ),
+    Mutant(
+        "lamps and the sun send the same particles twice",
+        edit(_EMISSION, "    if (HAS_SUN) pdf *= 1.0 - frame.from_sun;\n", ""),
+        f"{_SOURCES}::test_lamps_and_the_sun_share_the_particles",
+    ),
+    Mutant(
+        "the sun that scattering meets is not weighed against particles",
+        edit(
+            _PATH,
+            "if (HAS_PARTICLES && path.rho > 0.0) {\n        precise float kappa = path.pdf",
+            "if (false) {\n        precise float kappa = path.pdf",
+        ),
+        _LIGHT,
+    ),
+    Mutant(
+        "particles forget which glasses they are in",
+        edit(_PARTICLES, "if (HAS_NESTED && next.crosses) self.path.counts = beyond;", ""),
+        _LIGHT,
+    ),
+    Mutant(
+        "all particles are on the first layer",
+        edit(_LINKS, "min(BY_LENGTH ? length : self.layer, LAYERS - 1)", "0"),
+        f"{_LAYERS}::test_a_group_alone_is_the_scene_with_the_other_one_dark",
+    ),
+    Mutant(
+        "layers of particles are a bounce too short",
+        edit(_LINKS, "BY_LENGTH ? length : self", "BY_LENGTH ? length - 1 : self"),
+        f"{_LAYERS}::test_fewer_bounces_are_the_picture_of_so_many",
+    ),
+    Mutant(
+        "what the window shows of particles forgets their weights",
+        edit("weighting.frag", "weights[i] * texelFetch(particles", "texelFetch(particles"),
+        f"{_LAYERS}::test_what_is_shown_is_the_picture",
+    ),
+    Mutant(
+        "the sums of layers of particles lie over each other",
+        edit("particles.comp", "(layer * size.y + pixel.y)", "pixel.y"),
+        f"{_LAYERS}::test_layers_add_up_to_all",
     ),
 ]

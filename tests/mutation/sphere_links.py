@@ -70,7 +70,7 @@ SPHERE_LINKS = [
     ),
     Mutant(
         "a link takes one bounce, whatever it passes",
-        edit(_CAMERA_LINKS, "self.path.depth + 2 + chords", "self.path.depth + 2"),
+        edit(_CAMERA_LINKS, "depth + 2 + chords > frame", "depth + 2 > frame"),
         f"{_PICTURES}::test_however_few_there_are",
     ),
     Mutant(

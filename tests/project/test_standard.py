@@ -75,7 +75,9 @@ def test_every_kernel_is_within_the_standard(features: str) -> None:
     assert [line for shader in shaders for line in objections(shader)] == []
 
 
-@pytest.mark.parametrize("aovs", [("albedo", "normal"), ("depth", "position"), ("object",)])
+@pytest.mark.parametrize(
+    "aovs", [("albedo", "normal"), ("depth", "position"), ("object",), ("bounces",)]
+)
 def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
     shaders = [
         shader
@@ -86,7 +88,7 @@ def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
 
 
 def test_particles_and_records_of_paths_are() -> None:
-    constants = {**EVERYTHING, "CASTERS": 5, "LINKED": 5}
+    constants = {**EVERYTHING, "CASTERS": 5, "LINKED": 5, "TARGETS": 2}
     for render_pass in (PARTICLES, SPLATS, PATHS):
         (shader,) = sources("compute", constants, written_for(), render_pass)
         assert list(objections(shader)) == []

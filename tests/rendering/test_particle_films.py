@@ -16,12 +16,12 @@ from glrt.image.partition import Partition
 from glrt.rendering.parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption
-from tests.rendering.test_particles import ROOMS
 from tests.support.images import same_bits
+from tests.support.particle_rooms import ROOMS
 from tests.support.renders import rendered, same
 
 SCENE = ROOMS["a lens"]
-OPTIONS: dict[str, Any] = {"caustics": "on", "bounces": 4, "sampler": "sobol"}
+OPTIONS: dict[str, Any] = {"caustics": "on", "linked": 0.0, "bounces": 4, "sampler": "sobol"}
 SIZE: dict[str, Any] = {"width": 16, "height": 12, **OPTIONS}
 
 

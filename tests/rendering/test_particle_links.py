@@ -12,7 +12,6 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import Schedule, rounds_for_particles
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
-from tests.rendering.test_particles import BALL, LAMP, MATERIALS, ROOMS, room
 from tests.support.builders import (
     box,
     box_of_quads,
@@ -26,6 +25,7 @@ from tests.support.builders import (
 )
 from tests.support.images import same_bits
 from tests.support.meshes import icosphere, mesh
+from tests.support.particle_rooms import BALL, LAMP, MATERIALS, ROOMS, room
 from tests.support.renders import assert_agree, rendered, rendering, same
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}
@@ -90,7 +90,7 @@ def test_the_error_falls_of_what_is_seen_in_a_mirror(context: Context) -> None:
     """Over the mirror ball, relative to the radiance, by a factor of 5, beside particles alone."""
     size: dict[str, Any] = {"width": 32, "height": 32, "sampler": "sobol", "particles": 1.0}
     errors = []
-    for way in ({"caustics": "on"}, ON):
+    for way in ({**ON, "linked": 0.0}, ON):
         image = rendered(CLOSED, context, 128, **size, **way)
         relative = (image.stderr / image.radiance)[16:24, 4:12]
         errors.append(float(np.square(relative).mean()) ** 0.5)
@@ -132,7 +132,7 @@ def test_shapes_written_into_the_kernel_change_nothing(context: Context) -> None
 
 def test_a_scene_without_such_spheres_has_no_links(context: Context) -> None:
     scene = room(LAMP, {**BALL, "material": "pane"})
-    plain = rendered(scene, context, 32, caustics="on")
+    plain = rendered(scene, context, 32, caustics="on", linked=0.0)
     assert same(plain, rendered(scene, context, 32, **ON))
 
 
@@ -201,7 +201,7 @@ def test_glass_that_bends_light_otherwise_has_none(material: dict[str, Any]) -> 
 
 def test_a_picture_has_links_only_where_it_asks_for_them(context: Context) -> None:
     scene: Scene = ROOMS["a ball of glass"]
-    with rendering(scene, context, caustics="on") as renderer:
+    with rendering(scene, context, caustics="on", linked=0.0) as renderer:
         plain = renderer.render(32).image()
         renderer.update(linked=0.5)
         assert not same(renderer.render(32).image(), plain)

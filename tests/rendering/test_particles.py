@@ -6,68 +6,32 @@ import numpy as np
 import pytest
 
 from glrt.cli.main import main
-from glrt.errors import RenderError, UsageError
+from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
-from glrt.rendering import pack, particle_tracer
+from glrt.rendering import pack_particles, particle_tracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.particle_tracer import ParticleTracer
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import DispatchRange, Schedule
-from glrt.scene.scene import Scene
-from tests.support.builders import box_of_quads, disk, glass, lamp, quad, scene_of, sphere
+from tests.support.builders import (
+    box_of_quads,
+    lamp,
+    scene_of,
+)
 from tests.support.images import same_bits
+from tests.support.particle_rooms import BALL, CAMERA, LAMP, MATERIALS, ROOMS
 from tests.support.renders import assert_agree, rendered, rendering, same
 
-ON: dict[str, Any] = {"caustics": "on"}
-CAMERA = {"position": [0, 0, 0.9], "look_at": [0, -0.3, -1], "fov": 80}
-MATERIALS: dict[str, dict[str, Any]] = {
-    "matte": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},
-    "glass": glass(),
-    "tinted": glass(attenuation_color=[0.2, 0.5, 0.9], attenuation_distance=0.3),
-    "pane": glass(thin=True),
-    "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7], "roughness": 0},
-    "gold": {"type": "metal", "preset": "gold", "roughness": 0.3},
-    "plastic": {"type": "principled", "color": [0.2, 0.5, 0.8]},
-    "lamp": lamp(12.0),
-    "spot": lamp(60.0, cone={"axis": [0.2, -1, 0], "inner": 20, "outer": 50}),
-}
-BALL = sphere([0.35, -0.6, -0.3], 0.35, "glass")
-LAMP = quad([-0.25, 0.9, -0.4], [0.5, 0, 0], [0, 0, 0.4], "lamp")
+ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
+SLOW = ("a disk", "a mesh that shines, one of glass", "the sun, a lamp and a drink", "a lens")
 
 
-def room(*things: dict[str, Any], **camera: Any) -> Scene:
-    """A closed matte room."""
-    return scene_of([*box_of_quads("matte"), *things], MATERIALS, {**CAMERA, **camera})
-
-
-ROOMS = {
-    "a ball of glass": room(LAMP, BALL),
-    "a round lamp and a mirror": room(
-        sphere([0, 0.6, -0.2], 0.15, "lamp"), sphere([0.3, -0.5, 0], 0.4, "mirror")
-    ),
-    "a lens": room(LAMP, BALL, defocus_angle=4, focus_distance=1.2),
-    "tinted glass": room(LAMP, {**BALL, "material": "tinted"}),
-    "a lamp in glass": room(sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "glass")),
-    "lamps of several kinds": room(
-        quad([-0.9, 0.2, -0.9], [0.3, 0, 0], [0, 0.4, 0.1], "spot"),
-        disk([0.5, 0.95, -0.5], [0, -1, 0], 0.1, "lamp"),
-        sphere([-0.5, 0.6, 0.3], 0.05, "lamp"),
-        BALL,
-    ),
-    "what particles end at": room(
-        LAMP,
-        BALL,
-        sphere([-0.5, -0.7, -0.2], 0.3, "gold"),
-        sphere([-0.1, -0.8, 0.2], 0.15, "plastic"),
-        quad([-0.6, -0.2, -0.6], [0.8, 0, 0], [0, 0, 0.8], "pane"),
-    ),
-}
-
-
-@pytest.mark.parametrize("name", ROOMS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow) if n in SLOW else n for n in ROOMS]
+)
 def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 6}
     without = rendered(ROOMS[name], context, 4096, seed=1, **size)
@@ -166,7 +130,7 @@ def test_sums_need_both_of_their_words(context: Context, monkeypatch: pytest.Mon
     """With units of which a word holds all, or of which a splat takes thousands of words."""
     found = {}
     for bits in (20, 40, 50):
-        monkeypatch.setattr(pack, "UNIT_BITS", bits)
+        monkeypatch.setattr(pack_particles, "UNIT_BITS", bits)
         found[bits] = picture(context, particles=4.0).radiance.astype(np.float64)
     np.testing.assert_allclose(found[40], found[50], rtol=1e-6)
     np.testing.assert_allclose(found[20], found[50], rtol=2e-4)
@@ -176,7 +140,7 @@ def test_light_beyond_a_sum_is_cut_and_told(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     expected = picture(context)
-    monkeypatch.setattr(pack, "UNIT_BITS", 70)
+    monkeypatch.setattr(pack_particles, "UNIT_BITS", 70)
     with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
         image = renderer.render(40).image()
         assert renderer.lost_particles.clipped > 10
@@ -187,7 +151,7 @@ def test_light_beyond_a_sum_is_cut_and_told(
 def test_a_cut_is_told_by_the_command(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Any
 ) -> None:
-    monkeypatch.setattr(pack, "UNIT_BITS", 66)
+    monkeypatch.setattr(pack_particles, "UNIT_BITS", 66)
     words = ["--caustics", "on", "--width", "24", "--height", "24", "--samples", "16"]
     assert main(["render", "cornell", *words, "-o", str(tmp_path / "a.png")]) == 0
     assert "brought more light than a pixel takes at once" in capsys.readouterr().err
@@ -241,47 +205,6 @@ def test_rays_lost_to_the_loop_limit_are_followed_again(
         monkeypatch.setattr(DeviceScene, "lost_any", lambda _: sizes[-1] > 1 and next(lost, False))
         assert same(renderer.render(40).image(), expected)
         assert next(lost, None) is None
-
-
-# --- refusals --------------------------------------------------------------------------------
-
-
-MANY = [sphere([0.1 * k, 0.5, -3], 0.02, "lamp") for k in range(40)]
-REFUSED: dict[str, tuple[Scene, dict[str, Any]]] = {
-    "method mis alone, not by nee": (ROOMS["a lens"], {"method": "nee"}),
-    "no sphere and no quad shines": (
-        room(disk([0, 0.9, 0], [0, -1, 0], 0.2, "lamp"), BALL),
-        {},
-    ),
-    "of 40 lamps, too many": (room(*MANY), {}),
-    "some surfaces have holes": (
-        scene_of([LAMP, BALL], {**MATERIALS, "glass": {"type": "principled", "alpha": 0.5}}),
-        {},
-    ),
-    "some glasses overlap by priority": (
-        scene_of([LAMP, BALL], {**MATERIALS, "glass": glass(priority=1)}),
-        {},
-    ),
-    "a lamp lies in tinted glass": (
-        room(sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "tinted")),
-        {},
-    ),
-}
-
-
-@pytest.mark.parametrize("reason", REFUSED)
-def test_what_particles_cannot_do_is_refused_by_name(context: Context, reason: str) -> None:
-    scene, settings = REFUSED[reason]
-    with pytest.raises(UsageError, match=reason):
-        Renderer(scene, context=context, **settings, **ON)
-
-
-def test_an_update_is_refused_likewise_and_changes_nothing(context: Context) -> None:
-    with rendering(ROOMS["a lens"], context, **ON) as renderer:
-        renderer.render(3)
-        with pytest.raises(UsageError, match="not by naive"):
-            renderer.update(method="naive")
-        assert (renderer.samples, renderer.settings.method) == (3, "mis")
 
 
 def test_a_picture_too_large_for_the_driver_is_refused(

@@ -18,7 +18,7 @@ from tests.support.path_checks import NEAR, off_surface, outward, vector
 from tests.support.pixel_paths import assert_same_bits, replayed
 
 PIXEL = (11, 14)  # of the floor, under the glass ball
-ON: dict[str, Any] = {"caustics": "on", "samples": 20}
+ON: dict[str, Any] = {"caustics": "on", "linked": 0.0, "samples": 20}
 
 
 def films(scene: Scene, context: Context, **settings: Any) -> Any:
@@ -42,8 +42,8 @@ def found(context: Context) -> PixelPaths:
 )
 def test_both_films_add_up(context: Context, more: dict[str, Any]) -> None:
     """That of particles but for the fixed point in which it sums."""
-    told = replayed(load("cornell"), PIXEL, context, **ON, **more)
-    camera, particles = films(load("cornell"), context, **ON, **more)
+    told = replayed(load("cornell"), PIXEL, context, **{**ON, **more})
+    camera, particles = films(load("cornell"), context, **{**ON, **more})
     assert told.particles
     assert told.particles.mean == pytest.approx(particles, rel=1e-5)
     assert len(told.particles.numbers) > 50

@@ -6,7 +6,6 @@ import pytest
 from glrt.gpu.context import Context
 from glrt.methods.light_layers import Layering
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.weighting import reading
 from glrt.scene.scene import with_lights
 from tests.support.mixed_scene import everything
 
@@ -26,7 +25,7 @@ def test_each_pixel_is_read_as_it_is_in_the_picture(context: Context, layering: 
     with context.gl:
         for y in range(5):
             for x in range(7):
-                found = reading(renderer.film, weights, x, y)
+                found = renderer.reading(weights, x, y)
                 assert np.array_equal(found.radiance, image.radiance[y, x])
                 assert np.array_equal(found.stderr, image.stderr[y, x], equal_nan=True)
                 assert found.samples == 40

@@ -1,36 +1,37 @@
 """Where particles leave lamps, where they arrive on the film, and how they are weighed."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.gpu.glsl import read
-from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
-from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
-from tests.support.numerics import Array, directions
-
-FILES = ("integrators/particle_start.glsl", "integrators/camera_links.glsl")
-ON: dict[str, Any] = {"caustics": "on"}
-MATERIALS = {"glass": glass(), "lamp": lamp(2.0), "matte": MATTE}
-FLAT = quad([-0.5, 1, -3.5], [1, 0, 0], [0, 0, 0.8], "lamp")
-ROUND = sphere([0.2, 1, -3], 0.3, "lamp")
-BALL = sphere([0.1, -0.5, -3.2], 0.4, "glass")
-FAR_BALL = sphere([-0.6, 0.1, -2.6], 0.2, "glass")
-PLACE = {"quad": [0.1, 1.0, -3.1], "sphere": [0.2, 0.7, -3.0]}
+from tests.support.builders import (
+    scene_of,
+    sphere,
+)
+from tests.support.numerics import directions
+from tests.support.particle_starts import (
+    AREA,
+    BALL,
+    CORNERS,
+    DISK,
+    FAR_BALL,
+    FLAT,
+    MATERIALS,
+    ON,
+    PLACE,
+    ROUND,
+    SIDES,
+    particle_text,
+    scene,
+    starts,
+)
 
 
 @pytest.fixture
 def particle_files() -> str:
     """What follows particles, without a film."""
-    return "void splat(vec2 place, vec3 radiance) {}\n" + "".join(map(read, FILES))
-
-
-def scene(kind: str, *more: dict[str, Any]) -> Scene:
-    lamps = {"quad": FLAT, "sphere": ROUND}
-    return scene_of([lamps[kind], sphere([0, 0, -9], 1, "matte"), *more], MATERIALS)
+    return particle_text()
 
 
 @pytest.mark.parametrize("kind", PLACE)
@@ -50,8 +51,7 @@ def test_directions_from_a_lamp_have_a_density(
     out = np.array([0, -1.0, 0]) if kind == "sphere" else np.array([0, 1.0, 0])
     cosine = towards @ out
     cosine = np.maximum(cosine, 0) if kind == "sphere" else np.abs(cosine)
-    area = 4 * np.pi * 0.3**2 if kind == "sphere" else 0.8
-    total = 4 * np.pi * area * found * cosine / np.pi
+    total = 4 * np.pi * AREA[kind] * found * cosine / np.pi
     assert abs(total.mean() - 1) < 5 * total.std() / np.sqrt(total.size)
     assert total.std() / np.sqrt(total.size) < 0.02
 
@@ -69,14 +69,13 @@ def test_no_particle_leaves_a_ball_inwards(call_glsl: CallGlsl) -> None:
 
 
 def test_lamps_are_chosen_as_their_density_says(call_glsl: CallGlsl) -> None:
-    """A quad and a ball share what particles leave; a disk, ten times as bright, has none."""
-    disk = {"shape": "disk", "center": [0, 2, -3], "normal": [0, -1, 0], "radius": 5}
-    place = scene_of([ROUND, FLAT, disk | {"material": "lamp"}, BALL], MATERIALS)
+    """A quad, a ball and a disk share what particles leave."""
+    place = scene_of([ROUND, FLAT, DISK, BALL], MATERIALS)
     u = (np.arange(4096) + 0.5) / 4096
     chosen = call_glsl("choose_emitter(u)", returns="int", scene=place, options=ON, u=u)
-    assert set(chosen.tolist()) == {0, 1}
-    points = {0: PLACE["sphere"], 1: PLACE["quad"]}
-    areas = {0: 4 * np.pi * 0.3**2, 1: 2 * 0.8}
+    assert set(chosen.tolist()) == {0, 1, 2}
+    points = {0: PLACE["sphere"], 1: PLACE["quad"], 2: PLACE["disk"]}
+    areas = {0: AREA["sphere"], 1: 2 * AREA["quad"], 2: 2 * AREA["disk"]}
     for number, point in points.items():
         told = call_glsl(
             "pdf_emission(n, p, vec3(0.0, -1.0, 0.0), NOT_AIMED)",
@@ -156,20 +155,6 @@ def test_a_weight_is_a_number_at_grazing_angles(call_glsl: CallGlsl) -> None:
     assert_allclose(weight, 1 / (1 + (over * 1e25) ** 2), rtol=1e-5, atol=1e-20)
 
 
-def starts(call_glsl: CallGlsl, files: str, place: Scene, what: str, kind: str) -> Array:
-    return call_glsl(
-        what,
-        returns=kind,
-        functions=files,
-        scene=place,
-        options={**ON, "aimed": 0.5},
-        setup="""
-    precise Sampler rng = make_sampler(uint(i) * 9781u + 7u);
-    precise Particle particle = start_particle(rng);""",
-        n=np.zeros(200_000),
-    )
-
-
 @pytest.mark.parametrize("kind", PLACE)
 def test_particles_carry_the_flux_of_their_lamp(
     call_glsl: CallGlsl, particle_files: str, kind: str
@@ -177,8 +162,7 @@ def test_particles_carry_the_flux_of_their_lamp(
     """The mean of what they weigh, where only half of them follow the cosine: pi L A a side."""
     place = scene(kind, BALL, FAR_BALL)
     power = starts(call_glsl, particle_files, place, "particle.power.x + 0.0 * n", "float")
-    area = 4 * np.pi * 0.3**2 if kind == "sphere" else 2 * 0.8
-    flux = np.pi * 2.0 * area
+    flux = np.pi * 2.0 * SIDES[kind] * AREA[kind]
     assert abs(power.mean() - flux) < 5 * power.std() / np.sqrt(power.size)
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
 
@@ -202,3 +186,12 @@ def test_half_of_the_particles_are_aimed(call_glsl: CallGlsl, particle_files: st
     shapes = starts(call_glsl, particle_files, place, hit, "float")
     for number in (1, 2):
         assert (shapes == number).mean() > 0.24
+
+
+def test_points_on_a_triangle_are_even_in_area(call_glsl: CallGlsl, particle_files: str) -> None:
+    """Their mean is its middle, and their spread that of an even density: edges squared over 36."""
+    what = "particle.path.ray.origin + 0.0 * vec3(n)"
+    points = starts(call_glsl, particle_files, scene("triangle", BALL), what, "vec3")
+    assert_allclose(points.mean(axis=0), CORNERS.mean(axis=0), atol=3e-3)
+    sides = CORNERS - np.roll(CORNERS, 1, axis=0)
+    assert_allclose(points.var(axis=0).sum(), np.square(sides).sum() / 36, rtol=0.02)

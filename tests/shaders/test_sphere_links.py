@@ -190,7 +190,8 @@ def test_each_branch_is_met(call_glsl: CallGlsl, chords: int, branch: str) -> No
 def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
     """Where it meets the ball on both sides, and where it leaves the eye."""
     found = links(chords)
-    files = "void splat(vec2 place, vec3 radiance) {}\n" + read("integrators/particle_start.glsl")
+    film = "void splat(vec2 place, vec3 radiance, int layer) {}\n"
+    files = film + read("integrators/particle_start.glsl")
     usual: dict[str, Any] = {
         "scene": place(),
         "options": ON,

@@ -83,7 +83,11 @@ PROBES = {
     "HAS_SPHERE_LIGHT": ("lights/sampling.glsl", "sample_cone(one_minus_cos,", "sample_cone({},"),
     "HAS_QUAD_LIGHT": ("lights/sampling.glsl", "share.x * quad.edge_u", "{} * quad.edge_u"),
     "HAS_DISK_LIGHT": ("lights/sampling.glsl", "vec3(place, 0.0)", "vec3({} * place, 0.0)"),
-    "HAS_MESH_LIGHT": ("lights/sampling.glsl", "share_b * triangle.edge_b", "{} * triangle.edge_b"),
+    "HAS_MESH_LIGHT": (
+        "lights/sampling.glsl",
+        "shares.x * triangle.edge_b",
+        "{} * triangle.edge_b",
+    ),
     "SAMPLE_LIGHTS": (
         "lights/sampling.glsl",
         "ray.direction = point.direction",

@@ -14,14 +14,14 @@ from glrt.image.aovs import AovImage, AovImages
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Quad, Sphere
-from glrt.settings import Aov
+from glrt.settings import OF_PATHS, Aov
 from tests.support.alarms import ALPHA, book
 from tests.support.images import same_bits
 from tests.support.numerics import roots64
 from tests.support.renders import interval, rendered
 from tests.support.z_scores import z_test
 
-ALL: tuple[Aov, ...] = get_args(Aov)
+ALL: tuple[Aov, ...] = tuple(aov for aov in get_args(Aov) if aov not in OF_PATHS)
 MEANS = ALL[:-1]  # those that are means over samples
 
 Floats = NDArray[np.float64]

@@ -91,7 +91,7 @@ class Render(NamedTuple):
 def render_of(samples: int, *aovs: Aov, seed: int = 1) -> Render:
     """A render with AOVs of their usual shapes; no sample is dropped."""
     whole = -(-samples // BLOCK) * BLOCK
-    shapes = {name: 1 if name in ("depth", "object") else 3 for name in aovs}
+    shapes = {name: 1 if name in ("depth", "object", "bounces") else 3 for name in aovs}
     return Render(
         noise(samples, seed),
         {name: noise(whole, seed + 1 + n, shapes[name]) for n, name in enumerate(aovs)},

@@ -162,9 +162,9 @@ def pilot_law(render: Render) -> None:
     image = render(OPTIONS[Way.PILOT])
     assert image.recipe
     found = image.recipe.settings
-    chosen = [str(value) for value in (found.caustics, found.particles, found.aimed)]
-    names = ("--caustics", "--particles", "--aimed")
-    assert same(image, render([word for pair in zip(names, chosen, strict=True) for word in pair]))
+    names = ("caustics", "particles", "aimed", "linked")
+    pairs = ((f"--{name}", str(getattr(found, name))) for name in names)
+    assert same(image, render([word for pair in pairs for word in pair]))
 
 
 def denoise_law(render: Render) -> None:

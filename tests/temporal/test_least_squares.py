@@ -1,6 +1,6 @@
 """Weighted recursive least squares against the batch form, closed forms, and 12,000 still frames.
 
-The numbers W1 to W7 are those of the tests that docs/explanation/temporal.md lists.
+W1 to W7 are properties of the paper, and of its guards.
 """
 
 from typing import Any

@@ -60,7 +60,10 @@ def path(*lights: Contribution, end: str = "absorbed") -> Path:
 
 
 def told(found: Path) -> list[tuple[str, list[float], list[float]]]:
-    return [(line.kind, line.start.tolist(), line.end.tolist()) for line in lines_of(found, 10.0)]
+    return [
+        (line.kind, line.start.tolist(), line.end.tolist())
+        for line in lines_of(found, 10.0, (0.0, 0.0, 9.0))
+    ]
 
 
 CAMERA, FLOOR, WALL = [0.0, 0.0, 4.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]
@@ -105,3 +108,18 @@ def test_planes_and_far_things_do_not_make_the_view_from_outside_small() -> None
     assert ball.radius < 4
     for place in (scene.camera.position, (0, 0, 4), (1, 0, 0)):
         assert np.linalg.norm(np.subtract(place, ball.center)) <= 1.001 * ball.radius
+
+
+def test_a_particle_is_linked_to_the_camera_from_where_it_was_seen() -> None:
+    found = Path(
+        sample=0,
+        radiance=(1, 1, 1),
+        particle=7,
+        end="linked to the camera",
+        vertices=(vertex(0, 1, 0, event="lamp"), vertex(0, 0, 0), vertex(1, 0, 0)),
+        contributions=(light(1, "particle", None), light(2, "particle", None)),
+    )
+    lines = lines_of(found, 10.0, (0.0, 0.0, 9.0))
+    assert [line.kind for line in lines] == ["path", "path", "linked", "linked"]
+    assert [line.start.tolist() for line in lines[2:]] == [[0, 0, 0], [1, 0, 0]]
+    assert all(line.end.tolist() == [0, 0, 9] for line in lines[2:])

@@ -14,6 +14,7 @@ from glrt.view.state.controls import replaced
 from glrt.view.state.edited import State
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import ANNOUNCED
+from glrt.view.viewport.difference import difference_of
 from tests.support.mixed_scene import everything
 
 SIZE: dict[str, int] = {"width": 16, "height": 12, "bounces": 3}
@@ -133,3 +134,21 @@ def test_at_rest_it_gives_its_film_back(kept: ReferenceImage, next_one: Renderer
     kept.rest()
     assert kept._renderer is None
     assert kept.light(next_one) is None
+
+
+def test_the_difference_is_told_in_numbers(context: Context) -> None:
+    """A twice as bright on the left half: the mean is 1/3 darker, half of the pixels by 1/2."""
+    here = np.ones((4, 6, 4), np.float32)
+    there = here.copy()
+    there[:, :3, :3] = 2.0
+    with context.gl:
+        one, two = (context.gl.texture((6, 4), 4, a.tobytes(), dtype="f4") for a in (here, there))
+        black = context.gl.texture((6, 4), 4, bytes(6 * 4 * 16), dtype="f4")
+        found, same = difference_of(one, two, 8), difference_of(one, one, 8)
+        dark = difference_of(one, black, 8)
+    assert found.brighter == pytest.approx(-1 / 3)
+    scale = 4 + 0.01 * 1.5**2
+    assert found.pixels == pytest.approx((0.5 / scale) ** 0.5)
+    assert found.told.startswith("B is 33.3 % darker, in the mean, than A; pixels differ by 35.3 %")
+    assert (same.brighter, same.pixels) == (0, 0)
+    assert dark.told == "A is black"

@@ -9,6 +9,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Cost
 from glrt.view.state.controls import replaced
 from glrt.view.state.frame_budget import LEAST, FrameBudget
+from glrt.view.state.scene_edits import with_renamed_material
 from glrt.view.state.session import Session
 from tests.support.builders import MATTE, lamp, sphere
 from tests.support.mixed_scene import everything
@@ -153,3 +154,18 @@ def test_a_pace_leaves_the_window_its_time() -> None:
     for _ in range(60):
         pace.record(frame=0.5, rendering=0.1)
     assert pace.seconds == pytest.approx(LEAST / 10)
+
+
+def test_renaming_is_free(session: Session) -> None:
+    start(session)
+    samples, restarts = session.samples, session.restarts
+    name = next(iter(session.scene.materials))
+    session.edit(with_renamed_material(session.scene, name, "another"))
+    assert session.is_behind
+    session.advance(0.01)
+    assert not session.is_behind
+    assert (session.last_cost, session.restarts) == (Cost.FREE, restarts)
+    assert session.samples > samples
+    session.undo()
+    session.advance(0.01)
+    assert (session.last_cost, session.restarts) == (Cost.FREE, restarts)

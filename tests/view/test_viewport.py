@@ -25,7 +25,7 @@ class Turned:
         self.turns: list[tuple[float, float]] = []
         self.steps: list[tuple[float, float, float]] = []
         self.awaited = None
-        self.is_deaf = False
+        self.is_deaf = self.navigates = self.was_busy = False
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         assert not about_camera

@@ -20,6 +20,7 @@ MOVES: dict[str, tuple[Control, Any]] = {
     "method/nee": (panel.SETTINGS["method"], None),
     "sampler/independent": (panel.SETTINGS["sampler"], None),
     "seed": (panel.SETTINGS["seed"], 7),
+    "caustics/on": (panel.SETTINGS["caustics"], None),
     "roulette": (panel.SETTINGS["roulette"], None),
     "samples": (panel.SETTINGS["samples"], 5000),
     "exposure": (panel.SETTINGS["exposure"], 2.0),

@@ -112,7 +112,8 @@ def names_are_typed(hand: Hand) -> None:
     session = hand.session
     number, shape = ball(hand)
     hand.window.app.selected = number
-    hand.ctx.yield_(2)
+    hand.settle()
+    samples, restarts = session.samples, session.restarts
     type_name(hand, f"name##shape {number}", "big ball")
     assert session.scene.objects[number].name == "big ball"
     type_name(hand, f"name##material {shape.material}", "chalk")
@@ -122,6 +123,48 @@ def names_are_typed(hand: Hand) -> None:
     assert len(walls) > 1  # all objects of the material follow
     hand.settle()
     assert not session.problem
+    assert session.restarts == restarts  # no sample is lost
+    assert session.samples >= samples
+
+
+@check
+def a_widget_stays_where_it_is_when_rows_come_and_go(hand: Hand) -> None:
+    """A type that shines adds rows far above, under Light; and one that has fewer values."""
+    session, ctx = hand.session, hand.ctx
+    _, shape = ball(hand)
+    click(hand, shape.center)
+    ctx.yield_(3)
+    widget = f"//Controls/type##material {shape.material}"
+    ctx.scroll_to_item_y(widget)
+    ctx.yield_(3)
+    for kind in ("light", "dielectric", "principled", "lambertian"):
+        before = ctx.item_info(widget).rect_full.min.y
+        retype(hand, shape.material, kind)
+        ctx.yield_(3)
+        assert session.scene.materials[shape.material].type == kind
+        assert abs(ctx.item_info(widget).rect_full.min.y - before) < 2, kind
+    hand.settle()
+
+
+@check
+def a_part_that_is_closed_stays_under_the_mouse_and_the_panel_scrolls_freely(hand: Hand) -> None:
+    ctx, title = hand.ctx, "//Controls/Compare"
+    ctx.item_open(title)
+    ctx.scroll_to_bottom("//Controls")
+    ctx.yield_(3)
+    place = ctx.item_info(title).rect_full.min.y
+    ctx.item_click(title)
+    ctx.yield_(3)
+    assert abs(ctx.item_info(title).rect_full.min.y - place) < 2
+    panel: Any = ctx.window_info("//Controls").window
+    scroll = panel.scroll.y
+    ctx.mouse_wheel_y(3.0)
+    ctx.yield_(3)
+    assert panel.scroll.y < scroll
+    ctx.scroll_to_top("//Controls")
+    ctx.yield_(2)
+    assert panel.scroll.y == 0
+    ctx.item_open(title)  # as other checks find it
 
 
 @check

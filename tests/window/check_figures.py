@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 from glrt.rendering.renderer import Renderer
 from glrt.view.panels import viewport
 from glrt.view.panels.plots import figures
+from glrt.view.state.controls import replaced
 from tests.window.gestures import replaced_fov
 from tests.window.hand import Hand, check
 
@@ -46,6 +47,25 @@ def figures_belong_to_the_picture_beside_them(hand: Hand) -> None:
     hand.there(lambda: session.edit(samples=7))
     hand.ctx.yield_(2)
     assert figures(app)[0] == "9 samples, 7 are wanted"
+
+
+@check
+def history_of_earlier_views_is_marked_in_the_picture(hand: Hand) -> None:
+    """And no error is told then."""
+    app, session = hand.window.app, hand.session
+
+    def move() -> None:
+        app.preferences = replaced(app.preferences, temporal="reproject")
+        session.moving.use("reproject")
+        app.turn(0.01, 0.0, about_camera=False)
+
+    hand.there(move)
+    hand.settle()
+    session.paused = True
+    with told_in_the_picture() as told:
+        hand.ctx.yield_(2)
+        assert any(text.startswith("with light of earlier views") for text in told)
+    assert figures(app)[2] == "error unknown while history of earlier views is shown"
 
 
 @check

@@ -72,3 +72,60 @@ def escape_closes_a_list_and_chooses_nothing(hand: Hand) -> None:
 def is_open() -> bool:
     """Whether any list or box is open above the panel."""
     return len(imgui.get_current_context().open_popup_stack) > 0
+
+
+@check
+def keys_move_in_the_panel_and_change_its_widgets(hand: Hand) -> None:
+    app, session, start = hand.window.app, hand.session, hand.session.scene.camera
+    hand.ctx.item_click("//Controls/roulette")  # twice: as it was, and the one used last
+    hand.ctx.item_click("//Controls/roulette")
+    before = session.settings
+    press(hand, imgui.Key.w)
+    moved = session.scene.camera
+    assert moved != start
+    press(hand, imgui.Key.f6)
+    assert app.navigates
+    press(hand, imgui.Key.space)
+    assert session.settings.roulette != before.roulette
+    assert not session.paused  # which Space means in the picture
+    for key in (imgui.Key.down_arrow, imgui.Key.w, imgui.Key.p):
+        press(hand, key)
+    assert session.scene.camera == moved
+    assert not app.paths.is_choosing
+    assert hand.there(lambda: imgui.get_current_context().nav_window.name) == "Controls"
+    press(hand, imgui.Key.z, imgui.Key.mod_ctrl.value)  # with Ctrl, keys mean what they did
+    assert session.settings == before
+    press(hand, imgui.Key.escape)
+    assert not app.navigates
+    press(hand, imgui.Key.s)
+    assert session.scene.camera != moved
+
+
+@check
+def escape_lets_go_of_a_widget_before_it_leaves_the_panel(hand: Hand) -> None:
+    app, ctx, before = hand.window.app, hand.ctx, hand.session.settings
+    ctx.item_click("//Controls/tonemap")
+    ctx.yield_(2)
+    press(hand, imgui.Key.escape)
+    press(hand, imgui.Key.f6)
+    press(hand, imgui.Key.space)
+    assert hand.there(is_open)
+    press(hand, imgui.Key.escape)
+    assert not hand.there(is_open)
+    assert app.navigates
+    press(hand, imgui.Key.escape)
+    assert not app.navigates
+    assert hand.session.settings == before
+
+
+@check
+def a_click_in_the_picture_gives_it_the_keys_again(hand: Hand) -> None:
+    app, start = hand.window.app, hand.session.scene.camera
+    press(hand, imgui.Key.f6)
+    assert app.navigates
+    hand.ctx.mouse_move("//Picture/picture")
+    hand.ctx.mouse_click(0)
+    hand.ctx.yield_(2)
+    assert not app.navigates
+    press(hand, imgui.Key.right_arrow)
+    assert hand.session.scene.camera != start

@@ -48,6 +48,31 @@ def a_relit_picture_is_that_of_a_fresh_render(hand: Hand) -> None:
 
 
 @check
+def particles_come_by_a_control_and_are_relit(hand: Hand) -> None:
+    """Beside them stand those of how many there are; a lamp is dimmed without a restart."""
+    session = hand.session
+    move(hand, "caustics/on", None)
+    hand.until(lambda: session.settings.caustics == "on")
+    assert hand.ctx.item_exists("aimed")
+    hand.there(lambda: session.edit(samples=32, bounces=4))
+    hand.until(lambda: session.is_done)
+    restarts = session.restarts
+    move(hand, "intensity##lamp", 2.0)
+    hand.until(lambda: session.last_cost is Cost.RELIGHT, frames=3)
+    hand.ctx.yield_()
+    shown = hand.pixels()
+    assert session.restarts == restarts
+
+    def render() -> Any:
+        fresh = Renderer(session.scene, session.settings, session.context)
+        codes = fresh.render().display()
+        fresh.release()
+        return codes
+
+    assert (hand.there(render) == shown[..., :3]).all()
+
+
+@check
 def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
     ctx = hand.ctx
     hand.there(lambda: hand.session.edit(bounces=5))

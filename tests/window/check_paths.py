@@ -7,7 +7,10 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.rendering.path_file import paths_from_json
-from glrt.rendering.path_replay import path_replay
+from glrt.rendering.path_replay import path_replay, pixel_paths
+from glrt.rendering.path_values import PixelPaths
+from glrt.settings import settings_for
+from glrt.view.state.path_explorer import FOLLOWED
 from tests.window.gestures import press
 from tests.window.hand import SMALL, Hand, check
 
@@ -129,4 +132,75 @@ def paths_are_stored_as_a_test(hand: Hand) -> None:
 
     assert hand.there(again)
     ctx.item_click("//Controls/forget##paths")
+    assert app.paths.found is None
+
+
+@check
+def particles_of_a_pixel_are_listed_apart_as_the_command_does(hand: Hand) -> None:
+    app, ctx, session = hand.window.app, hand.ctx, hand.session
+    hand.until(lambda: session.samples >= 20)
+    session.paused = True
+    samples, restarts = session.samples, session.restarts
+    ask(hand)
+    assert app.paths.found
+    assert app.paths.found.particles is None
+    ctx.item_click("//Controls/particles")
+    ask(hand)
+    hand.until(lambda: not app.paths.is_waiting)
+    found = app.paths.found
+    assert found
+    assert found.particles
+    recipe = found.recipe
+    assert recipe.settings.caustics == "on"
+
+    followed = min(samples, FOLLOWED)
+
+    def again() -> PixelPaths:
+        settings = settings_for(recipe.settings, samples=followed)
+        asked = recipe.scene, settings, found.pixel, ()
+        return pixel_paths(*asked, context=session.context, particles=8)
+
+    expected = hand.there(again)
+    assert expected.particles
+    assert found.particles.samples == expected.particles.samples == -(-followed // 16) * 16
+    assert found.particles.numbers == expected.particles.numbers
+    assert np.array_equal(found.particles.radiances, expected.particles.radiances)
+    assert found.particles.paths == expected.particles.paths
+    assert len(found.particles.paths) > 0
+    assert session.settings.caustics == "off"  # the picture is as it was
+    assert (session.samples, session.restarts) == (samples, restarts)
+    path = found.particles.paths[-1]
+    before = hand.screen()
+    ctx.item_click(f"//Controls/###sample {path.sample}, particle {path.particle}")
+    ctx.yield_(2)
+    assert app.paths.shown is path
+    assert (hand.screen() != before).any()
+
+
+@check
+def paths_and_particles_of_a_picture_that_has_them_make_up_its_pixel(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    hand.there(lambda: session.edit(caustics="on", samples=32, bounces=4))
+    hand.until(lambda: session.is_done)
+    ask(hand)
+    hand.until(lambda: not app.paths.is_waiting)
+    found = app.paths.found
+    assert found
+    assert found.particles
+    assert len(found.radiances) == found.particles.samples == 32
+    x, y = found.pixel
+    whole = found.mean + found.particles.mean
+    assert whole == pytest.approx(hand.there(session.image).radiance[y, x], rel=1e-5)
+
+
+@check
+def a_scene_whose_particles_cannot_be_followed_is_told(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    hand.there(lambda: session.edit(method="nee"))
+    hand.settle()
+    app.paths.with_particles = True
+    press(hand, imgui.Key.p)
+    hand.there(lambda: app.ask_paths(*PLACE))
+    hand.until(lambda: bool(session.problem))
+    assert "particles are weighed by the method mis alone" in session.problem
     assert app.paths.found is None

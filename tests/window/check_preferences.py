@@ -17,6 +17,7 @@ from tests.window.hand import Hand, check
 
 # Each preference by its label: what to choose.
 CHOICES: dict[str, Any] = {
+    "temporal": "reproject",
     "samples per frame": 3,
     "target error": 0.1,
     "mode": "fly",

@@ -6,6 +6,7 @@ import numpy as np
 
 from glrt.rendering.false_colors import ERROR
 from glrt.settings import Aov
+from glrt.view.panels.inspector import told_pixel
 from tests.window.hand import Hand, check
 
 
@@ -60,7 +61,46 @@ def views_of_aovs_cost_no_sample_and_are_not_saved(hand: Hand) -> None:
     assert not image.aovs
     assert image.recipe
     assert image.recipe.settings.aov == ()
-    assert len(np.unique(shown[-1].reshape(-1, 3), axis=0)) < 10, "a colour for each object"
+    objects = shown[get_args(Aov).index("object")]
+    assert len(np.unique(objects.reshape(-1, 3), axis=0)) < 10, "a colour for each object"
     views(hand, "picture")
     assert hand.session.renderer
     hand.until(lambda: hand.session.renderer.settings.aov == ())  # type: ignore[union-attr]
+
+
+@check
+def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    hand.until(lambda: session.samples >= session.known_from)
+    hand.there(lambda: session.edit(samples=session.samples))
+    hand.settle()
+    (shown,) = views(hand, "bounces")
+    assert session.renderer
+    image = hand.there(session.renderer.plain_image)
+    found = image.aovs["bounces"]
+    expected = 255 * app.show.scale.color(found.value)
+    assert app.show.scale.high == session.settings.bounces
+    assert np.abs(shown.astype(int) - expected).max() <= 2
+    assert found.value.std() > 0.5
+    assert found.stderr is not None
+    told = hand.there(lambda: told_pixel(app, 20.5 / 40, 31.5 / 40))
+    mean, error = found.value[31, 20], found.stderr[31, 20]
+    assert told[-1] == f"bounces until the end {mean:.4g} +- {error:.2g}"
+    hand.there(lambda: session.edit(bounces=2, samples=session.samples))
+    hand.settle()
+    hand.until(lambda: app.show.scale.high == 2 and app.show.drawn == "bounces")
+
+
+@check
+def bounces_beyond_the_loop_limit_are_refused_once_and_the_picture_stays(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    hand.there(lambda: session.edit(bounces=700))
+    hand.settle()
+    app.show.view = "bounces"
+    hand.until(lambda: bool(session.problem))
+    assert "--aov bounces is beyond" in session.problem
+    hand.until(lambda: app.show.view == "picture")
+    hand.ctx.item_click("//Controls/dismiss")
+    samples = session.samples
+    hand.until(lambda: session.samples > samples)
+    assert not session.problem

@@ -14,6 +14,8 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
+from glrt.view.panels.navigation import navigate
+from glrt.view.state.controls import replaced
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT
@@ -93,14 +95,16 @@ class Hand:
             self.session.paused, self.session.problem = False, ""
             self.session.by_length = False
             self.session.rest = None  # no other process, but where a check wants it
-            app.preferences = self._preferences
+            app.preferences = replaced(self._preferences, temporal="reset")  # the film alone
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
             app.files._mark_saved()
             app.files.dialogs.close()
             app.messages.question, app.messages.told = None, -math.inf
             app.paths.forget()
+            app.paths.with_particles = False
             app.pivot, app.selected = app.camera.look_at, None
             app.zoom, app.inspects = FIT, False
+            navigate(app, False)
             app.pair.go_on(False)
             app.pair.is_beside, app.pair.pairing = False, "equal time"
             app.show.forget()

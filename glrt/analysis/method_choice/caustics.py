@@ -28,8 +28,8 @@ CHOICES: tuple[Values, ...] = (
     {"particles": 0.1, "aimed": 0.95, "linked": 0.0},
     {"particles": 0.5, "aimed": 0.2, "linked": 1.0},
 )
-PIXELS = 1 << 12  # of the small frame at most
-COUNTED = 1 << 10  # of the still smaller frame in which work is counted, which varies less
+LONG, SHORT = 1 << 12, 1 << 10  # pixels of the small frame at most: of long and shorter renders
+COUNTED = 1 << 10  # of the frame in which work is counted, which varies less
 SAMPLES = 64  # of each pixel: four observations with Sobol' points
 LEAST = 128  # times the samples of one of its pictures that a render must have, to be worth a pilot
 SEED = 0x43415553  # whatever that of the render is, so that it decides alike for each
@@ -75,7 +75,7 @@ def may_gain(scene: Scene, settings: Settings) -> bool:
     """
     names = {thing.material for thing in scene.visible}
     return (
-        _is_long(settings, settings.samples)
+        _pilot_of(settings, settings.samples) > 0
         and any(is_smooth(scene.materials[name]) for name in names)
         and refusal(scene, settings_for(settings, caustics="on")) is None
     )
@@ -91,15 +91,21 @@ def particles_worth(
     """The cheapest way to an error: without particles, or with one choice of them.
 
     `given` are settings that are not to be chosen. None if few samples reach `error` anyway.
+    A shorter render tries one choice alone, in a smaller frame.
     """
     without = settings_for(settings, caustics="off")
-    plain = _picture(scene, without, context)
-    if error is not None and not _is_long(settings, _samples_to(error, plain)):
-        return None
+    pixels = _pilot_of(settings, settings.samples) or LONG
+    plain = _picture(scene, without, context, pixels)
+    if error is not None:
+        enough = min(pixels, _pilot_of(settings, _samples_to(error, plain)))
+        if not enough:
+            return None
+        if enough < pixels:
+            pixels, plain = enough, _picture(scene, without, context, enough)
     found: list[Finding] = []
-    for choice in _choices(given, has_links=link_bits(scene) != 0):
+    for choice in _choices(given, link_bits(scene) != 0, is_short=pixels == SHORT):
         wanted = settings_for(settings, caustics="on", **choice)
-        found.append(Finding(wanted, _gain(scene, wanted, plain, context)))
+        found.append(Finding(wanted, _gain(scene, wanted, plain, context, pixels)))
         if found[-1].gain < HOPELESS:
             break
     most = max(finding.gain for finding in found)
@@ -107,20 +113,31 @@ def particles_worth(
     return good[-1] if good else Finding(without, most)
 
 
-def _choices(given: Values, has_links: bool) -> list[Values]:
-    """Those that differ, with what is `given` in place of their own values."""
+def _choices(given: Values, has_links: bool, is_short: bool) -> list[Values]:
+    """Those that differ, with what is `given` in place of their own values.
+
+    Where it `is_short`, that with links alone, or the first where it has none.
+    """
     found: list[Values] = []
     for choice in CHOICES:
         wanted = {**choice, **given}
         if wanted not in found and (has_links or not choice["linked"]):
             found.append(wanted)
-    return found
+    return [found[-1 if found[-1]["linked"] else 0]] if is_short else found
 
 
-def _is_long(settings: Settings, samples: float) -> bool:
-    """Whether a pilot is a small share of so many samples of each pixel of the frame."""
-    own = SAMPLES * math.prod(_small(settings, PIXELS).size)
-    return samples * settings.width * settings.height >= LEAST * own
+def _pilot_of(settings: Settings, samples: float) -> int:
+    """The pixels of a pilot that is a small share of so many samples of each pixel of the frame.
+
+    0 if none is.
+    """
+    whole = samples * settings.width * settings.height
+    fitting = (
+        pixels
+        for pixels in (LONG, SHORT)
+        if whole >= LEAST * SAMPLES * math.prod(_small(settings, pixels).size)
+    )
+    return next(fitting, 0)
 
 
 def _samples_to(error: float, plain: Image) -> float:
@@ -128,9 +145,9 @@ def _samples_to(error: float, plain: Image) -> float:
     return SAMPLES * _relative(plain, plain.stderr) / error**2
 
 
-def _gain(scene: Scene, settings: Settings, plain: Image, context: Context) -> float:
+def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixels: int) -> float:
     """How many times as efficient these settings are as those of a plain picture."""
-    image = _picture(scene, settings, context)
+    image = _picture(scene, settings, context, pixels)
     cost = _relative(image, image.stderr) * _slowed(scene, settings, context)
     variance = max(_relative(image, plain.stderr), _unseen(plain, image))
     return variance / max(cost, _TINY)
@@ -159,8 +176,8 @@ def _small(settings: Settings, pixels: int) -> Settings:
     return settings_for(settings, **frame, aov=(), denoise="none", samples=SAMPLES, seed=SEED)
 
 
-def _picture(scene: Scene, settings: Settings, context: Context) -> Image:
-    renderer = Renderer(scene, _small(settings, PIXELS), context, tier="baked")
+def _picture(scene: Scene, settings: Settings, context: Context, pixels: int) -> Image:
+    renderer = Renderer(scene, _small(settings, pixels), context, tier="baked")
     try:
         return renderer.render().image()
     finally:

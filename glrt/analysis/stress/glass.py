@@ -133,7 +133,7 @@ def caustic(lab: Lab) -> Sweep:
     size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": CASES["caustic"].bounces}
     reference = lab.render(scene, 4 * x[-1], method="mis", seed=1, **size)
     ways: dict[str, dict[str, Any]] = {method: {"method": method} for method in METHODS}
-    ways["mis, particles"] = {"method": "mis", "caustics": "on"}
+    ways["mis, particles"] = {"method": "mis", "caustics": "on", "linked": 0.0}
     errors: dict[str, list[float]] = {name: [] for name in ways}
     estimates, wrong = [], []
     for (method, way), found in zip(ways.items(), errors.values(), strict=True):

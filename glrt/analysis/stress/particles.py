@@ -11,7 +11,7 @@ from glrt.scene.scene import Scene
 RADII = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)
 SIDE, SAMPLES, TRUE = 24, 64, 1024  # edge of the frame in pixels; samples a pixel, of the truth
 SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 6, "method": "mis"}
-PARTICLES: dict[str, Any] = {"caustics": "on", "particles": 8.0, "aimed": 0.95}
+PARTICLES: dict[str, Any] = {"caustics": "on", "particles": 8.0, "aimed": 0.95, "linked": 0.0}
 LINKED = {**PARTICLES, "linked": 1.0}
 MOST, MOST_MIRRORED = 0.35, 0.35  # relative RMS errors
 FLOOR = [plane([0, 0, 0], [0, 1, 0], "floor"), sphere([0, 0.8, 0], 0.5, "glass")]

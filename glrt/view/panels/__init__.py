@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - layout: the shares of the window that its parts have
 - slider_text: where the number of a slider stands
+- anchor: the widget that stays where it is
 - widgets: a widget for each kind of control
 - questions: what the window asks
 - tour: five steps for a newcomer
@@ -11,6 +12,7 @@ Modules, each importing only what stands above it:
 - plots: figures and the error over time
 - gizmo: handles of the selected object
 - key_table: keys, and the choice of others
+- navigation: from the picture to the panel, by keys
 - compare: what is shown, and the kept picture
 - materials: the material of the selected object
 - inspector: pixels and the histogram

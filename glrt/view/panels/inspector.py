@@ -7,7 +7,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.pass_film import Array
-from glrt.rendering.weighting import Reading, reading
+from glrt.rendering.weighting import Reading
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.panels.widgets import beside, button, edited, tip
@@ -76,7 +76,7 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
     pixel, renderer = pixel_under(app, x, y), app.session.renderer
     if not pixel or not renderer:
         return []
-    found = reading(renderer.film, app.session.weights, *pixel)
+    found = renderer.reading(app.session.weights, *pixel)
     picked = app.pick(x, y)
     thing = app.session.scene.objects[picked.number] if picked else None
     name = f", {thing.name or thing.shape}" if thing else ""
@@ -88,7 +88,19 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
         f"radiance {_numbers(found.radiance)}",
         f"standard error {_error(found)}",
         f"on the screen {shown}",
+        *_told_bounces(app, pixel),
     ]
+
+
+def _told_bounces(app: App, pixel: tuple[int, int]) -> list[str]:
+    """How often the paths of a pixel scatter, where that is shown."""
+    renderer = app.session.renderer
+    is_shown = renderer and app.show.drawn == "bounces"
+    found = renderer.aov_pixel("bounces", *pixel) if renderer and is_shown else None
+    if found is None:
+        return []
+    mean, error = (float(values[0]) for values in found)
+    return [f"bounces until the end {mean:.4g}" + (f" +- {error:.2g}" if error >= 0 else "")]
 
 
 def _numbers(values: Array) -> str:

@@ -6,11 +6,12 @@ from glrt.rendering.false_colors import Color, Scale
 from glrt.scene.camera import Camera
 from glrt.view.state.error_history import Look
 from glrt.view.viewport.picture_view import PictureView
-from glrt.view.viewport.views import aov_of, ticks_of, title_of
+from glrt.view.viewport.views import has_scale, ticks_of, title_of
 
 _BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
 _TEXT = (1.0, 1.0, 1.0, 1.0)
 _TALLEST = 1.0  # of the bar, in heights of the text
+HEIGHT = 4.2  # of all of it, in lines
 
 
 def draw_legend(
@@ -18,7 +19,7 @@ def draw_legend(
 ) -> None:
     """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
     title = title_of(show.drawn, camera)
-    if aov_of(show.drawn):
+    if not has_scale(show.drawn):
         return _draw_title(title, corner)
     if show.drawn == "dropped" and last and not last.nonfinite:
         title = "no sample was dropped"
@@ -38,7 +39,7 @@ def _draw(title: str, scale: Scale, ticks: dict[float, str], corner: ImVec2, wid
     painter, em = imgui.get_window_draw_list(), hello_imgui.em_size(1)
     line = imgui.get_text_line_height()
     length = min(width - 4 * em, 20 * em)
-    size = ImVec2(length + 4 * em, 4.2 * line)
+    size = ImVec2(length + 4 * em, HEIGHT * line)
     low = corner + ImVec2(0, -size.y)
     painter.add_rect_filled(low, low + size, _code(_BACK))
     painter.add_text(low + ImVec2(1.5 * em, 0.4 * line), _code(_TEXT), title)

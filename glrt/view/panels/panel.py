@@ -13,6 +13,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
@@ -29,11 +30,13 @@ from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
-PATHS = ("method", "sampler", "roulette", "seed")
+PATHS = ("method", "sampler", "roulette", "seed", "caustics")
+PARTICLES = ("particles", "aimed", "linked")  # where caustics are on
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 PREFERENCES = controls_of(Preferences)
+MOVING = ("mode", "temporal")
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value
@@ -60,6 +63,7 @@ def draw_panel(app: App) -> None:
             imgui.set_next_item_open(True)
         if imgui.collapsing_header(title, flags):
             section(app)
+    ANCHOR.keep()
 
 
 def _problem(app: App) -> None:
@@ -70,6 +74,7 @@ def _problem(app: App) -> None:
         return
     if is_new:
         imgui.set_scroll_y(0.0)
+        ANCHOR.forget()
     _colored(_RED, app.session.problem)
     if imgui.button("dismiss"):
         app.session.problem = ""
@@ -120,6 +125,8 @@ def _paths(app: App) -> None:
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
+    if session.settings.caustics == "on":
+        _settings(app, PARTICLES)
 
 
 def _lengths(session: Session) -> None:
@@ -149,7 +156,7 @@ def _camera(app: App) -> None:
         app.edit_scene("", partial(_with_camera, focus_distance=None))
     if imgui.button("home"):
         app.home()
-    _preferences(app, [c for c in PREFERENCES if c.name in ("mode",)])
+    _preferences(app, [c for c in PREFERENCES if c.name in MOVING])
 
 
 def _display(app: App) -> None:
@@ -165,7 +172,7 @@ def _frame(app: App) -> None:
 
 
 def _window(app: App) -> None:
-    shown = [c for c in PREFERENCES if c.name not in ("mode", *FREE_SAMPLES)]
+    shown = [c for c in PREFERENCES if c.name not in (*MOVING, *FREE_SAMPLES)]
     _preferences(app, shown)
     imgui.separator_text("what an edit costs")
     legend()

@@ -20,6 +20,7 @@ COLORS: dict[Kind, Color] = {
     "escape": (0.45, 0.75, 1.0, 1.0),
     "sampled": (1.0, 0.85, 0.2, 1.0),
     "hidden": (0.95, 0.35, 0.35, 0.8),
+    "linked": (1.0, 0.55, 0.95, 1.0),
 }
 _FAINT: Color = (1.0, 1.0, 1.0, 0.25)
 _GROUND, _THING = (0.08, 0.08, 0.1, 0.9), (0.65, 0.65, 0.7, 0.8)
@@ -37,10 +38,12 @@ def draw_paths(app: App, seen: Rectangle) -> None:
     settings, painter = app.session.settings, imgui.get_window_draw_list()
     view = _View(app.camera, settings.width / settings.height, left_top, app.rectangle[2:])
     painter.push_clip_rect(seen[:2], (seen[0] + seen[2], seen[1] + seen[3]), True)
-    for path in paths.found.paths:
+    eye, particles = paths.found.recipe.scene.camera.position, paths.found.particles
+    for path in (*paths.found.paths, *(particles.paths if particles else ())):
         if path is not paths.shown:
-            view.draw([line for line in lines_of(path, app.reach) if line.kind == "path"], _FAINT)
-    view.draw(lines_of(paths.shown, app.reach))
+            lines = lines_of(path, app.reach, eye)
+            view.draw([line for line in lines if line.kind == "path"], _FAINT)
+    view.draw(lines_of(paths.shown, app.reach, eye))
     view.dots(paths.shown)
     painter.pop_clip_rect()
 
@@ -51,7 +54,8 @@ def draw_outside(app: App, seen: Rectangle) -> None:
     if not path or not found:
         return
     side, settings = SHARE * min(seen[2:]), found.recipe.settings
-    is_high = found.pixel[1] >= settings.height / 2  # never in the upper left: there are notices
+    is_toured = app.preferences.tour and app.tour_step is not None  # in the upper right
+    is_high = found.pixel[1] >= settings.height / 2 and not is_toured  # upper left are notices
     is_left = not is_high and found.pixel[0] >= settings.width / 2
     corner = (
         seen[0] if is_left else seen[0] + seen[2] - side,
@@ -67,7 +71,7 @@ def draw_outside(app: App, seen: Rectangle) -> None:
         view.lines(lines, _THING, 1.0)
     eye = np.array(scene.camera.position)
     view.draw([Line(eye, np.array(scene.camera.look_at), "path")], (*_CAMERA[:3], 0.4))
-    view.draw(lines_of(path, ball.radius))
+    view.draw(lines_of(path, ball.radius, scene.camera.position))
     view.dots(path)
     painter.add_text(
         ImVec2(*corner) + ImVec2(6, 4),

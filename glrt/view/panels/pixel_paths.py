@@ -5,6 +5,7 @@ from imgui_bundle import hello_imgui, imgui
 from glrt.analysis.path_report import explanation, light_rows, percent, triple, vertex_rows
 from glrt.rendering.path_values import Path, PixelPaths
 from glrt.settings import Cost
+from glrt.text import counted
 from glrt.view.app import App
 from glrt.view.panels.path_overlay import COLORS
 from glrt.view.panels.widgets import beside, button, edited, tip
@@ -16,12 +17,19 @@ CHOOSING = switch(
     "a click in the picture traces the samples of that pixel again, and shows their paths",
     Cost.FREE,
 )
+PARTICLES = switch(
+    "particles",
+    "of the next pixel that is clicked, also list the particles from lamps that reach it, as a "
+    "render with --caustics on has them; the picture in the window has none",
+    Cost.FREE,
+)
 SAMPLE = Control("sample", "integer", "which sample is shown, from 0", Cost.FREE, low=0)
 _LEGEND: dict[Kind, str] = {
     "path": "the path",
     "escape": "leaves the scene",
     "sampled": "to a point on a lamp",
     "hidden": "to one that is hidden",
+    "linked": "a particle, linked to the camera",
 }
 
 
@@ -33,6 +41,8 @@ def draw_pixel_paths(app: App) -> None:
         paths.is_new = False
     wanted = edited(CHOOSING, paths.is_choosing)
     paths.is_choosing = paths.is_choosing if wanted is None else wanted
+    wanted = edited(PARTICLES, paths.with_particles)
+    paths.with_particles = paths.with_particles if wanted is None else wanted
     if paths.busy:
         imgui.text_disabled(paths.busy)
     found, path = paths.found, paths.shown
@@ -41,6 +51,7 @@ def draw_pixel_paths(app: App) -> None:
         return
     _pixel(app, found)
     _samples(app, found)
+    _particles(app, found)
     sample = edited(SAMPLE, path.sample)
     if sample is not None:
         paths.show(min(sample, len(found.radiances) - 1))
@@ -51,6 +62,8 @@ def _pixel(app: App, found: PixelPaths) -> None:
     x, y = found.pixel
     imgui.text(f"pixel {x}, {y}: {len(found.radiances)} samples")
     imgui.text(f"mean {triple(found.mean)}")
+    if found.recipe.settings.caustics == "on":
+        imgui.text_disabled("by paths from the camera, beside particles")
     if not app.paths.is_of(app.session.scene):
         imgui.text_wrapped("The scene has changed since; click the pixel again.")
     if button("save as a test"):
@@ -71,8 +84,29 @@ def _samples(app: App, found: PixelPaths) -> None:
             app.paths.show(path.sample)
 
 
+def _particles(app: App, found: PixelPaths) -> None:
+    """Those that reach the pixel, and what they bring beside the paths; a click shows one."""
+    there = found.particles
+    if not there:
+        return
+    imgui.separator_text("particles")
+    imgui.text_wrapped(
+        f"{counted(len(there.numbers), 'particle')} of {counted(there.samples, 'sample')} reached "
+        f"this pixel, and bring {triple(there.mean)}; "
+        f"with the paths {triple(found.mean + there.mean)}"
+    )
+    imgui.text_disabled("by their share of what particles bring")
+    whole = float(there.radiances.sum(dtype="float64")) or 1.0
+    for path in there.paths:
+        share = percent(sum(path.radiance) / whole)
+        name = f"sample {path.sample}, particle {path.particle}"
+        if imgui.selectable(f"{name}: {share}###{name}", app.paths.shown is path)[0]:
+            app.paths.shown = path
+
+
 def _path(path: Path) -> None:
-    imgui.separator_text(f"sample {path.sample}")
+    which = "" if path.particle is None else f", particle {path.particle}"
+    imgui.separator_text(f"sample {path.sample}{which}")
     imgui.text_wrapped(f"radiance {triple(path.radiance)}, ended by: {path.end}")
     if told := explanation(path):
         imgui.text_wrapped(told)

@@ -9,7 +9,8 @@ STEPS = (
     (
         "Look around",
         "Drag in the picture to turn about the pivot, use the wheel to come nearer, W A S D to "
-        "walk. The picture is coarse while it moves. Home goes back to the first view.",
+        "walk. The picture is coarse while it moves. Home goes back to the first view. F6 and the "
+        "arrow keys move in the panel instead, Escape goes back.",
     ),
     (
         "Change the light",

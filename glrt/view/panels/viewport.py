@@ -11,7 +11,8 @@ from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import told_pixel
 from glrt.view.panels.key_table import is_choosing, key_named
-from glrt.view.panels.legend import draw_legend
+from glrt.view.panels.legend import HEIGHT, draw_legend
+from glrt.view.panels.navigation import NOTICE, leaves, navigate
 from glrt.view.panels.pair_images import (
     draw_beside,
     draw_image,
@@ -40,6 +41,7 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key do
     "one_to_one": lambda app: app.zoom_to(1.0),
     "inspect": lambda app: app.inspect(),
     "paths": lambda app: app.choose_paths(),
+    "panel": lambda app: navigate(app, not app.navigates),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
     "duplicate": lambda app: app.duplicate(),
@@ -115,6 +117,7 @@ def _notices(app: App) -> tuple[str, ...]:
         app.paths.busy or _CHOOSE * (app.paths.is_choosing and not app.paths.found),
         "old picture, until the new one has a sample" if _is_old(app) else "",
         "paused" if app.session.paused else "",
+        NOTICE if app.navigates else "",
         app.messages.recent(time.perf_counter()),
     )
 
@@ -133,6 +136,7 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
     left, top, _, height = seen
     is_low = imgui.get_io().mouse_pos.y < top + height / 2
     room = (len(lines) + 1) * imgui.get_text_line_height() + imgui.get_font_size()
+    room += HEIGHT * imgui.get_text_line_height() * (app.show.drawn != "picture")  # of the legend
     below = top + height - room if is_low else top + 3.0 * imgui.get_font_size()
     draw_notice("\n".join(lines), ImVec2(left, below))
     columns, rows = app.session.settings.size
@@ -166,15 +170,22 @@ _edges = kept_for_the_same(outline)
 
 
 def draw_keys(app: App) -> None:
-    """Act on the keys; not while a text is typed, a list is open, or a key is chosen."""
+    """Act on the keys; not while a text is typed, a list is open, or a key is chosen.
+
+    Those that move the camera do not while keys move in the panel.
+    """
     io = imgui.get_io()
     is_open = imgui.is_popup_open("", _ANY_POPUP)
     if is_open and imgui.is_key_pressed(imgui.Key.escape):
         imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+    is_left = leaves(app)
     if io.want_text_input or is_open or is_choosing(app):
         return
+    if is_left:
+        navigate(app, False)
     seconds = min(io.delta_time, _LONGEST_STEP)
-    held = [axis for action, axis in _AXES.items() if _is_held(app, action)]
+    moves = {} if app.navigates else _AXES
+    held = [axis for action, axis in moves.items() if _is_held(app, action)]
     if held:
         right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
         app.walk(right, up, forward, seconds)
@@ -244,9 +255,11 @@ def _is_held(app: App, action: Action) -> bool:
 
 
 def _is_pressed(app: App, action: Action) -> bool:
-    return any(
-        imgui.is_key_chord_pressed(_chord(name)) for name in app.preferences.bindings[action]
-    )
+    """In the panel, keys without Ctrl are those of its widgets."""
+    chords = app.preferences.bindings[action]
+    if app.navigates and action != "panel":
+        chords = tuple(name for name in chords if name.startswith("ctrl+"))
+    return any(imgui.is_key_chord_pressed(_chord(name)) for name in chords)
 
 
 def _chord(name: str) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.settings import Cost
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.slider_text import Slider, beside_grip, share_of
 from glrt.view.state.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
@@ -21,6 +22,7 @@ COLORS = {
 }
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
 LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
+_MOST_ROWS = 14  # of a list that need no scrolling
 _TIP = 28.0  # letters' heights across, of a tooltip
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
@@ -64,6 +66,7 @@ def button(label: str, is_enabled: bool = True) -> bool:
     """A button, grey where it would do nothing; whether it was pressed."""
     imgui.begin_disabled(not is_enabled)
     pressed = imgui.button(label)
+    ANCHOR.note()
     imgui.end_disabled()
     return pressed
 
@@ -74,7 +77,8 @@ def named(label: str, value: str, name: str) -> str:
     flags = imgui.InputTextFlags_.auto_select_all.value
     _, text = imgui.input_text(f"{label}##{name}", value, flags)
     is_done = imgui.is_item_deactivated_after_edit()
-    tag(Cost.RESTART)
+    ANCHOR.note()
+    tag(Cost.FREE)
     return text.strip() if is_done and text.strip() != value else ""
 
 
@@ -88,6 +92,7 @@ def beside(text: str) -> None:
 
 def tip(text: str) -> None:
     """Explain the item drawn last, when the mouse rests on it: in lines that are easily read."""
+    ANCHOR.note()
     if imgui.begin_item_tooltip():
         imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
         imgui.text_unformatted(text)
@@ -160,7 +165,8 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     if control.kind == "switch":
         return imgui.checkbox(label, value)
     if control.kind == "choice":
-        changed, index = imgui.combo(label, control.choices.index(value), list(control.choices))
+        names = list(control.choices)
+        changed, index = imgui.combo(label, names.index(value), names, min(len(names), _MOST_ROWS))
         return changed, control.choices[index]
     if control.kind == "color":
         return _color(control, label, value)

@@ -20,6 +20,7 @@ Modules, each importing only what stands above it:
 - idle_kernel: when the faster kernel takes over
 - zoom: how much of the picture is seen
 - histogram: how bright it is
+- moving_picture: what is shown beside the film while the camera moves
 - path_explorer: the paths of a pixel
 - session: the scene, its settings and the renderer that follows them
 - costs: what an edit costs at present

@@ -7,10 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.error.estimate import Band, error_band
-from glrt.error.reliability import is_doubtful
+from glrt.error.judgement import judged
 from glrt.methods.light_layers import Weights, are_trivial
-from glrt.rendering.film import Film
-from glrt.rendering.weighting import mixed
+from glrt.rendering.renderer import Renderer
 from glrt.view.state.histogram import DARK, Histogram, histogram
 from glrt.view.state.session import Session
 
@@ -37,15 +36,20 @@ class Look(NamedTuple):
         return self.band.error
 
 
-def look_at(film: Film, weights: Weights, seconds: float) -> Look | None:
-    """Read a film as its light is weighed; None for one that knows no error yet."""
-    radiance, stderr, _ = mixed(film, weights)
+def look_at(renderer: Renderer, weights: Weights, seconds: float) -> Look | None:
+    """Read a picture as its light is weighed; None for one that knows no error yet."""
+    film = renderer.film
+    radiance, stderr = renderer.picture(weights)
     band = error_band(radiance, stderr)
     if band is None:
         return None
     mean = float(radiance.mean(dtype=np.float64))
-    observations = film.samples // film.extent.block
-    doubt = is_doubtful(radiance, stderr, observations) if are_trivial(weights) else None
+    picture = (film.samples, radiance, stderr)
+    doubt = (
+        judged(renderer.plan.scene, renderer.plan.settings, *picture)
+        if are_trivial(weights)
+        else None
+    )
     return Look(film.samples, seconds, band, mean, film.dropped(), doubt, histogram(radiance))
 
 
@@ -66,11 +70,12 @@ class Progress:
         if not renderer:
             return None
         self.begin(session.restarts, session.weights)
-        if session.is_preview or session.samples < session.known_from:
+        has_history = session.moving.is_shown(renderer, session.settings.samples)
+        if session.is_preview or has_history or session.samples < session.known_from:
             return None  # of fewer samples no error is known, and reading them takes time
         if not self.is_due(session.samples, now, session.is_done):
             return None
-        look = look_at(renderer.film, session.weights, session.rendering)
+        look = look_at(renderer, session.weights, session.rendering)
         self.record(look, now)
         return look
 

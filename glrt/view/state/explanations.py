@@ -23,6 +23,11 @@ EXPLANATIONS: dict[str, str] = {
         "1 / q times: q L / q = L, so the mean stays. Paths take less time, and a little more "
         "noise."
     ),
+    "caustics": (
+        "on: paths from the lamps, too, linked to the camera at matte surfaces. Each way to find "
+        "light is weighed by p^2 / (p^2 + q^2 + r^2), so the mean stays; light that glass or "
+        "mirrors focus has far less noise."
+    ),
     "bounces": (
         "The largest number of scattering events B on a path; light that needs more is left out. "
         "In a closed room that shines with Le everywhere and has the albedo a, a picture shows "

@@ -8,7 +8,7 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
-    | Literal["fit", "one_to_one", "inspect", "paths"]
+    | Literal["fit", "one_to_one", "inspect", "paths", "panel"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -27,6 +27,7 @@ DEFAULTS: Bindings = {
     "one_to_one": ("1",),
     "inspect": ("i",),
     "paths": ("p",),
+    "panel": ("f6",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -51,6 +52,7 @@ MEANING: dict[Action, str] = {
     "one_to_one": "zoom to 1:1",
     "inspect": "show pixel values",
     "paths": "choose a pixel for its paths",
+    "panel": "move in the panel by keys, and back",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

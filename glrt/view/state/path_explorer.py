@@ -1,14 +1,20 @@
 """The paths of one pixel, asked for in the window and traced again by the kernel that records."""
 
+import time
+from collections.abc import Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 
 from glrt.gpu.context import Context
 from glrt.image.recipe import Recipe
-from glrt.rendering.path_replay import PathReplay, path_replay
+from glrt.rendering.path_replay import Array, PathReplay, arrived, path_replay
 from glrt.rendering.path_values import Path, PixelPaths
+from glrt.scene.names import less_names
 from glrt.scene.scene import Scene
-from glrt.settings import Settings, settings_for
+from glrt.settings import Caustics, Settings, settings_for
 
+FOLLOWED = 64  # samples at most whose particles are followed
+SECONDS = 0.1  # of a frame that they may take
 MOST = 4096  # samples of a pixel that are traced again
 SHOWN = 8  # the brightest of them are listed
 ANNOUNCED = 2  # frames that say what is about to stop them
@@ -26,31 +32,38 @@ class PathExplorer:
         self._held = ExitStack()
         self._asked: Asked | None = None
         self._frames = 0
+        self._following: Iterator[Array] | None = None
+        self._followed: list[Array] = []  # of each sample, what its particles brought
         self.is_choosing = False  # whether a click in the picture asks for its pixel
+        self.with_particles = False  # whether they are asked for where the picture has none
         self.found: PixelPaths | None = None
         self.shown: Path | None = None  # one of them
         self.is_new = False  # since the panel showed them last
 
     @property
     def is_waiting(self) -> bool:
-        """Whether a pixel was asked for that is not traced yet."""
-        return self._asked is not None
+        """Whether a pixel was asked for that is not traced yet, or its particles are not."""
+        return self._asked is not None or self._following is not None
 
     @property
     def busy(self) -> str:
         """What the next frame waits for; "" for nothing."""
+        if self._following:
+            return f"Following particles: {len(self._followed)} of {self._wanted} samples"
         is_new = self._asked and not self._is_open(*self._asked[:2])
         return "Compiling the kernel that records paths" if is_new else ""
 
     def ask(self, scene: Scene, settings: Settings, pixel: tuple[int, int], samples: int) -> None:
         """Trace so many samples of a pixel in one of the next frames; it is in the full frame."""
-        plain = settings_for(settings, aov=(), caustics="off", samples=1)
+        how: Caustics = "on" if self.with_particles else settings.caustics
+        plain = settings_for(settings, aov=(), caustics=how, samples=1)
         self._asked, self._frames = (scene, plain, pixel, min(max(samples, 1), MOST)), 0
+        self._following = None
 
     def advance(self) -> bool:
         """A frame's work; whether there was some. GlrtError where paths cannot be recorded."""
         if not self._asked:
-            return False
+            return self._follow()
         self._frames += 1
         if self.busy and self._frames <= ANNOUNCED:
             return True
@@ -63,7 +76,37 @@ class PathExplorer:
         paths = replay.paths(pixel, found.brightest(SHOWN) or [0])
         self.found, self.shown = PixelPaths(recipe, pixel, radiances, paths), paths[0]
         self.is_new = True
+        if settings.caustics == "on":
+            self._following, self._followed = replay.arriving(pixel, self._wanted), []
         return True
+
+    @property
+    def _wanted(self) -> int:
+        """Samples whose particles are followed: whole observations, as in a render."""
+        assert self.found
+        settings = self.found.recipe.settings
+        whole = settings.block * -(-settings.samples // settings.block)
+        return min(whole, max(FOLLOWED, settings.block))
+
+    def _follow(self) -> bool:
+        """Follow the particles of some more samples; at the end, trace those that bring most."""
+        if not self._following or not self.found or not self._replay:
+            return False
+        start = time.perf_counter()
+        while time.perf_counter() - start < SECONDS:
+            lights = next(self._following, None)
+            if lights is None:
+                self._following = None
+                self._list_particles(self._replay, self.found)
+                break
+            self._followed.append(lights)
+        return True
+
+    def _list_particles(self, replay: PathReplay, found: PixelPaths) -> None:
+        there = arrived(self._followed)
+        paths = (replay.particle_path(found.pixel, *name) for name in there.brightest(SHOWN))
+        there = replace(there, paths=tuple(path for path in paths if path))
+        self.found = replace(found, particles=there)
 
     def show(self, sample: int) -> None:
         """The path of a sample by its number."""
@@ -79,13 +122,13 @@ class PathExplorer:
         """Whether the paths are those of a scene as it is now, whatever its camera."""
         if not self.found:
             return False
-        asked = self.found.recipe.scene
+        asked, now = less_names(self.found.recipe.scene, scene)
         parts = ("objects", "materials", "background", "sun", "lights")
-        return all(getattr(asked, part) == getattr(scene, part) for part in parts)
+        return all(getattr(asked, part) == getattr(now, part) for part in parts)
 
     def forget(self) -> None:
         """Show no paths."""
-        self.found = self.shown = self._asked = None
+        self.found = self.shown = self._asked = self._following = None
         self.is_choosing = False
 
     def release(self) -> None:

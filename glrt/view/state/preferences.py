@@ -10,6 +10,7 @@ from pydantic import Field, ValidationError, field_validator
 
 from glrt.errors import RenderError
 from glrt.files import reason, write_text
+from glrt.rendering.temporal import Mode as Temporal
 from glrt.settings import Cost, Editable, Frozen
 from glrt.view.state import keys
 from glrt.view.state.keys import DEFAULTS, Bindings
@@ -39,6 +40,11 @@ class Preferences(Frozen):
         description="frames a second; 0: 30 on a GPU, 10 without one",
         ge=0,
         le=240,
+    )
+    temporal: Annotated[Temporal, Editable(FREE)] = Field(
+        "reproject",
+        description="while the camera moves; reset: the picture begins anew; reproject: what was "
+        "shown follows the surfaces, until the new picture has samples enough",
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"

@@ -26,8 +26,12 @@ class Preview:
     @property
     def factor(self) -> int:
         """The pixels of the frame, in width and height, that share one: 1 while nothing changes."""
-        is_under_way = self._is_owed or self._clock() - self._edited < STILL
-        return self._factor if is_under_way else 1
+        return self._factor if self.is_under_way else 1
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether edits come in a row, or the picture of the last one has no sample yet."""
+        return self._is_owed or self._clock() - self._edited < STILL
 
     def goes_on(self, pixels: int, budget: float) -> bool:
         """Whether the picture of the edit before is to get a sample before another one begins."""

@@ -16,12 +16,13 @@ from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED
 from glrt.scene.scene import Scene
-from glrt.settings import Aov, Cost, Settings, settings_for
+from glrt.settings import OF_PATHS, Aov, Cost, Settings, settings_for
 from glrt.view.state.edited import State
 from glrt.view.state.grain import FirstSurface
 from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
+from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_size import Preview
 
 ANNOUNCED = 2  # frames that say what is about to stop them
@@ -51,17 +52,15 @@ class Session:
         self.waits = False  # for another picture, which is to get as many samples
         self.alone: int | None = None  # the one length that is shown
         self.aov: Aov | None = None  # that is shown
-        self.surface = FirstSurface()
-        self.busy = ""  # what the next frame will wait for
-        self.problem = ""  # the last refusal, for the user
+        self.refused: Aov | None = None  # that cannot be
+        self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
+        self.busy = self.problem = ""  # what the next frame will wait for, and the last refusal
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
         self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
-        self.context = context
-        self._clock = clock
-        self._announced = 0
-        self._preview = Preview(clock)
+        self.context, self._clock = context, clock
+        self._announced, self._preview = 0, Preview(clock)
         self._full_size = self.state.settings.size  # of the last edit that was applied
 
     @property
@@ -95,10 +94,7 @@ class Session:
 
     @property
     def layering(self) -> Layering:
-        """What the layers of the film are to hold: light groups, or lengths of paths.
-
-        A fragment shader writes to few textures: it keeps none. So does a film too large for them.
-        """
+        """What layers are to hold: none of fragment shaders, or of a film too large for them."""
         return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
 
     @property
@@ -168,6 +164,7 @@ class Session:
         """Begin to accumulate anew."""
         if self.renderer:
             self.renderer.restart()
+            self.moving.forget()
             self._begin()
 
     def advance(self, seconds: float, count: int = 0) -> None:
@@ -204,6 +201,7 @@ class Session:
         """Free what the driver holds."""
         if self.rest:
             self.rest.end()
+        self.moving.release()
         if self.renderer:
             self.renderer.release()
 
@@ -219,8 +217,7 @@ class Session:
             self._preview.deliver()
         is_early = held < FIRST_SAMPLES and (self.is_preview or not renderer.is_baked)
         if is_early:
-            width, height = renderer.size
-            self._preview.record(spent, done * width * height)
+            self._preview.record(spent, done * renderer.size[0] * renderer.size[1])
 
     def _apply_pending(self, seconds: float) -> bool:
         """Whether there is something to render; what compiles is announced first."""
@@ -235,6 +232,7 @@ class Session:
             if self._preview.goes_on(pixels, seconds):
                 return True
             self._preview.begin(pixels, seconds)
+            self.moving.begin()
             self.surface.is_apt = bool(self.renderer and self.state.moves(self.renderer.scene))
         if self.is_behind:
             try:
@@ -255,27 +253,28 @@ class Session:
             self._update_renderer()
 
     def _update_renderer(self) -> None:
-        wanted = self._wanted()
+        wanted, cost = self._wanted(), None
         if not self.renderer:
-            self.renderer = self._open(wanted)
-            return self._begin()
-        self.last_cost = self.renderer.update(wanted.scene, self.layering, **dict(wanted.settings))
-        if self.last_cost in (Cost.RESTART, Cost.RECOMPILE):
+            self.renderer, cost = self._open(wanted), Cost.RECOMPILE
+        else:
+            self.moving.leave(self.renderer, self.weights)
+            edits = dict(wanted.settings)
+            cost = self.last_cost = self.renderer.update(wanted.scene, self.layering, **edits)
+        if cost in (Cost.RESTART, Cost.RECOMPILE):
             self._begin()
-        return None
+        self.problem = self.moving.arrive(self.renderer, cost) or self.problem
 
     def _begin(self) -> None:
-        assert self.renderer
-        self.restarts += 1
-        self.rendering = 0.0
+        self.restarts, self.rendering = self.restarts + 1, 0.0
 
     def _refuse(self, error: GlrtError) -> None:
         """Tell, and go back to what the renderer has; without one there is nothing to do."""
-        self.problem = str(error)
+        self.problem, self.refused = str(error), self.aov
         self._preview.end()
         if not self.renderer:
             raise error
-        settings = settings_for(self.renderer.settings, aov=self.settings.aov)
+        own = self.settings.model_dump(include={"aov", "seed"})
+        settings = settings_for(self.renderer.settings, **own)
         by_length = self.renderer.plan.layering == "lengths"
         self.state = State(self.renderer.scene, settings, by_length).sized(*self._full_size)
 
@@ -286,7 +285,9 @@ class Session:
             return Cost.RECOMPILE
         if not self.is_behind:
             return None
-        wanted = self._wanted().sized(*renderer.settings.size)
+        wanted = self.moving.alike(self._wanted(), renderer.settings, self.settings.seed)
+        if not {*wanted.settings.aov} & {*OF_PATHS} <= {*renderer.settings.aov}:
+            return Cost.RECOMPILE  # another kernel of paths
         cost = renderer.plan.cost_of(wanted.scene, wanted.settings, self.layering)
         is_resized = self._full_size != self.settings.size
         return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost
@@ -295,4 +296,5 @@ class Session:
         """What the renderer is to show: while edits restart it, at a size that keeps up."""
         factor = self._preview.factor
         shown = (self.aov,) if self.aov else NEEDED if factor > 1 and self.surface.is_wanted else ()
-        return State(self.scene, self.settings).showing(*shown).coarser(factor)
+        state = State(self.scene, self.settings).showing(*shown).coarser(factor)
+        return self.moving.reseeded(state) if self._preview.is_under_way else state

@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - picture: the film as a texture for Dear ImGui
 - views: the views of a render
+- difference: how far the picture is from the kept one
 - orbit: moves of the camera
 - pick: what lies under a point
 - outline: where an object ends in the picture

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from glrt.rendering.path_values import Path
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
+from glrt.scene.values import Vector
 
 Array = NDArray[np.float64]
-Kind = Literal["path", "escape", "sampled", "hidden"]
+Kind = Literal["path", "escape", "sampled", "hidden", "linked"]
 
 FOV = 40.0  # degrees, of the view from outside
 
@@ -33,13 +34,19 @@ class Ball(NamedTuple):
     radius: float
 
 
-def lines_of(path: Path, reach: float) -> list[Line]:
-    """The segments of a path; where it leaves the scene, and to suns, a line as long as `reach`."""
+def lines_of(path: Path, reach: float, eye: Vector) -> list[Line]:
+    """The segments of a path; where it leaves the scene, and to suns, a line as long as `reach`.
+
+    Of a particle, lines to the camera at `eye` too, where it is linked.
+    """
     places = [np.array(vertex.position) for vertex in path.vertices]
     lines = [Line(start, end, "path") for start, end in pairwise(places)]
     last = path.vertices[-1]
     if path.end == "left the scene" and last.direction is not None:
         lines.append(Line(places[-1], places[-1] + reach * np.array(last.direction), "escape"))
+    if path.particle is not None:
+        links = dict.fromkeys(light.vertex for light in path.contributions)
+        return [*lines, *(Line(places[at], np.array(eye), "linked") for at in links)]
     return [*lines, *_sampled(path, places, reach)]
 
 

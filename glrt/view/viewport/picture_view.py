@@ -10,10 +10,13 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED, SurfaceView
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
+from glrt.view.viewport.difference import GROWTH, Difference, difference_of
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import View, aov_of, scale_of
 
+LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
+HISTORY = "with light of earlier views, until there are samples enough"
 
 
 @dataclass
@@ -26,34 +29,41 @@ class PictureView:
     surface: SurfaceView
     view: View = "picture"  # as wanted; see `drawn`
     most: float = 0.5  # relative difference that has the strongest colour
+    bounces: int = 10  # the limit of the paths
     wipe: float = 0.5  # share of the picture's width that shows the kept one
     kept: ReferenceImage | None = None
     holds: bool = False  # the picture gets no samples: the frame is another one's
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
     is_surface: bool = False  # in place of the picture: the first surface under simple light
+    difference: Difference | None = None  # from the kept picture, where it is shown
     is_old: bool = False  # what is on the screen: it lacks the last edit, which has no sample yet
+    _measured: object = None  # what its difference was taken of, but for samples
     _content: object = None  # what the picture was drawn from
     _restarts: int = 0  # of the session, when it was drawn
 
     @property
     def scale(self) -> Scale:
         """Of the view."""
-        return scale_of(self.view, self.most)
+        return scale_of(self.view, self.most, self.bounces)
 
     def advance(self, session: Session, seconds: float, count: int) -> None:
         """A frame's samples; while the kept picture is compared, it gets half of the time.
 
         RenderError if the driver has no room for that.
         """
-        session.aov = aov_of(self.view)
+        if session.refused == self.view:
+            self.view = "picture"
+        session.aov, session.refused = aov_of(self.view), None
+        self.bounces = session.settings.bounces
         renderer = session.renderer
         kept = self._compared(session)
         is_ahead = kept and renderer and kept.samples(renderer) < session.samples
         session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
         if kept and session.renderer:
-            kept.catch_up(session.renderer, seconds if session.waits else seconds / 2)
+            share = max(seconds, LONGER) if session.is_done else seconds
+            kept.catch_up(session.renderer, share if session.waits else seconds / 2)
         elif self.kept and self.view != "difference":
             self.kept.rest()
 
@@ -80,6 +90,7 @@ class PictureView:
         progress = renderer.shown, session.restarts, session.weights
         content = (
             *progress,
+            session.moving.is_shown(renderer, settings.samples),
             settings.exposure,
             settings.tonemap,
             view,
@@ -97,6 +108,7 @@ class PictureView:
             return
         mean = float(session.image().radiance.mean(dtype="float64"))
         self.forget()
+        session.moving.forget()  # what is kept is the film alone
         self._draw(session, session.renderer, "picture", None)
         self.picture.keep()
         self.kept = ReferenceImage(session.state, mean, session.renderer.context)
@@ -116,6 +128,8 @@ class PictureView:
             return session.busy
         if self.is_surface:
             return SURFACE
+        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
+            return HISTORY
         if self.view == "picture":
             return ""
         if self.view == "error" and not self._knows_error(session):
@@ -128,6 +142,8 @@ class PictureView:
             return "The kept picture has another size"
         if kept.busy:
             return kept.busy
+        if self.drawn == "difference" and self.difference:
+            return self.difference.told
         behind = kept.samples(renderer) < session.samples and self.drawn != "difference"
         told = f"{kept.samples(renderer)} of {session.samples} samples"
         return f"Rendering the kept picture again: {told}" if behind else ""
@@ -170,7 +186,8 @@ class PictureView:
         if not session.is_preview:
             session.surface.end()
         if view == "picture":
-            self.picture.draw(light, session.settings, session.is_preview)
+            shown = session.moving.texture(renderer, weights) or light
+            self.picture.draw(shown, session.settings, session.is_preview)
             return self._draw_surface(session, renderer) if session.is_preview else None
 
         aov = aov_of(view)
@@ -178,15 +195,25 @@ class PictureView:
 
         def paint() -> None:
             if aov and mean:
-                self.aovs.draw(aov, mean, renderer.scene.camera)
+                self.aovs.draw(aov, mean, renderer.scene.camera, self.bounces)
             elif view == "error":
                 self.colors.draw_error(film, light, weights, self.mean or 0.0)
             elif view == "dropped":
                 self.colors.draw_dropped(film, light)
             elif other and self.kept:
+                self._measure(session, light, other)
                 self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)
 
         return self.picture.paint(film.size, paint)
+
+    def _measure(self, session: Session, light: moderngl.Texture, other: moderngl.Texture) -> None:
+        """Take the numbers of the difference, which takes longer than to draw it: now and then."""
+        content = session.restarts, session.weights, self.kept
+        known, is_same = self.difference, content == self._measured
+        is_near = known and known.samples <= session.samples < GROWTH * known.samples
+        if not (is_same and is_near) or session.is_done:
+            self.difference = difference_of(light, other, session.samples)
+            self._measured = content
 
     def _draw_surface(self, session: Session, renderer: Renderer) -> None:
         """In place of a coarse picture that is too noisy, once there is something to draw."""

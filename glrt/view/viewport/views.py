@@ -2,7 +2,7 @@
 
 from typing import Literal, get_args
 
-from glrt.rendering.aov_view import cell_of
+from glrt.rendering.aov_view import MOST_BOUNCES, cell_of, scale_of_bounces
 from glrt.rendering.false_colors import DIFFERENCE, DROPPED, ERROR, Scale, symmetric
 from glrt.scene.camera import Camera
 from glrt.settings import Aov
@@ -18,7 +18,8 @@ HELP = (
     "difference: from the kept picture, at equal seeds and samples; what did not change shows no "
     "noise\n"
     "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
-    "gathered while they are shown"
+    "gathered while they are shown\n"
+    "bounces: how often the paths of a pixel scatter before they end, in the mean"
 )
 TITLES: dict[View, str] = {
     "error": "estimated relative error of a pixel",
@@ -29,6 +30,7 @@ TITLES: dict[View, str] = {
     "depth": "depth, grey at {focus:.3g}, where the camera focuses",
     "position": "position, x y z as red green blue, again every {cell:g}",
     "object": "a colour for each object",
+    "bounces": "bounces of a path until its end, mean",
 }
 
 
@@ -43,8 +45,18 @@ def aov_of(view: View) -> Aov | None:
     return next((aov for aov in get_args(Aov) if aov == view), None)
 
 
-def scale_of(view: View, most: float) -> Scale:
-    """The scale of a view in false colours; `most`: the largest difference that is told apart."""
+def has_scale(view: View) -> bool:
+    """Whether a view has false colours, and so a legend with numbers."""
+    return view == "bounces" or aov_of(view) is None
+
+
+def scale_of(view: View, most: float, bounces: int) -> Scale:
+    """The scale of a view in false colours; `most`: the largest difference that is told apart.
+
+    `bounces` is the limit of the paths.
+    """
+    if view == "bounces":
+        return scale_of_bounces(bounces)
     scales: dict[View, Scale] = {"error": ERROR, "dropped": DROPPED}
     return scales.get(view) or symmetric(DIFFERENCE, most)
 
@@ -55,5 +67,8 @@ def ticks_of(view: View, scale: Scale) -> dict[float, str]:
         return {0.001: "0.1 %", 0.01: "1 %", 0.1: "10 %", 1.0: "100 %"}
     if view == "dropped":
         return {1.0: "1", 10.0: "10", 100.0: "100", 1000.0: "1000"}
+    if view == "bounces":
+        end = f"{scale.high:g}" + (" and more" if scale.high == MOST_BOUNCES else "")
+        return {0.0: "0", scale.high / 2: f"{scale.high / 2:g}", scale.high: end}
     shares = [part * scale.high for part in (-1.0, -0.5, 0.0, 0.5, 1.0)]
     return {share: f"{100 * share:+.3g} %" if share else "0" for share in shares}

@@ -1,0 +1,126 @@
+"""How much clearer the picture is while the camera moves: `python -m bench.redraw orbit|film`.
+
+`orbit` plays the same orbit by `reset` and by `reproject` and tells the error of what is on the
+screen, and the processor seconds of a frame; `film FILE.webp` shows both side by side. There is no
+window. Seconds are the process's own: beside other work they tell ratios alone.
+"""
+
+import argparse
+import math
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from glrt.analysis.motion.playing import play
+from glrt.analysis.motion.sequences import Sequence, orbit
+from glrt.analysis.reference import reference_for
+from glrt.gpu.context import Context, open_context
+from glrt.image.sources import load
+from glrt.image.tonemap import expose_and_encode
+from glrt.rendering.temporal import Mode
+from glrt.settings import settings_for
+
+FRAMES, DEGREES = 48, 0.5
+LOOKS = (0, 1, 2, 4, 8, 16, 24, 32, 40, 47)  # frames; errors of others are interpolated
+SWING = 12  # frames of the film
+REFERENCE = 128  # samples of each half
+FILM, SCENES = (176, 132), ("cornell", "lamps")
+MOST_BYTES = 300_000
+
+
+class Played(NamedTuple):
+    """An orbit by one mode."""
+
+    mode: Mode
+    errors: list[float]  # relative RMS, at LOOKS
+    seconds: float  # of the process, a frame
+
+    @property
+    def mean(self) -> float:
+        """Over all frames."""
+        return float(np.interp(range(FRAMES), LOOKS, self.errors).mean())
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Measure orbits, or make the film; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m bench.redraw", description=__doc__)
+    parser.add_argument("task", choices=["orbit", "film"])
+    parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
+    parser.add_argument("--scene", nargs="+", default=SCENES)
+    parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
+    parsed = parser.parse_args(arguments)
+    context = open_context()
+    if parsed.task == "film":
+        make_film(parsed.file, context)
+        return 0
+    for scene in parsed.scene:
+        print("\n".join(told(scene, measure(scene, (parsed.size[0], parsed.size[1]), context))))
+    return 0
+
+
+def measure(scene: str, size: tuple[int, int], context: Context) -> list[Played]:
+    """Both modes, one sample a frame."""
+    opened = load(scene)
+    settings = settings_for(opened.render, width=size[0], height=size[1])
+    frames = orbit(opened, FRAMES, DEGREES)
+    truth = {
+        n: reference_for(frames.scenes[n], settings, context, 0.0, math.inf, samples=REFERENCE)
+        for n in LOOKS
+    }
+    modes: tuple[Mode, ...] = ("reset", "reproject")
+    found = []
+    for mode in modes:
+        errors, start = [], time.process_time()
+        looked = 0.0
+        for number, picture in enumerate(play(frames, settings, context, mode)):
+            if number in truth:
+                begun = time.process_time()
+                errors.append(math.sqrt(max(truth[number].squared_error(picture), 0.0)))
+                looked += time.process_time() - begun
+        found.append(Played(mode, errors, (time.process_time() - start - looked) / FRAMES))
+    return found
+
+
+def told(scene: str, found: list[Played]) -> Iterator[str]:
+    """As a Markdown table.
+
+    At equal time: the error of `reset` falls with the root of the samples that it could take
+    in the time of the other.
+    """
+    base = found[0]
+    yield f"| {scene}, orbit of {FRAMES} frames | mean error | seconds a frame | at equal time |"
+    yield "|---|---|---|---|"
+    for one in found:
+        gain = base.mean / math.sqrt(one.seconds / base.seconds) / one.mean
+        yield f"| {one.mode} | {one.mean:.3f} | {one.seconds:.3f} | {gain:.2f} times lower |"
+
+
+def make_film(file: Path, context: Context) -> None:
+    """Both modes side by side, a scene below the other; RuntimeError if the file is too large."""
+    rows = [_frames_of(scene, context) for scene in SCENES]
+    frames = [Image.fromarray(np.vstack(parts)) for parts in zip(*rows, strict=True)]
+    options: dict[str, Any] = {"duration": 120, "loop": 0, "quality": 30, "method": 6}
+    frames[0].save(file, save_all=True, append_images=frames[1:], **options)
+    if file.stat().st_size > MOST_BYTES:
+        raise RuntimeError(f"{file} has more than {MOST_BYTES} bytes")
+
+
+def _frames_of(scene: str, context: Context) -> list[NDArray[np.uint8]]:
+    opened = load(scene)
+    settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
+    swing: Sequence = orbit(opened, SWING, 1.5)
+    modes: tuple[Mode, ...] = ("reset", "reproject")
+    both = [play(swing, settings, context, mode) for mode in modes]
+    return [
+        np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in pair])
+        for pair in zip(*both, strict=True)
+    ]
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

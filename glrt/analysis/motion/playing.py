@@ -1,0 +1,59 @@
+"""What a temporal mode shows of a moving picture: without a window and without a clock."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.analysis.motion.sequences import Sequence
+from glrt.gpu.context import Context, Pipeline
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.temporal import Mode, Temporal
+from glrt.settings import Settings
+
+Picture = NDArray[np.float32]  # (H, W, 3) radiance, row 0 on top
+
+
+def play(
+    sequence: Sequence,
+    settings: Settings,
+    context: Context,
+    mode: Mode,
+    samples: int = 1,
+    pipeline: Pipeline = "auto",
+) -> Iterator[Picture]:
+    """What is on the screen at the end of each frame, of `samples` samples of each pixel.
+
+    Frame n takes its random numbers from seed `settings.seed` + n, so that the noise of one is not
+    that of another.
+    """
+    first = sequence.scenes[0]
+    renderer = Renderer(first, settings, context, pipeline=pipeline)
+    temporal = Temporal(context.gl, mode)
+    try:
+        for number, scene in enumerate(sequence.scenes):
+            if scene != renderer.scene:
+                temporal.leave(renderer)
+                renderer.update(scene, seed=settings.seed + number)
+                temporal.arrive(renderer)
+            renderer.render(renderer.samples + samples)
+            yield screen_of(renderer, temporal)
+    finally:
+        temporal.release()
+        renderer.release()
+
+
+def screen_of(renderer: Renderer, temporal: Temporal) -> Picture:
+    """The radiance that is shown now."""
+    shown = temporal.show(renderer)
+    with renderer.context.gl:
+        texture = shown or renderer.weighed(renderer.plan.weights)
+        return read_texture(texture)[..., :3].copy()
+
+
+def read_texture(texture: moderngl.Texture) -> NDArray[Any]:
+    """A float texture, (H, W, 4); its context must be current."""
+    width, height = texture.size
+    return np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)

@@ -1,0 +1,89 @@
+"""The chart of error while something moves: SVG, PNG, CSV, and a page."""
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from glrt import files
+from glrt.analysis.motion.measure import BEFORE, DEGREES, FACTOR, FRAMES, Track
+from glrt.analysis.plot import FORMATS, Chart, Curve, save_sheet
+
+PAGE = "temporal.md"
+HEADINGS = ("scene", "sequence", "mode", "frame", "rays", "error")
+_WORDS = {
+    "orbit": f"orbit, {DEGREES:g} degree a frame",
+    "light step": f"light dimmed to {FACTOR:.0%} after {BEFORE} frames",
+}
+
+
+def save_tracks(name: str, title: str, tracks: Sequence[Track], folder: Path) -> None:
+    """Write NAME.temporal.svg, .png and .csv."""
+    charts = [_chart(sequence, tracks) for sequence in _sequences(tracks)]
+    for suffix in FORMATS:
+        save_sheet(charts, folder / f"{name}.temporal{suffix}", title, columns=2)
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(HEADINGS)
+    table.writerows(rows(tracks))
+    files.write_text(folder / f"{name}.temporal.csv", text.getvalue())
+
+
+def rows(tracks: Sequence[Track]) -> Iterator[tuple[object, ...]]:
+    """A row for each look, under HEADINGS."""
+    for track in tracks:
+        for seen in track.seen:
+            place = track.scene, track.sequence, track.mode, seen.frame
+            yield (*place, round(seen.rays, 3), f"{seen.error:.5g}")
+
+
+def save_page(tracks: Sequence[Track], size: str, folder: Path) -> Path:
+    """Write the page with the means of all scenes, and return its path."""
+    path = folder / PAGE
+    files.write_text(path, "\n".join(_lines(tracks, size)) + "\n")
+    return path
+
+
+def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
+    yield "# Error while something moves"
+    yield ""
+    yield (
+        "Written by `glrt chart --temporal`: relative RMS error of what is on the screen, against "
+        f"references of each view, over {FRAMES} frames of one sample a pixel. {size}"
+    )
+    yield ""
+    columns = ["scene", "what moves", "mode", "rays a pixel and frame", "mean error"]
+    yield f"| {' | '.join(columns)} | times lower than reset |"
+    yield "|---|---|---|---|---|---|"
+    for track in tracks:
+        base = next(
+            (
+                other.mean_error
+                for other in tracks
+                if other[:2] == track[:2] and other.mode == "reset"
+            ),
+            None,
+        )
+        gain = f"{base / track.mean_error:.2f}" if base else "-"
+        rays = sum(seen.rays for seen in track.seen) / len(track.seen)
+        yield (
+            f"| {track.scene} | {_WORDS[track.sequence]} | {track.mode} | {rays:.1f} "
+            f"| {track.mean_error:.3f} | {gain if track.mode != 'reset' else '1'} |"
+        )
+    for name in dict.fromkeys(track.scene for track in tracks):
+        yield ""
+        yield f"![Error against frames in {name}]({name}.temporal.svg)"
+
+
+def _sequences(tracks: Sequence[Track]) -> list[str]:
+    return [*dict.fromkeys(track.sequence for track in tracks)]
+
+
+def _chart(sequence: str, tracks: Sequence[Track]) -> Chart:
+    curves = [
+        Curve(track.mode, [one.frame for one in track.seen], [one.error for one in track.seen])
+        for track in tracks
+        if track.sequence == sequence
+    ]
+    since = "frames" if sequence == "orbit" else "frames since the light changed"
+    return Chart(_WORDS[sequence], since, "relative RMS error on the screen", curves)

@@ -1,0 +1,190 @@
+"""What the screen shows while the camera moves: a film that begins anew, and history beside it.
+
+`Temporal` follows a renderer from view to view and holds what all modes share: the surfaces of this
+view and of the one before. A mode is a `Resolver`: it makes the picture, and what the next view
+begins from. None of them ever writes to the film.
+
+    temporal.leave(renderer, weights)   # before an edit: what is shown becomes history
+    renderer.update(...)                # the film is empty
+    temporal.arrive(renderer)           # surfaces of the new view; history is brought to it
+    renderer.advance(...)
+    texture = temporal.show(renderer, weights)   # None: the film alone is to be shown
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Literal, NamedTuple, Protocol
+
+import moderngl
+
+from glrt.gpu.canvas import Canvas
+from glrt.gpu.program import TILE
+from glrt.methods.light_layers import Weights
+from glrt.rendering.drawn_pass import DrawnPass
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.reprojection import USUAL, Limits, Reprojection, shares_objects
+from glrt.rendering.surfaces import SurfacePass, Surfaces
+
+Mode = Literal["reset", "reproject"]
+
+END = 64.0  # samples of a film from which on history is not shown, at the latest
+
+
+class Fresh(NamedTuple):
+    """The film of this view."""
+
+    light: moderngl.Texture  # RGB radiance under the weights that are shown
+    mean: moderngl.Texture  # a: finite samples of each pixel
+    samples: int
+    end: float  # samples from which on it is shown alone
+
+
+class Resolver(Protocol):
+    """A temporal mode: textures are RGBA32F of the size of the view, row 0 on top."""
+
+    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
+        """Begin a view; `before` is None if nothing of the view before can be used."""
+
+    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
+        """The picture, radiance in RGB; valid until the next call."""
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+
+
+class Reproject:
+    """History follows the surfaces; film and history are weighed by their numbers of samples."""
+
+    def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self._reprojection = Reprojection(gl, limits)
+        self._evidence, self._fade = DrawnPass(gl, "evidence.frag"), DrawnPass(gl, "fade.frag")
+        self._tiles, self._canvas = Canvas(gl, "f4"), Canvas(gl, "f4")
+        self._history: moderngl.Texture | None = None  # the newest of this view
+        self._brought: moderngl.Texture | None = None
+
+    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
+        """Bring what was shown."""
+        self._brought = None
+        if before and self._history:
+            limits = None if is_same_light else OTHER_LIGHT
+            self._brought = self._reprojection.bring(now, before, self._history, limits)
+        self._history = self._brought
+
+    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
+        """Radiance, and the samples that it stands for."""
+        del now
+        if not self._brought:
+            self._history = None
+            return self._draw(fresh, fresh.mean, 0.0)
+        return self._draw(fresh, self._brought, fresh.end)
+
+    def _draw(self, fresh: Fresh, brought: moderngl.Texture, end: float) -> moderngl.Texture:
+        target = self._canvas.sized(fresh.mean.size)
+        width, height = fresh.mean.size
+        tiles = self._tiles.sized((-(-width // TILE), -(-height // TILE)))
+        textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought}
+        self._evidence.draw(tiles, textures, {})
+        assert self._tiles.texture
+        textures["evidence"] = self._tiles.texture
+        values = {"samples": float(fresh.samples), "end": end}
+        self._fade.draw(target, textures, values)
+        self._history = self._canvas.texture
+        assert self._history
+        return self._history
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for part in (self._reprojection, self._evidence, self._fade, self._tiles, self._canvas):
+            part.release()
+
+
+OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # what was shown is wrong by an unknown amount
+
+RESOLVERS: Mapping[Mode, Callable[[moderngl.Context], Resolver]] = {"reproject": Reproject}
+
+
+class Temporal:
+    """Follows a renderer; `reset` shows its film alone, and costs nothing."""
+
+    def __init__(self, gl: moderngl.Context, mode: Mode = "reproject") -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self.mode = mode
+        self.end = END  # samples of the film from which on it is shown alone
+        self._gl = gl
+        self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, of the one before
+        self._pass = SurfacePass(gl)
+        make = RESOLVERS.get(mode)
+        self._resolver = make(gl) if make else None
+        self._is_kept = False  # whether there is a history to begin from
+        self._is_brought = False  # whether the view has one
+
+    @property
+    def surfaces(self) -> Surfaces:
+        """Of this view."""
+        return self._surfaces[0]
+
+    def leave(self, renderer: Renderer, weights: Weights | None = None) -> None:
+        """What is shown becomes history: call it before an edit restarts the film."""
+        if self._resolver and renderer.samples and not self.surfaces.scene:
+            self._find(renderer)  # the first view of all
+        if self._resolver and renderer.samples:
+            self._resolved(self._resolver, renderer, weights)
+            self._is_kept = True
+
+    def arrive(self, renderer: Renderer) -> None:
+        """Begin the view that a renderer shows now; its film has no sample yet."""
+        if not self._resolver:
+            return
+        self._surfaces.reverse()
+        self._find(renderer)
+        now, before = self._surfaces
+        is_usable = self._is_kept and before.scene and shares_objects(renderer.scene, before.scene)
+        is_same_light = bool(before.scene and is_lit_alike(renderer, before))
+        self._is_brought = bool(is_usable)
+        with self._gl:
+            self._resolver.arrive(now, before if is_usable else None, is_same_light)
+
+    def show(self, renderer: Renderer, weights: Weights | None = None) -> moderngl.Texture | None:
+        """The picture of film and history, valid until the next call; None: the film alone."""
+        if not self._resolver or not self.is_shown(renderer):
+            return None
+        return self._resolved(self._resolver, renderer, weights)
+
+    def is_shown(self, renderer: Renderer) -> bool:
+        """Whether the picture is not the film alone."""
+        return self._is_brought and renderer.samples < self.end
+
+    def forget(self) -> None:
+        """What was shown is no history for what comes."""
+        self._is_kept = self._is_brought = False
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._pass.release()
+        for surfaces in self._surfaces:
+            surfaces.release()
+        if self._resolver:
+            self._resolver.release()
+
+    def _find(self, renderer: Renderer) -> None:
+        self._pass.fill(renderer, self.surfaces)
+
+    def _resolved(
+        self, resolver: Resolver, renderer: Renderer, weights: Weights | None
+    ) -> moderngl.Texture:
+        with self._gl:
+            light = renderer.weighed(weights or renderer.plan.weights)
+            end = self.end if self._is_brought else 0.0
+            fresh = Fresh(light, renderer.film.mean, renderer.samples, end)
+            return resolver.show(self.surfaces, fresh)
+
+
+def is_lit_alike(renderer: Renderer, before: Surfaces) -> bool:
+    """Whether a view shows the scene of another one, but for the camera and the size."""
+    if not before.scene or not before.settings:
+        return False
+    same_scene = before.scene.model_copy(update={"camera": renderer.scene.camera})
+    settings = before.settings
+    same = settings.bounces, settings.method, settings.caustics
+    now = renderer.settings
+    return same_scene == renderer.scene and same == (now.bounces, now.method, now.caustics)

@@ -1,0 +1,90 @@
+"""What the screen shows beside the film while the camera moves: see glrt/rendering/temporal.py."""
+
+from dataclasses import replace
+
+import moderngl
+
+from glrt.errors import RenderError
+from glrt.methods.light_layers import Weights
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.temporal import END, Mode, Temporal
+from glrt.settings import Cost, Settings, settings_for
+from glrt.view.state.edited import State
+
+MOST_SEED = 0xFFFFFFFF
+GOLDEN = 0x9E3779B1  # from one seed to the next: far from those that users choose
+
+
+class MovingPicture:
+    """History of a session's picture. Where the driver has no room for it, there is none."""
+
+    def __init__(self, gl: moderngl.Context, mode: Mode = "reset") -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self._gl = gl
+        self._temporal = Temporal(gl, mode)
+        self._wanted = mode
+        self._begun = 0
+
+    def begin(self) -> None:
+        """Another picture begins while edits come in a row."""
+        self._begun += 1
+
+    def reseeded(self, state: State) -> State:
+        """With random numbers that no view before had: noise that is the same does not cancel.
+
+        Once edits rest the picture begins anew, with its own seed and the bits of `reset`.
+        """
+        seed = self._other_seed(state.settings.seed)
+        return replace(state, settings=settings_for(state.settings, seed=seed))
+
+    def alike(self, wanted: State, given: Settings, seed: int) -> State:
+        """What is wanted, in the size of a renderer, and with its seed if it comes from `seed`."""
+        sized = wanted.sized(*given.size)
+        if given.seed not in (seed, self._other_seed(seed)):
+            return sized
+        return replace(sized, settings=settings_for(sized.settings, seed=given.seed))
+
+    def _other_seed(self, seed: int) -> int:
+        is_needed = self._wanted != "reset"
+        return (seed + self._begun * GOLDEN) & MOST_SEED if is_needed else seed
+
+    def use(self, mode: Mode) -> None:
+        """Another mode begins without history."""
+        if mode != self._wanted:
+            self._temporal.release()
+            self._temporal, self._wanted = Temporal(self._gl, mode), mode
+
+    def leave(self, renderer: Renderer, weights: Weights) -> None:
+        """Before an edit."""
+        self._temporal.leave(renderer, weights)
+
+    def arrive(self, renderer: Renderer, cost: Cost | None) -> str:
+        """After an edit of a cost; returns what the driver refused, "" for nothing."""
+        if cost is Cost.RELIGHT:
+            self._temporal.forget()
+        if cost not in (Cost.RESTART, Cost.RECOMPILE):
+            return ""
+        try:
+            self._temporal.arrive(renderer)
+        except RenderError as error:
+            self._temporal.release()
+            self._temporal = Temporal(self._gl, "reset")
+            return f"{error} History of earlier views is left out (temporal reset)."
+        return ""
+
+    def forget(self) -> None:
+        """The picture is shown without history from now on."""
+        self._temporal.forget()
+
+    def is_shown(self, renderer: Renderer | None, wanted: int) -> bool:
+        """Whether history is shown: not once the film has END samples, or all that are wanted."""
+        self._temporal.end = float(min(END, wanted))
+        return renderer is not None and self._temporal.is_shown(renderer)
+
+    def texture(self, renderer: Renderer, weights: Weights) -> moderngl.Texture | None:
+        """Film and history, valid until the next call; None: the film alone is to be shown."""
+        return self._temporal.show(renderer, weights)
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._temporal.release()

@@ -1,0 +1,27 @@
+// A film and the history of the view, weighed by their mean squared errors. Samples of both are as noisy, so
+// that variances go with 1 over their numbers; history is biased beside. As the film grows, history fades out.
+
+uniform sampler2D light;     // the film under its weights
+uniform sampler2D mean;      // of the film; a: finite samples
+uniform sampler2D brought;   // history as reproject.frag has it
+uniform sampler2D evidence;  // how wrong it is, as evidence.frag has it
+uniform float samples;       // of the film
+uniform float end;           // samples of the film from which on it is shown alone
+
+out vec4 shown;              // radiance, and the samples that it stands for
+
+const int TILE = 8;          // as in evidence.frag
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    precise vec4 history = texelFetch(brought, texel, 0);
+    precise vec3 fresh = texelFetch(light, texel, 0).rgb;
+    precise float count = texelFetch(mean, texel, 0).a;
+    ivec2 tile = texel / TILE;
+    precise float trusted = history.a / (1.0 + history.a * texelFetch(evidence, tile, 0).r);
+    precise float left = trusted * max(1.0 - samples / end, 0.0);
+    shown = vec4(fresh, count);
+    if (left <= 0.0) return;
+    precise float share = left / (left + count);
+    shown = vec4(fresh + share * (history.rgb - fresh), left + count);
+}

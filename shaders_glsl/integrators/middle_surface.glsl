@@ -1,0 +1,45 @@
+// The first surface behind the middle of a pixel, through the middle of the lens: without random
+// numbers, so that it is the same in every frame (a G-buffer).
+
+// position: relative to the eye, and 1 + the number of the object; where nothing is met, a unit
+// direction and 0; -1 where the driver cut the search.
+// normal: unit, towards the eye, and the bits of passes/surface_flags.glsl.
+struct MiddleSurface {
+    vec4 position;
+    vec4 normal;
+};
+
+// In pixels, of a point at a depth along the view axis; 0 of a pinhole.
+float circle_of_confusion(Camera camera, float depth, vec2 size) {
+    precise float slope = camera.lens_radius / depth - camera.tan_lens;
+    precise float radius = abs(slope) * size.y / (2.0 * camera.tan_y);
+    return radius;
+}
+
+// Whether reflected or refracted directions stay together.
+bool is_specular(Material material) {
+    if (material.kind == MATTE) return false;
+    return material.kind == PANE || material.alpha < 0.25;
+}
+
+int surface_flags(Material material, float depth) {
+    int flags = is_specular(material) ? SPECULAR : 0;
+    if (any(greaterThan(material.emission, vec3(0.0)))) flags += LAMP;
+    if (HAS_LENS && circle_of_confusion(frame.camera, depth, vec2(frame.size)) > 1.0) flags += BLURRED;
+    return flags;
+}
+
+// `place`: pixel in the full frame.
+MiddleSurface middle_surface(ivec2 place) {
+    precise Ray ray = middle_ray(place);
+    leave_vertex(0u, 0);  // one number for all pixels: what is there in part is seen whole, or not at all
+    precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+    if (loop_was_cut) return MiddleSurface(vec4(ray.direction, -1.0), vec4(-ray.direction, 0.0));
+    if (hit.shape == NO_SHAPE) return MiddleSurface(vec4(ray.direction, 0.0), vec4(-ray.direction, 0.0));
+    precise Surface surface = surface_at(ray, hit);
+    precise float depth = dot(surface.position, frame.camera.forward);
+    int flags = surface_flags(material_of(ray, surface), depth);
+    precise vec3 normal = dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
+    precise float object = float(1 + object_number(hit.shape));
+    return MiddleSurface(vec4(surface.position, object), vec4(normal, float(flags)));
+}

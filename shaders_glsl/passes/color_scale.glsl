@@ -1,0 +1,11 @@
+// Colours along a scale.
+
+const int COLORS = 11;
+
+// At a share of it, from 0 to 1; colours are sRGB.
+vec3 color_at(vec3 colors[COLORS], float share) {
+    precise float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
+    int below = min(int(at), COLORS - 2);
+    precise vec3 color = colors[below] + (at - float(below)) * (colors[below + 1] - colors[below]);
+    return color;
+}

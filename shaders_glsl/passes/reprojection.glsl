@@ -1,0 +1,117 @@
+// From a pixel of one view to the place in another view where the same surface was seen.
+//
+// Views hold surfaces as integrators/middle_surface.glsl has them. `before` is the other view, and
+// `history` what was shown of it. Places are in its texels, their middles at halves; row 0 is on top.
+// Entry files declare what it reads: reproject.frag has the list, glrt/rendering/reprojection.py fills it.
+
+#include "passes/surface_flags.glsl"
+
+const float SAME_PLACE = 0.02;                // off the plane of the surface, of its distance from the eye
+const float SAME_NORMAL = 0.906307787;        // cosine of 25 degrees
+const float WHOLE_PIXEL = 1.0 / 512.0;        // of a pixel: a place as near to a middle is there
+const float LEAST_SHARE = 0.01;                // of the nearest four texels, by their weights
+const vec2 NO_PLACE = vec2(-1.0);
+
+// A surface relative to the eye before; a direction where nothing is met, which is infinitely far.
+vec3 seen_before(vec4 surface) {
+    return surface.w > 0.0 ? surface.xyz + eye_shift : surface.xyz;
+}
+
+// Where it is in the view before; NO_PLACE behind its eye and outside its picture.
+vec2 place_before(vec3 seen) {
+    precise float depth = dot(seen, before_forward);
+    if (depth <= 0.0) return NO_PLACE;
+    precise vec2 at = vec2(dot(seen, before_right) / dot(before_right, before_right),
+                           dot(seen, before_up) / dot(before_up, before_up)) / depth;
+    precise vec2 place = vec2(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y) * before_frame - before_origin;
+    vec2 size = vec2(textureSize(before_position, 0));
+    bool is_inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, size));
+    return is_inside ? place : NO_PLACE;
+}
+
+// Whether a surface of the view before is of the object and lies in the plane of what is seen.
+bool is_there(vec4 there, float object, vec3 seen, vec3 facing) {
+    if (there.w != object || object < 0.0) return false;
+    precise float off = abs(dot(there.xyz - seen, facing));
+    return off <= SAME_PLACE * length(seen);
+}
+
+// Whether a texel of the view before holds that surface: the same object, as far, facing as much. One at an
+// edge holds light of another surface, too, which another one at an edge alone may take, and none that of a lamp.
+bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
+    ivec2 size = textureSize(before_position, 0);
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return false;
+    if (!is_there(texelFetch(before_position, texel, 0), object, seen, facing.xyz)) return false;
+    precise vec4 other = texelFetch(before_normal, texel, 0);
+    if (has_flag(other, LAMP_EDGE) || (has_flag(other, EDGE) && !has_flag(facing, EDGE))) return false;
+    return dot(other.xyz, facing.xyz) >= SAME_NORMAL;
+}
+
+// Weights of Catmull and Rom's spline for texels at -1, 0, 1, 2 from one at `t` of the way from 0 to 1.
+vec4 spline_weights(float t) {
+    precise float t2 = t * t;
+    precise float t3 = t2 * t;
+    precise vec4 doubled = vec4(2.0 * t2 - t3 - t, 3.0 * t3 - 5.0 * t2 + 2.0,
+                                4.0 * t2 - 3.0 * t3 + t, t3 - t2);
+    return 0.5 * doubled;
+}
+
+// Of texels around a place, what the spline makes; of one that was held to be the same surface all.
+vec4 splined(sampler2D picture, ivec2 corner, vec2 share) {
+    ivec2 last = textureSize(picture, 0) - 1;
+    precise vec4 across = spline_weights(share.x);
+    precise vec4 down = spline_weights(share.y);
+    precise vec4 sum = vec4(0.0);
+    for (int j = 0; j < 4; j += 1) {
+        for (int i = 0; i < 4; i += 1) {
+            ivec2 texel = clamp(corner + ivec2(i - 1, j - 1), ivec2(0), last);
+            sum += across[i] * down[j] * texelFetch(picture, texel, 0);
+        }
+    }
+    return sum;
+}
+
+// Whether the twelve texels around the four in the middle, as far as there are some, hold that surface.
+bool are_around(ivec2 corner, float object, vec3 seen, vec4 facing) {
+    ivec2 last = textureSize(before_position, 0) - 1;
+    for (int n = 0; n < 16; n += 1) {
+        if (n == 5 || n == 6 || n == 9 || n == 10) continue;
+        ivec2 texel = clamp(corner + ivec2(n % 4 - 1, n / 4 - 1), ivec2(0), last);
+        if (!is_there(texelFetch(before_position, texel, 0), object, seen, facing.xyz)) return false;
+    }
+    return true;
+}
+
+// What `history` holds at a place of a surface: radiance, and the samples that it stands for, 0 where the
+// surface was not seen. Exact in the middle of a texel; a spline between texels that all hold the surface,
+// else what is between those of the nearest four that do.
+vec4 history_at(sampler2D history, vec2 place, float object, vec3 seen, vec4 facing) {
+    precise vec2 from_middle = place - 0.5;
+    ivec2 nearest = ivec2(floor(place));
+    precise vec2 off = abs(place - vec2(nearest) - 0.5);
+    if (all(lessThanEqual(off, vec2(WHOLE_PIXEL)))) {
+        return holds(nearest, object, seen, facing) ? texelFetch(history, nearest, 0) : vec4(0.0);
+    }
+    ivec2 corner = ivec2(floor(from_middle));
+    precise vec2 share = from_middle - vec2(corner);
+    precise vec3 sum = vec3(0.0);
+    precise float total = 0.0;
+    precise float rarity = 0.0;  // mean of 1 / samples
+    int count = 0;
+    for (int n = 0; n < 4; n += 1) {
+        ivec2 side = ivec2(n & 1, n >> 1);
+        if (!holds(corner + side, object, seen, facing)) continue;
+        precise vec2 parts = mix(1.0 - share, share, vec2(side));
+        precise float weight = parts.x * parts.y;
+        precise vec4 there = texelFetch(history, corner + side, 0);
+        if (there.a <= 0.0) continue;
+        sum += weight * there.rgb;
+        rarity += weight / there.a;
+        total += weight;
+        count += 1;
+    }
+    if (total <= LEAST_SHARE) return vec4(0.0);
+    precise float samples = total / rarity;
+    if (count == 4 && are_around(corner, object, seen, facing)) return vec4(splined(history, corner, share).rgb, samples);
+    return vec4(sum / total, samples);
+}

@@ -1,0 +1,36 @@
+// The history of another view, brought to this one: radiance, and the samples that it stands for.
+
+uniform sampler2D position;         // of this view
+uniform sampler2D normal;
+uniform sampler2D before_position;  // of the other
+uniform sampler2D before_normal;
+uniform vec3 eye_shift;             // from the eye before to the eye now
+uniform vec3 before_right;          // of the camera before: half the width and height of the frame, at distance 1
+uniform vec3 before_up;
+uniform vec3 before_forward;        // unit
+uniform vec2 before_frame;          // size of its full frame, pixels
+uniform vec2 before_origin;         // of its crop
+
+#include "passes/reprojection.glsl"
+
+uniform sampler2D history;     // what was shown of the view before
+uniform float most;            // samples that it may stand for
+uniform float most_specular;   // the same in mirrors and glass, and out of focus
+uniform float most_at_edges;  // where samples may meet another surface, too
+uniform float density;         // pixels of the view before for each of this one, at most 1
+
+out vec4 brought;
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    precise vec4 surface = texelFetch(position, texel, 0);
+    precise vec4 facing = texelFetch(normal, texel, 0);
+    precise vec3 seen = seen_before(surface);
+    precise vec2 place = place_before(seen);
+    brought = vec4(0.0);
+    if (place == NO_PLACE || has_flag(facing, LAMP_EDGE)) return;
+    precise vec4 found = history_at(history, place, surface.w, seen, facing);
+    precise float limit = has_flag(facing, SPECULAR | BLURRED) ? most_specular : most;
+    if (has_flag(facing, EDGE)) limit = min(limit, most_at_edges);
+    brought = vec4(found.rgb, min(density * found.a, limit));
+}

@@ -1,0 +1,116 @@
+"""The chart of error while something moves: its frames, its figures, its files."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from glrt.analysis.motion.measure import BEFORE, FRAMES, Seen, Track, looks_of, tracks_of
+from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
+from glrt.analysis.motion.sequences import light_step, orbit, turned
+from glrt.cli.commands import run
+from glrt.errors import UsageError
+from glrt.gpu.context import Context
+from glrt.image.sources import load
+from glrt.rendering.temporal import Mode
+from glrt.settings import settings_for
+
+
+def test_an_orbit_keeps_its_distance_and_goes_to_and_fro() -> None:
+    scene = load("cornell")
+    frames = orbit(scene, 32, 1.0).scenes
+    places = np.array([frame.camera.position for frame in frames])
+    middle = np.array(scene.camera.look_at)
+    distances = np.linalg.norm(places - middle, axis=1)
+    np.testing.assert_allclose(distances, distances[0])
+    assert tuple(places[0]) == pytest.approx(scene.camera.position)
+    flat = (places - middle)[:, [0, 2]]
+    cosines = (flat[1:] * flat[:-1]).sum(axis=1) / np.linalg.norm(flat[0]) ** 2
+    np.testing.assert_allclose(np.degrees(np.arccos(cosines)), 1.0, rtol=1e-6)
+    angles = np.degrees(np.arctan2(flat[:, 0], flat[:, 1]))
+    assert angles.max() - angles.min() == pytest.approx(16, abs=1e-6)
+    assert {frame.camera.look_at for frame in frames} == {scene.camera.look_at}
+
+
+def test_a_quarter_turn_is_one() -> None:
+    camera = load("cornell").camera.model_copy(
+        update={"position": (0.0, 1.0, 2.0), "look_at": (0.0, 0.0, 0.0)}
+    )
+    assert turned(camera, math.pi / 2).position == pytest.approx((2.0, 1.0, 0.0))
+
+
+def test_a_light_step_changes_all_groups_once() -> None:
+    scene = load("lamps")
+    frames = light_step(scene, 8, 3, 0.25).scenes
+    assert frames[:3] == (scene,) * 3
+    assert len({id(frame) for frame in frames[3:]}) == 1
+    assert frames[3].lights == dict.fromkeys(("amber", "blue", "rose"), 0.25)
+    assert frames[3].camera == scene.camera
+
+
+@pytest.mark.parametrize("name", ["orbit", "light step"])
+def test_looks_are_frames_of_the_sequence(name: str) -> None:
+    scene = load("cornell")
+    frames = (
+        orbit(scene, FRAMES, 1.0) if name == "orbit" else light_step(scene, FRAMES, BEFORE, 0.5)
+    )
+    looks = looks_of(frames)
+    assert looks == sorted(set(looks))
+    assert looks[0] == (0 if name == "orbit" else BEFORE)
+    assert looks[-1] < FRAMES
+
+
+def test_history_makes_an_orbit_clearer_and_figures_are_the_same_again(context: Context) -> None:
+    """At 24 x 24 pixels: more than twice as clear after some frames."""
+    scene = load("cornell")
+    settings = settings_for(scene.render, width=24, height=24)
+    modes: tuple[Mode, ...] = ("reset", "reproject")
+    found = [
+        tracks_of("cornell", scene, settings, context, modes, 256, lambda *_: None)
+        for _ in range(2)
+    ]
+    assert found[0] == found[1]
+    reset, reproject = found[0][:2]
+    assert [track.mode for track in found[0]] == [*modes, *modes]
+    assert reset.seen[0].squared_error == reproject.seen[0].squared_error  # no history yet
+    assert reproject.seen[0].rays == reset.seen[0].rays + 1
+    late = [sum(one.squared_error for one in t.seen[5:]) for t in (reset, reproject)]
+    assert late[0] > 4 * late[1]
+
+
+SHARES: dict[Mode, float] = {"reset": 1.0, "reproject": 0.25}
+TRACKS = [
+    Track("room", sequence, mode, (Seen(1, 5.0, 1.0), Seen(2, 6.0, scale), Seen(3, 6.0, -1e-9)))
+    for sequence in ("orbit", "light step")
+    for mode, scale in SHARES.items()
+]
+
+
+def test_files_hold_the_figures(tmp_path: Path) -> None:
+    save_tracks("room", "A room", TRACKS, tmp_path)
+    table = [*csv.reader((tmp_path / "room.temporal.csv").read_text().splitlines())]
+    assert table[0] == list(HEADINGS)
+    assert len(table) == 1 + 12
+    assert table[5] == ["room", "orbit", "reproject", "2", "6.0", "0.5"]
+    assert [*rows(TRACKS)][2][-1] == "0"
+    for suffix in (".svg", ".png"):
+        assert (tmp_path / f"room.temporal{suffix}").stat().st_size > 1000
+    page = save_page(TRACKS, "Small.", tmp_path).read_text()
+    assert "| room | orbit, 1 degree a frame | reproject | 5.7 | 0.500 | 1.33 |" in page
+
+
+def test_the_command_refuses_modes_that_are_none(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="--temporal takes reset, reproject; got 'blur'"):
+        run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,blur"])
+
+
+@pytest.mark.slow
+def test_the_command_writes_charts_and_a_page(tmp_path: Path) -> None:
+    words = ["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,reproject"]
+    assert run([*words, "--height", "16", "--quiet"]) == 0
+    assert {file.name for file in tmp_path.iterdir()} == {
+        PAGE,
+        *(f"cornell.temporal.{suffix}" for suffix in ("svg", "png", "csv")),
+    }

@@ -1,0 +1,56 @@
+"""Passes over pixels, and that every shader file is compiled by a test."""
+
+import re
+
+import moderngl
+import pytest
+
+from glrt.gpu.glsl import Source, read, shader_files
+from glrt.resources import folder
+from tests.gpu.test_glsl import FILES
+from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
+
+TONEMAP_ENTRY = """
+layout(local_size_x = 1) in;
+#include "passes/tonemap.glsl"
+layout(std430) buffer Data { vec4 data; };
+void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
+"""
+DISPLAYS = [
+    *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
+    *("edges", "reproject", "evidence", "fade"),
+]
+DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
+TEMPORAL = ("least_squares", "wrls", "wrls_rows")  # by tests/temporal
+
+
+def test_every_shader_file_is_compiled_by_a_test() -> None:
+    root = folder("shaders_glsl")
+    files = {str(path.relative_to(root)) for path in shader_files()}
+    by_structs = re.findall(r'#include "([^"]+)"', read("structs/scene.glsl"))
+    assert files == {*FILES, *by_structs} | {
+        *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
+        *("integrators/aov_numbers.glsl", "passes/color_scale.glsl"),
+        *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"),
+        *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
+        *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
+        *("trace.comp", "paths.comp", "structs/path_records.glsl"),
+        *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
+        *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
+        *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
+        *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),
+        *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
+        *(f"temporal/{name}.glsl" for name in TEMPORAL),
+        *DISPLAY_STAGES,
+    }
+
+
+def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
+    assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
+
+
+@pytest.mark.parametrize("name", DISPLAYS)
+def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
+    assert ctx.version_code >= 430
+    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(f"{name}.frag").text)]
+    assert warnings(*stages) == []

@@ -1,0 +1,113 @@
+"""The first surface behind the middle of each pixel: what float64 says, its flags, its edges."""
+
+import numpy as np
+import pytest
+
+from glrt.gpu.context import Context, Pipeline
+from glrt.gpu.glsl import read
+from glrt.gpu.structs import read_constants
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.surfaces import SurfacePass, Surfaces
+from glrt.scene.scene import Scene
+from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
+from tests.support.first_hits import axes_of, hits_of_centers
+from tests.support.mixed_scene import everything
+from tests.support.moving import textures_of
+
+SIZE = (24, 16)
+FLAGS = read_constants(read("passes/surface_flags.glsl"))
+EYE = {"position": [0.0, 0.0, 3.0], "look_at": [0.0, 0.0, 0.0]}
+
+
+def surfaces_of(
+    scene: Scene, context: Context, pipeline: Pipeline = "auto"
+) -> tuple[np.ndarray, np.ndarray]:
+    """Positions with objects, and normals with flags."""
+    renderer = Renderer(scene, None, context, pipeline=pipeline, width=SIZE[0], height=SIZE[1])
+    found, fill = Surfaces(context.gl), SurfacePass(context.gl)
+    fill.fill(renderer, found)
+    position, normal = textures_of(context, found.position, found.normal)
+    for part in (found, fill, renderer):
+        part.release()
+    return position, normal
+
+
+@pytest.mark.parametrize("pipeline", ["compute", "fragment"])
+def test_they_are_those_behind_the_middles_of_pixels(context: Context, pipeline: Pipeline) -> None:
+    scene = everything()
+    truth = hits_of_centers(scene, SIZE)
+    position, normal = surfaces_of(scene, context, pipeline)
+    is_met = truth.object > 0
+    assert np.array_equal(position[..., 3] > 0, is_met)
+    there = position[..., :3] + np.array(scene.camera.position)
+    np.testing.assert_allclose(there[is_met], truth.position[is_met], atol=2e-5)
+    np.testing.assert_allclose(normal[..., :3][is_met], truth.normal[is_met], atol=2e-5)
+    forward = axes_of(scene.camera)[2]
+    assert (position[..., :3] @ forward > 0).all()
+    lengths = np.linalg.norm(position[..., :3][~is_met], axis=-1)
+    np.testing.assert_allclose(lengths, 1.0, atol=1e-6)  # directions
+
+
+def test_both_pipelines_find_the_same_bits(context: Context) -> None:
+    one, other = (surfaces_of(everything(), context, p) for p in ("compute", "fragment"))
+    assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    ("material", "flags"),
+    [
+        (MATTE, 0),
+        (glass(1.5), FLAGS["SPECULAR"]),
+        ({"type": "metal", "color": [0.9] * 3}, FLAGS["SPECULAR"]),
+        ({"type": "metal", "color": [0.9] * 3, "roughness": 0.8}, 0),
+        (lamp(2.0), FLAGS["LAMP"]),
+    ],
+)
+def test_a_surface_has_the_flags_of_its_material(
+    context: Context, material: dict[str, object], flags: int
+) -> None:
+    scene = scene_of([sphere([0, 0, 0], 50.0, "one")], {"one": material}, {**EYE, "fov": 20.0})
+    _, normal = surfaces_of(scene, context)
+    assert (normal[..., 3] == flags).all()
+
+
+def test_pixels_beside_another_object_are_at_an_edge(context: Context) -> None:
+    """Of a ball before a plane, those of a pixel around its outline; of a lamp, that is told."""
+    for material, flag in ((MATTE, 0), (lamp(2.0), FLAGS["LAMP_EDGE"])):
+        objects = [plane([0, 0, -1], [0, 0, 1], "matte"), sphere([0, 0, 0], 0.7, "ball")]
+        scene = scene_of(objects, {"matte": MATTE, "ball": material}, EYE)
+        position, normal = surfaces_of(scene, context)
+        number = np.pad(position[..., 3], 1, mode="edge")
+        rows, columns = SIZE[1], SIZE[0]
+        around = [number[j : j + rows, i : i + columns] for j in range(3) for i in range(3)]
+        is_edge = np.any([part != position[..., 3] for part in around], axis=0)
+        found = normal[..., 3].astype(int)
+        assert 0 < is_edge.sum() < is_edge.size / 2
+        assert (found[is_edge] & FLAGS["EDGE"] != 0).all()
+        assert ((found[is_edge] & FLAGS["LAMP_EDGE"] != 0) == (flag > 0)).all()
+        is_plain = ~is_edge & (position[..., 3] == position[0, 0, 3])
+        assert (found[is_plain] == 0).all()  # the ball bends away at its limb: that is an edge, too
+
+
+def test_a_plane_that_recedes_has_no_edge(context: Context) -> None:
+    """Depths of neighbours differ by more than any step; the plane is one surface."""
+    scene = scene_of([plane([0, -0.2, 0], [0, 1, 0], "matte")], {"matte": MATTE}, EYE)
+    position, normal = surfaces_of(scene, context)
+    is_met = position[..., 3] > 0
+    inside = is_met & np.roll(is_met, 1, axis=0)  # not along the horizon
+    assert inside.any()
+    assert (normal[..., 3][inside] == 0).all()
+
+
+def test_what_is_out_of_focus_is_told(context: Context) -> None:
+    """Circles of confusion of more than a pixel, in closed form."""
+    objects = [plane([0, -1, 0], [0, 1, 0], "matte")]
+    camera = {**EYE, "defocus_angle": 20.0, "focus_distance": 3.0}
+    position, normal = surfaces_of(scene_of(objects, {"matte": MATTE}, camera), context)
+    is_met = position[..., 3] > 0
+    depth = -position[..., 2][is_met]
+    lens = np.tan(np.radians(10.0)) * 3.0
+    radius = lens * np.abs(1 / depth - 1 / 3.0) * SIZE[1] / (2 * np.tan(np.radians(22.5)))
+    found = normal[..., 3][is_met].astype(int) & FLAGS["BLURRED"] != 0
+    assert 0 < found.sum() < found.size
+    assert np.array_equal(found, radius > 1)
