@@ -1,28 +1,31 @@
-"""How much clearer the picture is while the camera moves: `python -m bench.redraw orbit|film`.
+"""How much clearer the picture is while the camera moves: `python -m bench.redraw orbit|film|bias`.
 
-`orbit` plays the same orbit by `reset` and by `reproject` and tells the error of what is on the
-screen, and the processor seconds of a frame; `film FILE.webp` shows both side by side. There is no
-window. Seconds are the process's own: beside other work they tell ratios alone.
+`orbit` plays the same orbit by several modes and tells the error of what is on the screen, and the
+processor seconds of a frame; `film FILE.webp` shows modes side by side; `bias` tells how much
+darker or brighter they show a still camera. There is no window. Seconds are the process's own:
+beside other work they tell ratios alone.
 """
 
 import argparse
+import itertools
 import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from glrt.analysis.motion.playing import play
+from glrt.analysis.motion.playing import play, screen_of
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.analysis.reference import reference_for
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
-from glrt.rendering.temporal import Mode
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.temporal import Mode, Temporal
 from glrt.settings import settings_for
 
 FRAMES, DEGREES = 48, 0.5
@@ -31,6 +34,9 @@ SWING = 12  # frames of the film
 REFERENCE = 128  # samples of each half
 FILM, SCENES = (176, 132), ("cornell", "lamps")
 MOST_BYTES = 300_000
+Modes = tuple[Mode, ...]
+MODES: Modes = ("reset", "reproject")
+STILL_VIEWS, STILL_SAMPLES = 40, (1, 4, 16)
 
 
 class Played(NamedTuple):
@@ -49,22 +55,29 @@ class Played(NamedTuple):
 def main(arguments: list[str] | None = None) -> int:
     """Measure orbits, or make the film; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m bench.redraw", description=__doc__)
-    parser.add_argument("task", choices=["orbit", "film"])
+    parser.add_argument("task", choices=["orbit", "film", "bias"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
     parser.add_argument("--scene", nargs="+", default=SCENES)
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
+    parser.add_argument("--mode", nargs="+", default=MODES, choices=get_args(Mode))
     parsed = parser.parse_args(arguments)
-    context = open_context()
+    context, modes = open_context(), tuple(parsed.mode)
     if parsed.task == "film":
-        make_film(parsed.file, context)
+        make_film(parsed.file, context, modes)
         return 0
+    size = parsed.size[0], parsed.size[1]
     for scene in parsed.scene:
-        print("\n".join(told(scene, measure(scene, (parsed.size[0], parsed.size[1]), context))))
+        if parsed.task == "bias":
+            print("\n".join(biases(scene, context, modes)))
+        else:
+            print("\n".join(told(scene, measure(scene, size, context, modes))))
     return 0
 
 
-def measure(scene: str, size: tuple[int, int], context: Context) -> list[Played]:
-    """Both modes, one sample a frame."""
+def measure(
+    scene: str, size: tuple[int, int], context: Context, modes: Modes = MODES
+) -> list[Played]:
+    """Each mode, one sample a frame."""
     opened = load(scene)
     settings = settings_for(opened.render, width=size[0], height=size[1])
     frames = orbit(opened, FRAMES, DEGREES)
@@ -72,7 +85,6 @@ def measure(scene: str, size: tuple[int, int], context: Context) -> list[Played]
         n: reference_for(frames.scenes[n], settings, context, 0.0, math.inf, samples=REFERENCE)
         for n in LOOKS
     }
-    modes: tuple[Mode, ...] = ("reset", "reproject")
     found = []
     for mode in modes:
         errors, start = [], time.process_time()
@@ -89,7 +101,7 @@ def measure(scene: str, size: tuple[int, int], context: Context) -> list[Played]
 def told(scene: str, found: list[Played]) -> Iterator[str]:
     """As a Markdown table.
 
-    At equal time: the error of `reset` falls with the root of the samples that it could take
+    At equal time: the error of the first mode falls with the root of the samples that it could take
     in the time of the other.
     """
     base = found[0]
@@ -100,9 +112,32 @@ def told(scene: str, found: list[Played]) -> Iterator[str]:
         yield f"| {one.mode} | {one.mean:.3f} | {one.seconds:.3f} | {gain:.2f} times lower |"
 
 
-def make_film(file: Path, context: Context) -> None:
-    """Both modes side by side, a scene below the other; RuntimeError if the file is too large."""
-    rows = [_frames_of(scene, context) for scene in SCENES]
+def biases(scene: str, context: Context, modes: Modes = MODES) -> Iterator[str]:
+    """By how much the mean of what is shown of views of a still camera differs from that of films.
+
+    Modes by samples of a view; the same random numbers in each mode.
+    """
+    opened = load(scene)
+    settings = settings_for(opened.render, width=64, height=48)
+    for mode, samples in itertools.product(modes, STILL_SAMPLES):
+        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, mode)
+        shown, films = [], []
+        for seed in range(STILL_VIEWS):
+            temporal.leave(renderer)
+            renderer.update(seed=seed)
+            temporal.arrive(renderer)
+            renderer.render(samples)
+            shown.append(screen_of(renderer, temporal).mean())
+            films.append(renderer.image().radiance.mean())
+        temporal.release()
+        renderer.release()
+        bias = float(np.mean(shown[10:]) / np.mean(films) - 1)
+        yield f"{scene}, {mode}, {samples} samples a view: {bias:+.2%}"
+
+
+def make_film(file: Path, context: Context, modes: Modes = MODES) -> None:
+    """Modes side by side, a scene below the other; RuntimeError if the file is too large."""
+    rows = [_frames_of(scene, context, modes) for scene in SCENES]
     frames = [Image.fromarray(np.vstack(parts)) for parts in zip(*rows, strict=True)]
     options: dict[str, Any] = {"duration": 120, "loop": 0, "quality": 30, "method": 6}
     frames[0].save(file, save_all=True, append_images=frames[1:], **options)
@@ -110,15 +145,14 @@ def make_film(file: Path, context: Context) -> None:
         raise RuntimeError(f"{file} has more than {MOST_BYTES} bytes")
 
 
-def _frames_of(scene: str, context: Context) -> list[NDArray[np.uint8]]:
+def _frames_of(scene: str, context: Context, modes: Modes) -> list[NDArray[np.uint8]]:
     opened = load(scene)
     settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
     swing: Sequence = orbit(opened, SWING, 1.5)
-    modes: tuple[Mode, ...] = ("reset", "reproject")
-    both = [play(swing, settings, context, mode) for mode in modes]
+    played = [play(swing, settings, context, mode) for mode in modes]
     return [
-        np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in pair])
-        for pair in zip(*both, strict=True)
+        np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in row])
+        for row in zip(*played, strict=True)
     ]
 
 

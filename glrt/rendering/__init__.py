@@ -47,6 +47,8 @@ Modules, each importing only what stands above it:
 - renderer: scene and settings to samples, step by step
 - surfaces: the first surface behind the middle of each pixel, by which samples are found again
 - reprojection: what was shown of one view, brought to another
+- resolver: what makes a picture of film and history
+- taa: temporal antialiasing
 - temporal: what the screen shows while the camera moves
 - stopping: render to a limit of samples, time or error
 - parts: a merged picture rendered again

@@ -12,7 +12,7 @@ begins from. None of them ever writes to the film.
 """
 
 from collections.abc import Callable, Mapping
-from typing import Literal, NamedTuple, Protocol
+from typing import Literal
 
 import moderngl
 
@@ -22,33 +22,13 @@ from glrt.methods.light_layers import Weights
 from glrt.rendering.drawn_pass import DrawnPass
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.reprojection import USUAL, Limits, Reprojection, shares_objects
+from glrt.rendering.resolver import Fresh, Resolver
 from glrt.rendering.surfaces import SurfacePass, Surfaces
+from glrt.rendering.taa import Taa
 
-Mode = Literal["reset", "reproject"]
+Mode = Literal["reset", "reproject", "taa"]
 
 END = 64.0  # samples of a film from which on history is not shown, at the latest
-
-
-class Fresh(NamedTuple):
-    """The film of this view."""
-
-    light: moderngl.Texture  # RGB radiance under the weights that are shown
-    mean: moderngl.Texture  # a: finite samples of each pixel
-    samples: int
-    end: float  # samples from which on it is shown alone
-
-
-class Resolver(Protocol):
-    """A temporal mode: textures are RGBA32F of the size of the view, row 0 on top."""
-
-    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Begin a view; `before` is None if nothing of the view before can be used."""
-
-    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
-        """The picture, radiance in RGB; valid until the next call."""
-
-    def release(self) -> None:
-        """Free what the driver holds."""
 
 
 class Reproject:
@@ -100,7 +80,10 @@ class Reproject:
 
 OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # what was shown is wrong by an unknown amount
 
-RESOLVERS: Mapping[Mode, Callable[[moderngl.Context], Resolver]] = {"reproject": Reproject}
+RESOLVERS: Mapping[Mode, Callable[[moderngl.Context], Resolver]] = {
+    "reproject": Reproject,
+    "taa": Taa,
+}
 
 
 class Temporal:

@@ -102,7 +102,7 @@ def test_files_hold_the_figures(tmp_path: Path) -> None:
 
 
 def test_the_command_refuses_modes_that_are_none(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="--temporal takes reset, reproject; got 'blur'"):
+    with pytest.raises(UsageError, match="--temporal takes reset, reproject, taa; got 'blur'"):
         run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,blur"])
 
 

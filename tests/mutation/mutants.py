@@ -23,6 +23,7 @@ from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
 from tests.mutation.sphere_links import SPHERE_LINKS
+from tests.mutation.taa import TAA
 from tests.mutation.temporal import TEMPORAL
 from tests.mutation.textures import TEXTURES
 from tests.mutation.transport import TRANSPORT
@@ -50,4 +51,5 @@ MUTANTS = [
     *DENOISING,
     *JUDGING,
     *TEMPORAL,
+    *TAA,
 ]

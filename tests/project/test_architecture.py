@@ -31,7 +31,7 @@ ENTRIES = {
     "paths.comp",
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
-    "evidence.frag"
+    *("evidence.frag", "taa.frag"),
 }
 NOT_OF_A_PATH = {
     *ENTRIES,
@@ -40,7 +40,7 @@ NOT_OF_A_PATH = {
     "aov.glsl",
     "structs/scene.glsl",
 } | {"shapes/all_shapes.glsl", "surfaces.glsl", "passes/reprojection.glsl"}
-NOT_OF_A_PATH |= {f"temporal/{name}.glsl" for name in ("least_squares", "wrls", "wrls_rows")}
+NOT_OF_A_PATH |= {f"temporal/{name}.glsl" for name in ("least_squares", "wrls", "wrls_rows", "taa")}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "1.17549435e-38",  # the smallest normal float: a way of no length, which changes no digit

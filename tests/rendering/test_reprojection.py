@@ -10,7 +10,7 @@ from glrt.gpu.context import Context
 from glrt.rendering.reprojection import Limits, Reprojection, shares_objects
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
-from tests.support.moving import FOV, UNLIMITED, brought, noise, view, wall
+from tests.support.moving import FOV, UNLIMITED, brought, noise, two_walls, view, wall
 
 SIZE = (32, 24)
 PIXEL = 1.0 / SIZE[1]  # of the wall, whose height the picture has
@@ -80,16 +80,6 @@ def test_samples_between_pixels_are_those_of_their_harmonic_mean(context: Contex
 
 
 # --- what has no history -----------------------------------------------------------------------
-
-
-def two_walls(x: float) -> Scene:
-    """A quad at half the distance of a wall, whose right edge is seen in the middle from x = 0."""
-    objects = [
-        plane([0, 0, 0], [0, 0, 1], "matte"),
-        quad([-3, -3, 0.5], [3, 0, 0], [0, 6, 0], "matte"),
-    ]
-    camera = {**CAMERA, "position": [x, 0.0, 1.0], "look_at": [x, 0.0, 0.0]}
-    return scene_of(objects, {"matte": MATTE}, camera)
 
 
 def test_what_was_hidden_has_no_history(context: Context) -> None:

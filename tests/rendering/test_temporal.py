@@ -5,24 +5,23 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.analysis.motion.playing import play, read_texture, screen_of
+from glrt.analysis.motion.playing import play, screen_of
 from glrt.analysis.motion.sequences import Sequence, orbit
-from glrt.gpu.canvas import Canvas
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.sources import load
-from glrt.rendering.drawn_pass import DrawnPass
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import END, OTHER_LIGHT, Mode, Reproject, Temporal, is_lit_alike
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.images import same_bits
-from tests.support.moving import UNLIMITED, noise, textures_of, wall
+from tests.support.moving import UNLIMITED, drawn, noise, textures_of, wall
 
 SKY: dict[str, Any] = {
     "background": {"bottom": [0.1, 0.2, 0.3], "top": [3.0, 2.0, 1.0]}
 }  # noise on a wall
 PIXEL = 1.0 / 12
+HISTORIES: list[Mode] = ["reproject", "taa"]
 
 
 def settings(scene: Scene, **more: object) -> Settings:
@@ -41,30 +40,6 @@ def film_of(scene: Scene, context: Context, samples: int = 1, **more: object) ->
     radiance = renderer.render(samples).image().radiance
     renderer.release()
     return radiance
-
-
-def drawn(
-    shader: str,
-    arrays: dict[str, np.ndarray],
-    values: dict[str, float],
-    size: tuple[int, int],
-    context: Context,
-) -> np.ndarray:
-    """What a shader draws of textures, (H, W, 4)."""
-    with context.gl:
-        canvas, over = Canvas(context.gl, "f4"), DrawnPass(context.gl, shader)
-        textures = {
-            name: context.gl.texture(array.shape[1::-1], 4, array.tobytes(), dtype="f4")
-            for name, array in arrays.items()
-        }
-        over.draw(canvas.sized(size), textures, values)
-        assert canvas.texture
-        found: np.ndarray = read_texture(canvas.texture).copy()
-        canvas.release()
-        over.release()
-        for texture in textures.values():
-            texture.release()
-    return found
 
 
 def test_history_and_film_are_weighed_by_their_samples(context: Context) -> None:
@@ -128,17 +103,21 @@ def test_reset_shows_the_film(context: Context, pipeline: Pipeline) -> None:
         assert same_bits(found[number], film_of(scene, context, seed=number))
 
 
-def test_both_pipelines_show_the_same_bits(context: Context) -> None:
+@pytest.mark.parametrize("mode", HISTORIES)
+def test_both_pipelines_show_the_same_bits(context: Context, mode: Mode) -> None:
     scenes = orbit(load("cornell"), 4, 2.0).scenes
-    one, other = (pictures(scenes, context, "reproject", p) for p in ("compute", "fragment"))
+    one, other = (pictures(scenes, context, mode, p) for p in ("compute", "fragment"))
     assert all(map(same_bits, one, other))
 
 
-def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(context: Context) -> None:
+@pytest.mark.parametrize("mode", HISTORIES)
+def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(
+    context: Context, mode: Mode
+) -> None:
     """The film has the bits of a render without history; in the end the screen has them, too."""
     scenes = orbit(load("cornell"), 6, 2.0).scenes
     renderer = Renderer(scenes[0], settings(scenes[0]), context)
-    temporal = Temporal(context.gl)
+    temporal = Temporal(context.gl, mode)
     for number, scene in enumerate(scenes[1:], 1):
         renderer.render(2)
         temporal.leave(renderer)
@@ -158,11 +137,12 @@ def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(context: Contex
 # --- what is no history ------------------------------------------------------------------------
 
 
-def test_history_that_is_seen_to_be_wrong_is_not_believed(context: Context) -> None:
+@pytest.mark.parametrize("mode", HISTORIES)
+def test_history_that_is_seen_to_be_wrong_is_not_believed(context: Context, mode: Mode) -> None:
     """Without noise: a wall under an even sky that becomes three times as bright."""
     dim, bright = wall(), wall(background={"color": [3.0, 3.0, 3.0]})
     assert np.ptp(film_of(dim, context)) < 1e-6  # it is as bright everywhere
-    *_, before, shown = pictures((*[dim] * 8, bright), context, "reproject")
+    *_, before, shown = pictures((*[dim] * 8, bright), context, mode)
     np.testing.assert_allclose(before, 0.5, rtol=1e-6)
     np.testing.assert_allclose(shown, 1.5, rtol=1e-5)
 
@@ -201,11 +181,12 @@ def test_the_evidence_is_the_bias_beyond_chance(context: Context) -> None:
     assert found[1] == found[2] == 0
 
 
-def test_a_view_of_other_objects_begins_anew(context: Context) -> None:
+@pytest.mark.parametrize("mode", HISTORIES)
+def test_a_view_of_other_objects_begins_anew(context: Context, mode: Mode) -> None:
     ball = sphere([0, 0, -3], 1.0, "matte")
     camera = {"position": [0, 0, 0], "look_at": [0, 0, -1]}
     one, two = (scene_of([ball] * n, {"matte": MATTE}, camera, **SKY) for n in (1, 2))
-    _, shown = pictures((one, two), context, "reproject")
+    _, shown = pictures((one, two), context, mode)
     assert same_bits(shown, film_of(two, context, seed=1))
 
 

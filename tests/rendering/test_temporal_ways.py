@@ -11,7 +11,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.methods.light_layers import Layering
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Temporal
+from glrt.rendering.temporal import Mode, Temporal
 from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
 from tests.support.images import same_bits
@@ -29,15 +29,21 @@ WAYS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_the_screen_has_history_and_the_film_has_none(context: Context, way: str) -> None:
+BOTH: list[tuple[str, Mode]] = [(way, "reproject") for way in WAYS]
+BOTH += [(way, "taa") for way in ("a crop", "a classic model", "layers by groups")]
+
+
+@pytest.mark.parametrize(("way", "mode"), BOTH)
+def test_the_screen_has_history_and_the_film_has_none(
+    context: Context, way: str, mode: Mode
+) -> None:
     changes = dict(WAYS[way])
     layering: Layering = changes.pop("layering", "none")
     scenes = orbit(load("cornell"), 8, 2.0).scenes[:3]
     usual = {"width": 16, "height": 12, "bounces": 3, "sampler": "independent"}
     settings = settings_for(scenes[0].render, **{**usual, **changes})
     renderer = Renderer(scenes[0], settings, context, layering=layering)
-    temporal = Temporal(context.gl)
+    temporal = Temporal(context.gl, mode)
     for number, scene in enumerate(scenes[1:], 1):
         renderer.render(2)
         temporal.leave(renderer)

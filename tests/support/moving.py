@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.analysis.motion.playing import read_texture
+from glrt.gpu.canvas import Canvas
 from glrt.gpu.context import Context
+from glrt.rendering.drawn_pass import DrawnPass
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.reprojection import Limits, Reprojection
 from glrt.rendering.surfaces import SurfacePass, Surfaces
 from glrt.scene.scene import Scene
-from tests.support.builders import MATTE, lamp, plane, scene_of
+from tests.support.builders import MATTE, lamp, plane, quad, scene_of
 
 Floats = NDArray[Any]
 FOV = 2 * math.degrees(math.atan(0.5))  # the picture is as high as it is far
@@ -28,6 +30,16 @@ def wall(x: float = 0.0, y: float = 0.0, **more: Any) -> Scene:
     materials = {"matte": MATTE, "lamp": lamp(4.0)}
     sky = {"background": {"color": [1.0, 1.0, 1.0]}}
     return scene_of([plane([0, 0, 0], [0, 0, 1], "matte")], materials, camera, **{**sky, **more})
+
+
+def two_walls(x: float, **more: Any) -> Scene:
+    """A quad at half the distance of a wall, whose right edge is seen in the middle from x = 0."""
+    objects = [
+        plane([0, 0, 0], [0, 0, 1], "matte"),
+        quad([-3, -3, 0.5], [3, 0, 0], [0, 6, 0], "matte"),
+    ]
+    camera = {"position": [x, 0.0, 1.0], "look_at": [x, 0.0, 0.0], "fov": FOV}
+    return scene_of(objects, {"matte": MATTE}, camera, **more)
 
 
 def textures_of(context: Context, *textures: moderngl.Texture) -> list[Floats]:
@@ -78,3 +90,27 @@ def noise(size: tuple[int, int], seed: int = 0) -> Floats:
     light = rng.uniform(0, 1, (size[1], size[0], 3))
     counts = rng.integers(1, 10, (size[1], size[0], 1))
     return np.concatenate([light, counts], axis=2).astype(np.float32)
+
+
+def drawn(
+    shader: str,
+    arrays: dict[str, Floats],
+    values: dict[str, float],
+    size: tuple[int, int],
+    context: Context,
+) -> Floats:
+    """What a shader draws of textures, (H, W, 4)."""
+    with context.gl:
+        canvas, over = Canvas(context.gl, "f4"), DrawnPass(context.gl, shader)
+        textures = {
+            name: context.gl.texture(array.shape[1::-1], 4, array.tobytes(), dtype="f4")
+            for name, array in arrays.items()
+        }
+        over.draw(canvas.sized(size), textures, values)
+        assert canvas.texture
+        found: Floats = read_texture(canvas.texture).copy()
+        canvas.release()
+        over.release()
+        for texture in textures.values():
+            texture.release()
+    return found

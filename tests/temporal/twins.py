@@ -143,5 +143,51 @@ def effective_samples(frames: int, share: float) -> float:
     return 1 / float(np.sum(np.square(weights)))
 
 
+def taa_weights(frames: int, least: float) -> Array:
+    """What each frame counts for: the n-th gets 1 / n, but at least a share, when it comes."""
+    weights = np.ones(1)
+    for n in range(2, frames + 1):
+        share = max(1 / n, least)
+        weights = np.append((1 - share) * weights, share)
+    return weights
+
+
+def taa_shown(light: Array, counts: Array, history: Array, least: float, reach: Any) -> Array:
+    """A picture (H, W, 4) of film and history; `reach` None: history is taken as it is."""
+    known = np.asarray(history[..., :3], float)
+    if reach is not None:
+        around = ycocg(_windows(np.asarray(light, float)))
+        middle, deviation = around.mean(axis=2), around.std(axis=2)
+        off = ycocg(known) - middle
+        over = np.abs(off) / np.maximum(reach * deviation, 1e-300)
+        known = rgb(middle + off / np.maximum(over.max(axis=-1, keepdims=True), 1))
+    with np.errstate(invalid="ignore"):
+        share = np.maximum(counts / (history[..., 3] + counts), 1 - (1 - least) ** counts)
+    share = np.where(history[..., 3] > 0, share, 1.0)
+    shown = known + share[..., None] * (light - known)
+    return np.dstack([shown, history[..., 3] + counts])
+
+
+def ycocg(colors: Array) -> Array:
+    """Luma, orange to blue, green to purple."""
+    return np.asarray(colors @ np.linalg.inv(_RGB).T)
+
+
+def rgb(colors: Array) -> Array:
+    """The way back."""
+    return np.asarray(colors @ _RGB.T)
+
+
+_RGB = np.array([[1.0, 1.0, -1.0], [1.0, 0.0, 1.0], [1.0, -1.0, -1.0]])
+
+
+def _windows(picture: Array) -> Array:
+    """(H, W, 9, C): each pixel with those around it; the edge goes on."""
+    height, width, _ = picture.shape
+    padded = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    parts = [padded[j : j + height, i : i + width] for j in range(3) for i in range(3)]
+    return np.stack(parts, axis=2)
+
+
 def _length(x: Array) -> Array:
     return np.asarray(np.sqrt((x * x).sum(axis=1)))

@@ -18,7 +18,7 @@ SPEEDS = (0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # pixels a frame, of what 
 FRAMES, SIDE, TRUE = 8, 40, 4096
 PLACES = 4  # moves of which the squared errors are averaged
 SAMPLES = 16  # of a frame
-MODES: tuple[Mode, ...] = ("reproject", "reset")
+MODES: tuple[Mode, ...] = ("reproject", "taa", "reset")
 CHOSEN, NAIVE = "reproject", "history that stays in its pixels"
 WORSE = 1.1  # times the error of `reset`, at most
 SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 4, "sampler": "independent"}
@@ -40,7 +40,7 @@ def speed(lab: Lab) -> Sweep:
         {"position": [0, 0.9, 3.5], "look_at": [0, 0.5, 0], "fov": 40},
     )
     tall = 2 * 3.5 * float(np.tan(np.radians(20)))  # what the picture shows of the plane through 0
-    errors: dict[str, list[float]] = {name: [] for name in (CHOSEN, NAIVE, "reset")}
+    errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     count = lab.count(TRUE, 512)
     for pixels in SPEEDS:
         step = pixels * tall / SIDE
@@ -52,9 +52,10 @@ def speed(lab: Lab) -> Sweep:
         ]
         squares: dict[str, list[float]] = {name: [] for name in errors}
         for place in range(lab.count(PLACES, 1)):
-            shown, alone = (_shown(lab, moves, mode, 100 * place) for mode in MODES)
-            pictures = shown[-1], np.mean(alone, axis=0), alone[-1]
-            for name, picture in zip(errors, pictures, strict=True):
+            shown = {mode: _shown(lab, moves, mode, 100 * place) for mode in MODES}
+            pictures = {NAIVE: np.mean(shown["reset"], axis=0)}
+            pictures |= {mode: screens[-1] for mode, screens in shown.items()}
+            for name, picture in pictures.items():
                 squares[name].append(_squared(picture, truths))
         for name, found in squares.items():
             errors[name].append(math.sqrt(max(statistics.fmean(found), 0.0)))
@@ -63,7 +64,7 @@ def speed(lab: Lab) -> Sweep:
         measure=f"relative RMS error after {FRAMES} frames of {SAMPLES} samples",
         x=SPEEDS,
         chosen=(CHOSEN, errors[CHOSEN]),
-        others={name: errors[name] for name in (NAIVE, "reset")},
+        others={name: errors[name] for name in errors if name != CHOSEN},
         promise=f"at most {WORSE:g} times that of reset",
         bound=[WORSE * error for error in errors["reset"]],
     )

@@ -44,7 +44,8 @@ class Preferences(Frozen):
     temporal: Annotated[Temporal, Editable(FREE)] = Field(
         "reproject",
         description="while the camera moves; reset: the picture begins anew; reproject: what was "
-        "shown follows the surfaces, until the new picture has samples enough",
+        "shown follows the surfaces, until the new picture has samples enough; taa: an "
+        "exponential mean of what was shown, kept near the new picture",
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"

@@ -1,0 +1,40 @@
+// Temporal antialiasing: an exponential mean over views, of a history that is kept within what the
+// pixels around show now. Yang, Liu, Salvi, "A Survey of Temporal Antialiasing Techniques" (2020);
+// the limits are those of Salvi, "An Excursion in Temporal Supersampling" (2016): mean and deviation
+// of the neighbourhood, in YCoCg.
+
+vec3 ycocg_of(vec3 rgb) {
+    precise vec3 ycocg = vec3(0.25 * rgb.r + 0.5 * rgb.g + 0.25 * rgb.b, 0.5 * (rgb.r - rgb.b),
+                              0.5 * rgb.g - 0.25 * (rgb.r + rgb.b));
+    return ycocg;
+}
+
+vec3 rgb_of(vec3 ycocg) {
+    precise float grey = ycocg.x - ycocg.z;
+    precise vec3 rgb = vec3(grey + ycocg.y, ycocg.x + ycocg.z, grey - ycocg.y);
+    return rgb;
+}
+
+// The point of a box nearest to a colour on its way to the middle.
+vec3 clipped(vec3 color, vec3 middle, vec3 reach) {
+    precise vec3 off = color - middle;
+    precise float most = 1.0;
+    for (int i = 0; i < 3; i += 1) {
+        if (abs(off[i]) > reach[i]) most = min(most, reach[i] / abs(off[i]));
+    }
+    precise vec3 inside = middle + most * off;
+    return inside;
+}
+
+// The share of `count` new samples in their mean with history that stands for `known`: as many as they
+// are, but never less than they have in an exponential mean that gives each `least`.
+float share_of(float count, float known, float least) {
+    precise float exponential = 1.0 - pow(1.0 - least, count);
+    return max(count / (known + count), exponential);
+}
+
+vec4 blended(vec4 known, vec3 light, float count, float least) {
+    precise float share = share_of(count, known.a, least);
+    precise vec3 mean = known.rgb + share * (light - known.rgb);
+    return vec4(mean, known.a + count);
+}
