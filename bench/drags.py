@@ -103,7 +103,7 @@ def steps_of(scene: Scene) -> dict[str, Step]:
         app.turn(_swing(frame + 1) - _swing(frame), 0.0, about_camera=False)
 
     def shift(app: Any, frame: int) -> None:
-        app.edit_scene(f"object {ball}", partial(_shifted, ball, _swing(frame)))
+        app.edit_scene(f"object {ball}", partial(_shifted, ball, _swing(frame + 1)))
 
     def bounce(app: Any, frame: int) -> None:
         app.session.edit(gesture="['bounces']", bounces=2 + frame % 10)

@@ -100,6 +100,7 @@ class Temporal:
         self._resolver = make(gl) if make else None
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one
+        self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view
 
     @property
     def surfaces(self) -> Surfaces:
@@ -111,7 +112,8 @@ class Temporal:
         if self._resolver and renderer.samples and not self.surfaces.scene:
             self._find(renderer)  # the first view of all
         if self._resolver and renderer.samples:
-            self._resolved(self._resolver, renderer, weights)
+            if self._resolved_at != (renderer.samples, weights):
+                self._resolved(self._resolver, renderer, weights)
             self._is_kept = True
 
     def arrive(self, renderer: Renderer) -> None:
@@ -120,6 +122,7 @@ class Temporal:
             return
         self._surfaces.reverse()
         self._find(renderer)
+        self._resolved_at = None
         now, before = self._surfaces
         is_usable = self._is_kept and before.scene and shares_objects(renderer.scene, before.scene)
         is_same_light = bool(before.scene and is_lit_alike(renderer, before))
@@ -140,6 +143,7 @@ class Temporal:
     def forget(self) -> None:
         """What was shown is no history for what comes."""
         self._is_kept = self._is_brought = False
+        self._resolved_at = None
 
     def release(self) -> None:
         """Free what the driver holds."""
@@ -159,6 +163,7 @@ class Temporal:
             light = renderer.weighed(weights or renderer.plan.weights)
             end = self.end if self._is_brought else 0.0
             fresh = Fresh(light, renderer.film.mean, renderer.samples, end)
+            self._resolved_at = renderer.samples, weights
             return resolver.show(self.surfaces, fresh)
 
 

@@ -12,9 +12,9 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
 from glrt.view.state.controls import replaced
-from glrt.view.state.preview_size import COARSEST, STILL
+from glrt.view.state.preview_size import COARSEST, FACTORS, FIRST_SAMPLES, STILL
 from glrt.view.state.scene_edits import with_material, with_object
-from glrt.view.state.session import FIRST_SAMPLES, Session
+from glrt.view.state.session import Session
 from tests.support.sessions import Clock, frames, start, walked
 
 BALL = 2  # number of an object
@@ -66,9 +66,8 @@ def test_an_edit_that_restarts_is_shown_coarsely_when_samples_are_slow(
     assert session.last_cost is Cost.RESTART
     assert session.is_preview
     assert not session.is_done
-    factor = whole[0] // size_of(session)[0]
-    assert factor in (2, 4)
-    assert size_of(session)[1] == whole[1] // factor
+    shown = [tuple(round(side / factor) for side in whole) for factor in FACTORS[1:]]
+    assert size_of(session) in shown
     clock.now += STILL
     session.advance(0.01)
     assert not session.is_preview

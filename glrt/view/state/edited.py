@@ -35,7 +35,7 @@ class State:
         size: dict[str, Any] = {"width": width, "height": height}
         return replace(self, settings=settings_for(self.settings, **size))
 
-    def coarser(self, factor: int) -> "State":
+    def coarser(self, factor: float) -> "State":
         """With so many pixels, in width and height, as one."""
-        width, height = (max(1, side // factor) for side in self.settings.size)
+        width, height = (max(1, round(side / factor)) for side in self.settings.size)
         return self.sized(width, height) if factor > 1 else self

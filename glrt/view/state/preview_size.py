@@ -2,9 +2,18 @@
 
 from collections.abc import Callable
 
+from glrt.rendering.renderer import Renderer
+
 STILL = 0.25  # seconds without an edit after which the full size is rendered
-COARSEST = 8  # pixels of the frame, in width and height, that share one of a preview
-MEMORY = 0.3  # weight of the newest frame in what a sample of a pixel takes
+FACTORS = tuple(2 ** (n / 4) for n in range(13))  # sizes of previews, from the whole one on
+COARSEST = round(FACTORS[-1])  # pixels of the frame, in width and height, that share one
+FINER = (
+    0.8  # of a frame's time: a finer picture is to fit into that, so that sizes do not alternate
+)
+MEMORY = 0.3  # weight of the newest frame in what is learnt
+LEAST = 0.25  # of a frame's time for samples, however long edits take
+OVERRUN = 1.5  # of a frame's time for the first sample: a frame that brings none shows nothing new
+FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
 
 
 class Preview:
@@ -18,15 +27,16 @@ class Preview:
         """Nothing has been measured yet: the full size is shown."""
         self._clock = clock
         self._edited = -STILL
-        self._factor = 1
+        self._factor = 1.0
+        self._edit_seconds = 0.0  # for bringing an edit to the renderer
         self._pixel_seconds = 0.0  # for a sample of a pixel
         self._uncounted = 0.0  # seconds of frames that brought no sample, as those of AOVs
         self._is_owed = False
 
     @property
-    def factor(self) -> int:
+    def factor(self) -> float:
         """The pixels of the frame, in width and height, that share one: 1 while nothing changes."""
-        return self._factor if self.is_under_way else 1
+        return self._factor if self.is_under_way else 1.0
 
     @property
     def is_under_way(self) -> bool:
@@ -42,6 +52,10 @@ class Preview:
         self._edited, self._is_owed = self._clock(), True
         self._factor = self._fitting(pixels, budget)
 
+    def edited(self, seconds: float) -> None:
+        """Learn what it took to bring an edit to the renderer, kernels apart."""
+        self._edit_seconds += MEMORY * (seconds - self._edit_seconds)
+
     def record(self, seconds: float, samples: float) -> None:
         """Learn from a frame what a sample of a pixel took; one without any counts to the next."""
         self._uncounted += seconds
@@ -56,10 +70,30 @@ class Preview:
 
     def end(self) -> None:
         """The full size is wanted at once."""
-        self._is_owed, self._factor = False, 1
+        self._is_owed, self._factor = False, 1.0
 
-    def _fitting(self, pixels: int, budget: float) -> int:
-        factor = 1
-        while factor < COARSEST and self._pixel_seconds * pixels > budget * factor**2:
-            factor *= 2
-        return factor
+    def work(self, renderer: Renderer, target: int, seconds: float, edit: float) -> None:
+        """Render up to `target` samples in a frame of `seconds`, `edit` of which are gone.
+
+        The first sample may take longer, and AOVs follow it at once.
+        """
+        start, before, held = self._clock(), renderer.work, renderer.samples
+        left = max(seconds - edit, LEAST * seconds)
+        if self.is_under_way and not held:
+            renderer.advance(OVERRUN * left, min(target, 1))
+            left -= self._clock() - start
+        if left > 0.0:
+            renderer.advance(left, target)
+        if held < FIRST_SAMPLES and (self.factor > 1 or not renderer.is_baked):
+            width, height = renderer.size
+            self.record(self._clock() - start, (renderer.work - before) * width * height)
+
+    def _fitting(self, pixels: int, budget: float) -> float:
+        left = max(budget - self._edit_seconds, LEAST * budget)
+        fitting = (factor for factor in FACTORS if self._takes(pixels, factor) <= left)
+        return next(fitting, FACTORS[-1])
+
+    def _takes(self, pixels: int, factor: float) -> float:
+        """Seconds for a sample of a picture of a size; of one finer than now with a margin."""
+        margin = 1.0 / FINER if factor < self._factor else 1.0
+        return margin * self._pixel_seconds * pixels / factor**2

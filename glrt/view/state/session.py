@@ -26,7 +26,6 @@ from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_size import Preview
 
 ANNOUNCED = 2  # frames that say what is about to stop them
-FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
 
 
@@ -169,13 +168,14 @@ class Session:
 
     def advance(self, seconds: float, count: int = 0) -> None:
         """A frame: bring edits to the renderer, then render for a time or `count` samples."""
+        start = self._clock()
         if self._apply_pending(seconds) and self.renderer:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
             is_short = self.renderer.lacks(target)
             if is_short and not (self.rest and self.rest.follow(self.renderer, self.restarts)):
-                self._render(self.renderer, target, seconds)
+                self._render(self.renderer, target, seconds, self._clock() - start)
 
     def reload_shaders(self) -> None:
         """Compile the shaders again, within `files_anew`; RenderError, and the old kernel stays."""
@@ -205,19 +205,12 @@ class Session:
         if self.renderer:
             self.renderer.release()
 
-    def _render(self, renderer: Renderer, target: int, seconds: float) -> None:
-        start, before, held = self._clock(), renderer.work, renderer.samples
-        if self.is_preview and renderer.settings.aov:  # they follow the first sample at once
-            renderer.advance(seconds, min(target, 1))
-            seconds -= self._clock() - start
-        renderer.advance(seconds, target)
-        spent, done = self._clock() - start, renderer.work - before
-        self.rendering += spent
+    def _render(self, renderer: Renderer, target: int, seconds: float, edit: float) -> None:
+        start = self._clock()
+        self._preview.work(renderer, target, seconds, edit)
+        self.rendering += self._clock() - start
         if self.is_shown:
             self._preview.deliver()
-        is_early = held < FIRST_SAMPLES and (self.is_preview or not renderer.is_baked)
-        if is_early:
-            self._preview.record(spent, done * renderer.size[0] * renderer.size[1])
 
     def _apply_pending(self, seconds: float) -> bool:
         """Whether there is something to render; what compiles is announced first."""
@@ -235,9 +228,12 @@ class Session:
             self.moving.begin()
             self.surface.is_apt = bool(self.renderer and self.state.moves(self.renderer.scene))
         if self.is_behind:
+            start = self._clock()
             try:
                 self._apply()
                 self._full_size = self.settings.size
+                if cost is Cost.RESTART:
+                    self._preview.edited(self._clock() - start)
             except GlrtError as error:
                 if not self.surface.refuse():  # else the next frame tries without
                     self._refuse(error)
