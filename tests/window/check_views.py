@@ -74,7 +74,10 @@ def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -
     hand.until(lambda: session.samples >= session.known_from)
     hand.there(lambda: session.edit(samples=session.samples))
     hand.settle()
-    (shown,) = views(hand, "bounces")
+    views(hand, "bounces")
+    hand.until(lambda: session.is_done)
+    hand.ctx.yield_(2)
+    shown = hand.pixels()[..., :3]
     assert session.renderer
     image = hand.there(session.renderer.plain_image)
     found = image.aovs["bounces"]
