@@ -12,6 +12,7 @@ from glrt.scene.glasses import around_camera, glasses_of, holds
 from glrt.scene.materials import Dielectric, Material, Metal
 from glrt.scene.meshes import Mesh
 from glrt.scene.objects import Array, Object
+from glrt.scene.principled import Principled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
 from glrt.scene.solids import Box
@@ -109,7 +110,7 @@ def link_bits(scene: Scene) -> int:
     """The spheres through which particles can be linked to the camera: a bit for each.
 
     Of those that particles are aimed at, but not of thin glass, of glass with a priority, of glass
-    that lies in denser one, and of those within which something lies.
+    that lies in denser one, of glass in part, and of those within which something lies.
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     bits = caster_bits(scene)
@@ -120,7 +121,7 @@ def link_bits(scene: Scene) -> int:
 def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
     material = scene.materials[sphere.material]
     if not isinstance(material, Dielectric):
-        return True
+        return isinstance(material, Metal)
     return not material.thin and material.ior >= 1 and material.priority is None
 
 
@@ -149,7 +150,9 @@ def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
 
 
 def is_smooth(material: Material) -> bool:
-    """Whether light passes it, or comes by it, in one direction alone."""
+    """Whether light passes it, or comes by it, in one direction alone; or does so in part."""
+    if isinstance(material, Principled):
+        return material.glass is not None and is_smooth(material.glass)
     if isinstance(material, Dielectric):
         return material.thin or material.alpha == 0
     return isinstance(material, Metal) and material.alpha == 0

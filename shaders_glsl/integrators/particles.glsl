@@ -26,6 +26,7 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
                   self.path.throughput);
     if (HAS_NESTED && passes(self.path, surface, material, side > 0.0)) return true;
+    if (HAS_TRANSMISSION && material.kind == PRINCIPLED) material = met_part(material, next_1d(rng));
     if (!carries_particles(material)) return false;
     precise mat3 around = frame_around(facing);
     precise Vertex vertex = vertex_of(around, to_local(around, -direction), material, side > 0.0);
