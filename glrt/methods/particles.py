@@ -182,8 +182,6 @@ def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
 
 def _beyond(found: Contents) -> dict[str, bool]:
     return {
-        "there are meshes with smooth normals": found.is_smooth,
-        "there are normal maps": "normal" in found.mapped,
         "some surfaces have holes": bool(found.holed),
     }
 

@@ -6,6 +6,7 @@ struct Particle {
     vec3 power;      // of the lamp, over the density of leaving it so
     float emission;  // that density, as pdf_emission has it
     float kappa;     // of its path, as particle_weights.glsl has it
+    float turn;      // P0 over PL of how it has scattered
     int light;
     int layer;       // of its light group
 };
@@ -89,7 +90,7 @@ Particle start_from_sun(int aim, vec2 u, vec2 v) {
     precise float emission = pdf_from_sun(ray.origin, -towards, aim);
     precise vec3 power = vec3(0.0);
     if (emission > 0.0) power = frame.sun_radiance * (PI / emission);
-    return Particle(particle_path(ray), power, emission, 0.0, SUN_LIGHT, SUN_LAYER);
+    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER);
 }
 
 Particle start_particle(precise inout Sampler rng) {
@@ -119,5 +120,5 @@ Particle start_particle(precise inout Sampler rng) {
     precise vec3 power = vec3(0.0);
     if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material, direction, is_front) * (PI / emission);
     precise Path path = particle_path(Ray(leaving.position, direction, light.shape, false));
-    return Particle(path, power, emission, 0.0, index, material.layer);
+    return Particle(path, power, emission, 0.0, 1.0, index, material.layer);
 }

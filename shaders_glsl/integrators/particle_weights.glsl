@@ -7,6 +7,8 @@
 //     P0 / PL = rho / pdf_emission,   rho = pdf_film / frame.particles
 //     P1 / P0 = kappa: of the density of sampling the lamp, over that of scattering to it, at the last vertex; 0
 //               where that is smooth
+// Where normals for shading break this, the ratios at the vertices that the path scatters at come in as well: in the
+// rho of a path from the camera, and in the turn of a particle (integrators/shading_normals.glsl).
 // Roulette is in neither, on both sides alike.
 
 // What particles scatter at; at other surfaces they end.

@@ -16,6 +16,7 @@ from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
+from tests.mutation.particle_normals import PARTICLE_NORMALS
 from tests.mutation.particles import PARTICLES
 from tests.mutation.paths import PATHS
 from tests.mutation.principled import PRINCIPLED
@@ -31,6 +32,7 @@ MUTANTS = [
     *TRANSPORT,
     *PRINCIPLED,
     *PARTICLES,
+    *PARTICLE_NORMALS,
     *SPHERE_LINKS,
     *SHAPES,
     *MESHES,
