@@ -9,6 +9,7 @@ _PATH = "integrators/path.glsl"
 _OWN = "rendering/test_particle_normals.py"
 _MATTE = f"{_OWN}::test_a_matte_surface_takes_light_by_its_shading_normal"
 _MIRROR = f"{_OWN}::test_a_mirror_reflects_by_its_shading_normal"
+_SHARES = f"{_OWN}::test_the_ways_share_light_where_normals_differ"
 _ROOM = f"{_OWN}::test_smooth_meshes_change_the_noise_alone"
 
 PARTICLE_NORMALS = [
@@ -30,22 +31,22 @@ PARTICLE_NORMALS = [
     Mutant(
         "paths from the camera are weighed without shading normals",
         edit(_PATH, "path.rho *= turn_around(", "path.rho += 0.0 * turn_around("),
-        _ROOM,
+        _SHARES,
     ),
     Mutant(
         "sampled light is weighed without shading normals",
         edit(_PATH, "if (HAS_PARTICLES) rho *=", "if (HAS_PARTICLES) rho += 0.0 *"),
-        _ROOM,
+        _SHARES,
     ),
     Mutant(
         "particles are weighed without shading normals",
         edit(_LINKS, "rho * self.turn * turn, kappa", "rho, kappa"),
-        _ROOM,
+        _SHARES,
     ),
     Mutant(
         "the density of the film is that of shading normals",
         edit(_PATH, "HAS_SHADING ? -dot(path.ray.direction, facing) : vertex.wo.z", "vertex.wo.z"),
-        _ROOM,
+        _SHARES,
     ),
     Mutant(
         "particles scatter around shading normals where no path from the camera does",

@@ -35,8 +35,8 @@ def leaf(size: float, material: str, normal: Any) -> dict[str, Any]:
     return mesh(square, material, normals=np.tile(normal, (4, 1)))
 
 
-def under_the_sun(camera: dict[str, Any], *things: dict[str, Any]) -> Scene:
-    sun = {"direction": TOWARDS_SUN.tolist(), "angle": 1.0, "irradiance": [IRRADIANCE] * 3}
+def under_the_sun(camera: dict[str, Any], *things: dict[str, Any], angle: float = 1.0) -> Scene:
+    sun = {"direction": TOWARDS_SUN.tolist(), "angle": angle, "irradiance": [IRRADIANCE] * 3}
     return scene_of(list(things), MATERIALS, camera, sun=sun)
 
 
@@ -49,26 +49,46 @@ def passed_by_a_pane(cosine: float, ior: float = 1.5) -> float:
     return float((1 - reflected) / (1 + reflected))
 
 
+AWAY = np.array([-0.3, np.sqrt(1 - 0.09), 0.0])  # from the mirror to the ceiling
+HALF = (AWAY + TOWARDS_SUN) / np.linalg.norm(AWAY + TOWARDS_SUN)
+FLOOR = {"position": [0, 0.4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "fov": 40}
+CEILING = {"position": [0, 0.5, 0], "look_at": [0, 1, 0], "up": [0, 0, 1], "fov": 38}
+SHEET = quad([-0.3, 0.5, -0.3], [1.3, 0, 0], [0, 0, 0.6], "pane")
+PLACES: dict[str, tuple[dict[str, Any], list[dict[str, Any]]]] = {
+    "matte": (FLOOR, [leaf(0.2, "matte", TILTED)]),
+    "matte under a pane": (FLOOR, [leaf(0.2, "matte", TILTED), SHEET]),
+    "mirror": (
+        CEILING,
+        [leaf(0.5, "mirror", HALF), quad([-0.2, 1, -0.2], [0.4, 0, 0], [0, 0, 0.4], "matte")],
+    ),
+}
+
+
 def test_a_matte_surface_takes_light_by_its_shading_normal(context: Context) -> None:
     """Through a pane, so that no lamp is sampled; by the true normal it would be twice as much."""
-    sheet = quad([-0.3, 0.5, -0.3], [1.3, 0, 0], [0, 0, 0.6], "pane")
-    camera = {"position": [0, 0.4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "fov": 40}
-    scene = under_the_sun(camera, leaf(0.2, "matte", TILTED), sheet)
-    image = rendered(scene, context, 1024, **ON, bounces=2)
+    camera, things = PLACES["matte under a pane"]
+    image = rendered(under_the_sun(camera, *things), context, 1024, **ON, bounces=2)
     irradiance = IRRADIANCE * passed_by_a_pane(0.6) * (TILTED @ TOWARDS_SUN)
     assert_mean(whole(image), ALBEDO / np.pi * irradiance, within=0.04)
 
 
 def test_a_mirror_reflects_by_its_shading_normal(context: Context) -> None:
     """Onto a ceiling: the light that its points see in the mirror is that of the sun, unchanged."""
-    away = np.array([-0.3, np.sqrt(1 - 0.09), 0.0])
-    normal = (away + TOWARDS_SUN) / np.linalg.norm(away + TOWARDS_SUN)
-    ceiling = quad([-0.2, 1, -0.2], [0.4, 0, 0], [0, 0, 0.4], "matte")
-    camera = {"position": [0, 0.5, 0], "look_at": [0, 1, 0], "up": [0, 0, 1], "fov": 38}
-    scene = under_the_sun(camera, leaf(0.5, "mirror", normal), ceiling)
-    image = rendered(scene, context, 1024, **ON, bounces=2)
-    irradiance = IRRADIANCE * REFLECTANCE * (away @ UP)
+    camera, things = PLACES["mirror"]
+    image = rendered(under_the_sun(camera, *things), context, 1024, **ON, bounces=2)
+    irradiance = IRRADIANCE * REFLECTANCE * (AWAY @ UP)
     assert_mean(whole(image), ALBEDO / np.pi * irradiance, within=0.04)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_the_ways_share_light_where_normals_differ(context: Context, place: str) -> None:
+    """Of a sun so large that scattering finds it as often as particles come."""
+    camera, things = PLACES[place]
+    scene = under_the_sun(camera, *things, angle=40.0)
+    size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 2}
+    without = rendered(scene, context, 2048, seed=1, **size)
+    image = rendered(scene, context, 1024, **size, **{**ON, "particles": 2.0})
+    assert_agree(image, without, within=0.03)
 
 
 def test_smooth_meshes_change_the_noise_alone(context: Context) -> None:
