@@ -65,6 +65,13 @@ def sun_sends_particles(scene: Scene) -> bool:
     return finite and any(scene.sun_radiance)
 
 
+def sky_sends_particles(scene: Scene) -> bool:
+    """Whether the sky does: it shines on shapes that a ball holds, and nothing else sends any."""
+    finite = any(not isinstance(thing, Plane) for thing in scene.visible)
+    others = bool(emitters_of(scene)) or any(scene.sun_radiance)
+    return finite and not others and any(map(any, scene.background_colors))
+
+
 def targets_of(scene: Scene) -> list[Ball]:
     """Balls around boxes, cylinders and meshes of smooth glass or metal: particles are aimed there.
 
@@ -80,7 +87,7 @@ def targets_of(scene: Scene) -> list[Ball]:
 
 
 def ball_around(scene: Scene) -> Ball | None:
-    """Around all shapes but planes: where particles from the sun go. None where there are none."""
+    """Around all shapes but planes: where particles from afar go. None where there are none."""
     balls = [_ball(thing) for thing in scene.visible if not isinstance(thing, Plane)]
     if not balls:
         return None
@@ -167,15 +174,16 @@ def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
     found = contents_of(scene)
     if not METHODS[settings.method].weights_both:
         yield f"particles are weighed by the method mis alone, not by {settings.method}"
-    if not emitters_of(scene) and not sun_sends_particles(scene):
-        yield "no sphere, quad, disk, mesh or sun shines: particles leave these alone"
+    sends = emitters_of(scene) or sun_sends_particles(scene) or sky_sends_particles(scene)
+    if not sends:
+        yield "no sphere, quad, disk, mesh, sun or sky shines: particles leave these alone"
     if found.has_many_lights:
         yield f"of {found.sampled_lamps} lamps, too many to choose among for each particle"
     for what, there in _beyond(found).items():
         if there:
             yield f"{what}, which particles do not follow yet"
     if _shines_in_tinted_glass(scene) or _sun_shines_in_it(scene):
-        yield "a lamp or the sun is in tinted glass or in one with a priority: none starts there"
+        yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
     if around_camera(scene, scene.finishes).counts:
         yield "the camera is in glass with a priority, where nothing is linked to it"
 
@@ -200,8 +208,10 @@ def _shines_in_tinted_glass(scene: Scene) -> bool:
 
 
 def _sun_shines_in_it(scene: Scene) -> bool:
-    """Whether it stands on the inner side of a plane of such glass."""
+    """Whether it stands on the inner side of a plane of such glass; of the sky, a part does."""
     planes = [thing for thing in _dense(scene) if isinstance(thing, Plane)]
+    if sky_sends_particles(scene):
+        return bool(planes)
     return scene.sun is not None and any(
         float(np.dot(plane.normal, scene.sun.towards)) < 0 for plane in planes
     )

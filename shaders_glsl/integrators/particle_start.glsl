@@ -93,6 +93,21 @@ Particle start_from_sun(int aim, vec2 u, vec2 v) {
     return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER);
 }
 
+// `aim` as above.
+Particle start_from_sky(int aim, vec2 v, precise inout Sampler rng) {
+    precise vec3 towards = vec3(0.0);
+    if (HAS_ENVIRONMENT) towards = sample_sky(Ray(vec3(0.0), vec3(0.0), NO_SHAPE, false), rng).ray.direction;
+    else towards = sample_cone(2.0, next_2d(rng));
+    precise Target ball = Target(frame.bounds_center, frame.bounds_radius);
+    if (aim != NOT_AIMED) ball = aimed_at(aim);
+    precise vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
+    precise Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
+    precise float emission = pdf_from_sky(ray.origin, -towards, aim);
+    precise vec3 power = vec3(0.0);
+    if (emission > 0.0) power = background(towards) * (PI / emission);
+    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SKY_LIGHT, BACKGROUND_LAYER);
+}
+
 Particle start_particle(precise inout Sampler rng) {
     precise vec2 choice = next_2d(rng);
     precise vec2 u = next_2d(rng);
@@ -102,6 +117,7 @@ Particle start_particle(precise inout Sampler rng) {
         precise vec2 pick = next_2d(rng);
         if (pick.x < frame.aimed) aim = choose_aim(pick.y);
     }
+    if (SKY_SENDS) return start_from_sky(aim, v, rng);
     if (HAS_SUN) {
         if (choice.x < frame.from_sun) return start_from_sun(aim, u, v);
         choice.x = (choice.x - frame.from_sun) / (1.0 - frame.from_sun);

@@ -6,7 +6,9 @@ const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs
 float kappa_of(int light, Vertex vertex, Ray ray, vec3 towards, float distance) {
     ray.direction = towards;
     precise float sampled = 0.0;
-    if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
+    if (SKY_SENDS) {
+        if (SAMPLE_SKY) sampled = pdf_sky(towards);
+    } else if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
     else sampled = pdf_light(light, ray, distance, total_weight(ray));
     precise float kappa = sampled * PI / vertex.wo.z;
     return kappa;

@@ -163,7 +163,13 @@ float rho_beyond(Path path, Vertex vertex, Surface surface, vec3 facing) {
 
 // The share of the sky's light that scattering may count.
 float sky_weight(Path path) {
-    if (path.pdf == 0.0) return 1.0;
+    if (SKY_SENDS && path.rho > 0.0) {
+        precise float kappa = SAMPLE_SKY && path.pdf > 0.0 ? pdf_sky(path.ray.direction) / path.pdf : 0.0;
+        precise float share = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SKY_LIGHT, kappa, path.rho);
+        record_weight(kappa * path.pdf, share);
+        return share;
+    }
+    if (!SAMPLE_SKY || path.pdf == 0.0) return 1.0;
     precise float light_pdf = pdf_sky(path.ray.direction);
     if (light_pdf == 0.0) return 1.0;
     precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
@@ -258,7 +264,7 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
         if (HAS_BACKGROUND) {
             precise vec3 sky = path.scale * path.throughput * background(path.ray.direction);
             if (HAS_ATTENUATION) sky *= share_left_of_sky(path.absorption);
-            if (SAMPLE_SKY) sky *= sky_weight(path);
+            if (SAMPLE_SKY || SKY_SENDS) sky *= sky_weight(path);
             record_light(BY_SCATTERING, FROM_BACKGROUND, path.pdf, background(path.ray.direction), sky);
             gather(path, sky, BACKGROUND_LAYER, path.depth);
         }
