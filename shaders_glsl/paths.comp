@@ -154,10 +154,9 @@ void replay_particle() {
     precise Particle particle = start_particle(rng);
     if (particle.power == vec3(0.0)) return;
     precise Ray ray = particle.path.ray;
-    bool is_of_sun = HAS_SUN && particle.light == SUN_LIGHT;
     precise vec3 normal = ray.direction;
-    lamp = FROM_SUN;
-    if (!is_of_sun) {
+    lamp = SKY_SENDS ? FROM_BACKGROUND : FROM_SUN;
+    if (particle.light >= 0) {
         normal = lamp_normal(light_at(particle.light), ray.origin);
         lamp = object_number(light_at(particle.light).shape);
     }

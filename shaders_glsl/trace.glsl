@@ -36,6 +36,7 @@
 #include "integrators/camera.glsl"
 #include "integrators/classic.glsl"
 #include "integrators/media.glsl"
+#include "integrators/shading_normals.glsl"
 #include "integrators/particle_weights.glsl"
 #include "integrators/sphere_links.glsl"
 #include "integrators/record_numbers.glsl"

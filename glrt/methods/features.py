@@ -9,7 +9,13 @@ from glrt.methods.contents import (
     Contents,
     contents_of,
 )
-from glrt.methods.particles import caster_bits, link_bits, sun_sends_particles, targets_of
+from glrt.methods.particles import (
+    caster_bits,
+    link_bits,
+    sky_sends_particles,
+    sun_sends_particles,
+    targets_of,
+)
 from glrt.methods.table import METHODS
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
@@ -119,7 +125,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     traits = METHODS[settings.method]
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
-    sends_particles = is_lit or sun_sends_particles(scene)
+    sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
     follows_particles = settings.caustics == "on" and sends_particles and traits.weights_both
     metals = [m for m in found.materials.values() if m.type == "metal"]
     return Needs(

@@ -12,6 +12,7 @@ from glrt.scene.glasses import around_camera, glasses_of, holds
 from glrt.scene.materials import Dielectric, Material, Metal
 from glrt.scene.meshes import Mesh
 from glrt.scene.objects import Array, Object
+from glrt.scene.principled import Principled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
 from glrt.scene.solids import Box
@@ -64,6 +65,13 @@ def sun_sends_particles(scene: Scene) -> bool:
     return finite and any(scene.sun_radiance)
 
 
+def sky_sends_particles(scene: Scene) -> bool:
+    """Whether the sky does: it shines on shapes that a ball holds, and nothing else sends any."""
+    finite = any(not isinstance(thing, Plane) for thing in scene.visible)
+    others = bool(emitters_of(scene)) or any(scene.sun_radiance)
+    return finite and not others and any(map(any, scene.background_colors))
+
+
 def targets_of(scene: Scene) -> list[Ball]:
     """Balls around boxes, cylinders and meshes of smooth glass or metal: particles are aimed there.
 
@@ -79,7 +87,7 @@ def targets_of(scene: Scene) -> list[Ball]:
 
 
 def ball_around(scene: Scene) -> Ball | None:
-    """Around all shapes but planes: where particles from the sun go. None where there are none."""
+    """Around all shapes but planes: where particles from afar go. None where there are none."""
     balls = [_ball(thing) for thing in scene.visible if not isinstance(thing, Plane)]
     if not balls:
         return None
@@ -109,7 +117,7 @@ def link_bits(scene: Scene) -> int:
     """The spheres through which particles can be linked to the camera: a bit for each.
 
     Of those that particles are aimed at, but not of thin glass, of glass with a priority, of glass
-    that lies in denser one, and of those within which something lies.
+    that lies in denser one, of glass in part, and of those within which something lies.
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     bits = caster_bits(scene)
@@ -120,7 +128,7 @@ def link_bits(scene: Scene) -> int:
 def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
     material = scene.materials[sphere.material]
     if not isinstance(material, Dielectric):
-        return True
+        return isinstance(material, Metal)
     return not material.thin and material.ior >= 1 and material.priority is None
 
 
@@ -149,7 +157,9 @@ def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
 
 
 def is_smooth(material: Material) -> bool:
-    """Whether light passes it, or comes by it, in one direction alone."""
+    """Whether light passes it, or comes by it, in one direction alone; or does so in part."""
+    if isinstance(material, Principled):
+        return material.glass is not None and is_smooth(material.glass)
     if isinstance(material, Dielectric):
         return material.thin or material.alpha == 0
     return isinstance(material, Metal) and material.alpha == 0
@@ -164,23 +174,22 @@ def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
     found = contents_of(scene)
     if not METHODS[settings.method].weights_both:
         yield f"particles are weighed by the method mis alone, not by {settings.method}"
-    if not emitters_of(scene) and not sun_sends_particles(scene):
-        yield "no sphere, quad, disk, mesh or sun shines: particles leave these alone"
+    sends = emitters_of(scene) or sun_sends_particles(scene) or sky_sends_particles(scene)
+    if not sends:
+        yield "no sphere, quad, disk, mesh, sun or sky shines: particles leave these alone"
     if found.has_many_lights:
         yield f"of {found.sampled_lamps} lamps, too many to choose among for each particle"
     for what, there in _beyond(found).items():
         if there:
             yield f"{what}, which particles do not follow yet"
     if _shines_in_tinted_glass(scene) or _sun_shines_in_it(scene):
-        yield "a lamp or the sun is in tinted glass or in one with a priority: none starts there"
+        yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
     if around_camera(scene, scene.finishes).counts:
         yield "the camera is in glass with a priority, where nothing is linked to it"
 
 
 def _beyond(found: Contents) -> dict[str, bool]:
     return {
-        "there are meshes with smooth normals": found.is_smooth,
-        "there are normal maps": "normal" in found.mapped,
         "some surfaces have holes": bool(found.holed),
     }
 
@@ -199,8 +208,10 @@ def _shines_in_tinted_glass(scene: Scene) -> bool:
 
 
 def _sun_shines_in_it(scene: Scene) -> bool:
-    """Whether it stands on the inner side of a plane of such glass."""
+    """Whether it stands on the inner side of a plane of such glass; of the sky, a part does."""
     planes = [thing for thing in _dense(scene) if isinstance(thing, Plane)]
+    if sky_sends_particles(scene):
+        return bool(planes)
     return scene.sun is not None and any(
         float(np.dot(plane.normal, scene.sun.towards)) < 0 for plane in planes
     )

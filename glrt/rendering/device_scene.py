@@ -16,7 +16,7 @@ from glrt.gpu.struct_arrays import FILE, Arrays, block_of, write_rows
 from glrt.methods.contents import Contents
 from glrt.methods.features import needs_of
 from glrt.methods.light_layers import Plan
-from glrt.methods.particles import ball_around
+from glrt.methods.particles import ball_around, sky_sends_particles
 from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
@@ -84,8 +84,8 @@ class DeviceScene:
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._glass = around_camera(plan.scene, contents.finishes)
         needs = needs_of(plan.scene, plan.settings, contents)
-        has_sun = needs.has_particles and needs.has_sun
-        self._bounds = ball_around(plan.scene) if has_sun else None
+        sends = needs.has_sun or sky_sends_particles(plan.scene)
+        self._bounds = ball_around(plan.scene) if needs.has_particles and sends else None
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**needs.constants(), **plan.constants(), **stack, **variant}

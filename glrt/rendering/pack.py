@@ -103,7 +103,7 @@ def pack_frame(
 
     `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
     film is not read. `glass` is around the camera; `sky_density` is that of samples of the sky, as
-    sky_table.py has it; `bounds` are those that particles from the sun fill.
+    sky_table.py has it; `bounds` are those that particles from afar fill.
     """
     bottom, *horizon, top = scene.background_colors
     frame = {

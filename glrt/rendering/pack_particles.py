@@ -12,6 +12,7 @@ from glrt.methods.particles import (
     linked_groups,
     particle_groups,
     particles_a_sample,
+    sky_sends_particles,
     sun_sends_particles,
     targets_of,
 )
@@ -39,7 +40,7 @@ def particle_fields(scene: Scene, settings: Settings, bounds: Ball | None) -> di
     return {
         "particles": particles_a_sample(settings),
         "aimed": settings.aimed,
-        "splat_unit": _unit(max(brightest, _from_the_sun(scene))),
+        "splat_unit": _unit(max(brightest, _from_the_sun(scene), _from_the_sky(scene))),
         "linked": linked_groups(settings) / particle_groups(settings),
         "linked_groups": linked_groups(settings),
         "bounds_center": ball.center - np.array(scene.camera.position, np.float64),
@@ -57,6 +58,15 @@ def _from_the_sun(scene: Scene) -> float:
     if not scene.sun:
         return 0.0
     return max(scene.sun_radiance) * 2 * math.pi * scene.sun.versine
+
+
+def _from_the_sky(scene: Scene) -> float:
+    """Mean radiance of its image, or the largest of its gradient, where particles leave it."""
+    if not sky_sends_particles(scene):
+        return 0.0
+    pixels = scene.sky.pixels if scene.sky else None
+    mean = 1.0 if pixels is None else float(pixels[..., :3].mean(dtype=np.float64))
+    return mean * max(map(max, scene.background_colors))
 
 
 def _share_of_the_sun(scene: Scene, bounds: Ball) -> float:

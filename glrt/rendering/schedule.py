@@ -18,7 +18,7 @@ from glrt.gpu.structs import read_constants
 from glrt.methods.contents import MESH, Contents, contents_of
 from glrt.methods.features import has_image
 from glrt.methods.light_layers import Plan
-from glrt.methods.particles import caster_bits, link_bits, targets_of
+from glrt.methods.particles import caster_bits, link_bits, sky_sends_particles, targets_of
 from glrt.methods.table import METHODS
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
@@ -85,7 +85,7 @@ def rounds_for_particles(scene: Scene, settings: Settings) -> int:
     weighed = 2 * spheres if settings.aimed and caster_bits(scene) else 0
     if settings.aimed and (targets := targets_of(scene)):
         weighed += 2 * (1 + len(targets))
-    if scene.sun:
+    if scene.sun or sky_sends_particles(scene):
         weighed += 1 + found.shapes["plane"]
     linked = settings.linked and link_bits(scene)
     links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(scene) if linked else 0

@@ -33,8 +33,16 @@ Eye sample_eye(precise inout Sampler rng) {
     return Eye(lens, position);
 }
 
+// Of a particle that is linked by a way with the density `rho`, P0 over what particles have; `turn`: that of this
+// vertex, as turn_towards has it, above 0.
+float weight_of_link(Particle self, float rho, float turn) {
+    if (!HAS_SHADING) return particle_weight(rho, self.kappa);
+    precise float kappa = self.path.depth == 0 ? self.kappa / turn : self.kappa;
+    return particle_weight(rho * self.turn * turn, kappa);
+}
+
 // Brings the eye what a particle scatters straight to it; `ray` leaves the vertex.
-void link_straight(Particle self, Vertex vertex, Ray ray, Eye eye) {
+void link_straight(Particle self, Vertex vertex, Normals normals, Ray ray, Eye eye) {
     precise vec3 away = eye.position - ray.origin;
     precise float distance = length(away);
     ray.direction = away / distance;
@@ -42,9 +50,11 @@ void link_straight(Particle self, Vertex vertex, Ray ray, Eye eye) {
     if (wi.z <= 0.0 || dot(ray.direction, frame.camera.forward) >= 0.0) return;
     precise vec2 place = place_on_film(-ray.direction, eye.lens);
     if (!is_on_film(place)) return;
+    precise float turn = turn_towards(normals, -self.path.ray.direction, ray.direction, false);
+    if (turn == 0.0) return;
     precise float pdf = pdf_film(-ray.direction, wi.z, distance);
-    precise float weight = particle_weight(pdf / (frame.particles * self.emission), self.kappa);
-    precise vec3 flux = self.power * self.path.throughput;
+    precise float weight = weight_of_link(self, pdf / (frame.particles * self.emission), turn);
+    precise vec3 flux = self.power * self.path.throughput * turn;
     if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance);
     precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
@@ -74,7 +84,7 @@ Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
 }
 
 // Brings the eye what a particle scatters to it through one sphere, by one way that is drawn.
-void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise inout Sampler rng) {
+void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray, Eye eye, precise inout Sampler rng) {
     precise vec2 pick = next_2d(rng);
     precise float by_branch = next_1d(rng);
     int count = bitCount(LINKED);
@@ -97,10 +107,12 @@ void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise
     if (wi.z <= 0.0 || dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
     precise float rho = pdf_of_way(pdf_camera(way.direction), material, arc, at, wi.z) / linked_this_way(material, arc, at);
     if (rho == 0.0) return;  // no link: beside a kappa that is infinite it would have no weight
-    precise float weight = particle_weight(rho / self.emission, self.kappa);
+    precise float turn = turn_towards(normals, -self.path.ray.direction, ray.direction, false);
+    if (turn == 0.0) return;
+    precise float weight = weight_of_link(self, rho / self.emission, turn);
     precise vec3 back = eye.position - way.near;
     precise float reach = length(back);
-    precise vec3 flux = self.power * self.path.throughput * tint_of(material, arc, at);
+    precise vec3 flux = self.power * self.path.throughput * turn * tint_of(material, arc, at);
     if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance + reach);
     precise vec3 value = flux * (vertex.material.color / PI) * (frame.particles * rho * weight);
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
@@ -111,10 +123,10 @@ void link_through_sphere(Particle self, Vertex vertex, Ray ray, Eye eye, precise
 
 // Brings the camera what a particle scatters to it at a matte vertex; `ray` leaves there. `by_spheres`: through one
 // of them, too.
-void link_to_camera(Particle self, Vertex vertex, Ray ray, bool by_spheres, precise inout Sampler rng) {
+void link_to_camera(Particle self, Vertex vertex, Normals normals, Ray ray, bool by_spheres, precise inout Sampler rng) {
     precise Eye eye = sample_eye(rng);
-    link_straight(self, vertex, ray, eye);
+    link_straight(self, vertex, normals, ray, eye);
     // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
     int tries = LINKED != 0 && by_spheres ? 1 : 0;
-    for (int i = 0; i < tries; ++i) link_through_sphere(self, vertex, ray, eye, rng);
+    for (int i = 0; i < tries; ++i) link_through_sphere(self, vertex, normals, ray, eye, rng);
 }

@@ -6,6 +6,7 @@ struct Particle {
     vec3 power;      // of the lamp, over the density of leaving it so
     float emission;  // that density, as pdf_emission has it
     float kappa;     // of its path, as particle_weights.glsl has it
+    float turn;      // P0 over PL of how it has scattered
     int light;
     int layer;       // of its light group
 };
@@ -89,7 +90,22 @@ Particle start_from_sun(int aim, vec2 u, vec2 v) {
     precise float emission = pdf_from_sun(ray.origin, -towards, aim);
     precise vec3 power = vec3(0.0);
     if (emission > 0.0) power = frame.sun_radiance * (PI / emission);
-    return Particle(particle_path(ray), power, emission, 0.0, SUN_LIGHT, SUN_LAYER);
+    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER);
+}
+
+// `aim` as above.
+Particle start_from_sky(int aim, vec2 v, precise inout Sampler rng) {
+    precise vec3 towards = vec3(0.0);
+    if (HAS_ENVIRONMENT) towards = sample_sky(Ray(vec3(0.0), vec3(0.0), NO_SHAPE, false), rng).ray.direction;
+    else towards = sample_cone(2.0, next_2d(rng));
+    precise Target ball = Target(frame.bounds_center, frame.bounds_radius);
+    if (aim != NOT_AIMED) ball = aimed_at(aim);
+    precise vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
+    precise Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
+    precise float emission = pdf_from_sky(ray.origin, -towards, aim);
+    precise vec3 power = vec3(0.0);
+    if (emission > 0.0) power = background(towards) * (PI / emission);
+    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SKY_LIGHT, BACKGROUND_LAYER);
 }
 
 Particle start_particle(precise inout Sampler rng) {
@@ -101,6 +117,7 @@ Particle start_particle(precise inout Sampler rng) {
         precise vec2 pick = next_2d(rng);
         if (pick.x < frame.aimed) aim = choose_aim(pick.y);
     }
+    if (SKY_SENDS) return start_from_sky(aim, v, rng);
     if (HAS_SUN) {
         if (choice.x < frame.from_sun) return start_from_sun(aim, u, v);
         choice.x = (choice.x - frame.from_sun) / (1.0 - frame.from_sun);
@@ -119,5 +136,5 @@ Particle start_particle(precise inout Sampler rng) {
     precise vec3 power = vec3(0.0);
     if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material, direction, is_front) * (PI / emission);
     precise Path path = particle_path(Ray(leaving.position, direction, light.shape, false));
-    return Particle(path, power, emission, 0.0, index, material.layer);
+    return Particle(path, power, emission, 0.0, 1.0, index, material.layer);
 }

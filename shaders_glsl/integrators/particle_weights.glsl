@@ -7,6 +7,8 @@
 //     P0 / PL = rho / pdf_emission,   rho = pdf_film / frame.particles
 //     P1 / P0 = kappa: of the density of sampling the lamp, over that of scattering to it, at the last vertex; 0
 //               where that is smooth
+// Where normals for shading break this, the ratios at the vertices that the path scatters at come in as well: in the
+// rho of a path from the camera, and in the turn of a particle (integrators/shading_normals.glsl).
 // Roulette is in neither, on both sides alike.
 
 // What particles scatter at; at other surfaces they end.
@@ -31,10 +33,10 @@ float pdf_film(vec3 direction, float cosine, float distance) {
 // Of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
 float sample_beside_particles(LightSample light, float scattered, float rho) {
     precise vec3 point = light.ray.origin;
-    if (light.light != SUN_LIGHT) point += light.distance * light.ray.direction;
+    if (!SKY_SENDS && light.light != SUN_LIGHT) point += light.distance * light.ray.direction;
     precise float ratio = scattered / light.pdf;
     precise float over = 0.0;
-    if (light.light != NO_LIGHT) {
+    if (SKY_SENDS || light.light != NO_LIGHT) {
         over = ratio * pdf_emission(light.light, point, -light.ray.direction, NOT_AIMED) / rho;
     }
     precise float weight = 1.0 / (1.0 + ratio * ratio + over * over);

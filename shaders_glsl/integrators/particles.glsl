@@ -6,10 +6,48 @@ const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs
 float kappa_of(int light, Vertex vertex, Ray ray, vec3 towards, float distance) {
     ray.direction = towards;
     precise float sampled = 0.0;
-    if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
+    if (SKY_SENDS) {
+        if (SAMPLE_SKY) sampled = pdf_sky(towards);
+    } else if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
     else sampled = pdf_light(light, ray, distance, total_weight(ray));
     precise float kappa = sampled * PI / vertex.wo.z;
     return kappa;
+}
+
+// Whether a path from the camera that comes from where a particle goes scatters around that normal, to where the
+// particle comes from.
+bool goes_back(Scattering next, Normals normals, bool is_flat) {
+    if (next.weight == vec3(0.0)) return false;
+    bool crosses = dot(next.direction, normals.facing) < 0.0;
+    return crosses == next.crosses && is_flat_towards(normals, next.direction) == is_flat;
+}
+
+// At smooth glass or metal, in the one or two directions from which paths from the camera come to where the particle
+// comes from: some of these scatter around the true normal, which `vertex` has, some around the other one.
+Scattering scatter_particle(Vertex vertex, Normals normals, precise inout Sampler rng) {
+    precise Scattering flat_one = sample_material(vertex, rng);
+    if (!HAS_SHADING || !is_delta(vertex.material) || normals.shading == normals.facing) return flat_one;
+    if (!goes_back(flat_one, normals, true)) flat_one.weight = vec3(0.0);
+    precise vec3 wi = normalized(vertex.frame * vertex.wo);
+    if (dot(wi, normals.shading) <= 0.0) return flat_one;
+    vertex.frame = frame_around(normals.shading);
+    vertex.wo = to_local(vertex.frame, wi);
+    precise Scattering bent_one = sample_material(vertex, rng);
+    if (!goes_back(bent_one, normals, false)) return flat_one;
+    if (flat_one.weight == vec3(0.0)) return bent_one;
+    precise float choice = next_1d(rng);
+    flat_one.weight *= 2.0;
+    bent_one.weight *= 2.0;
+    if (choice < 0.5) return flat_one;
+    return bent_one;
+}
+
+// What scattering from one direction to the other makes of its flux and of its weight.
+void turn_particle(precise inout Particle self, Normals normals, vec3 wo, bool is_smooth) {
+    precise float turn = turn_towards(normals, -self.path.ray.direction, wo, is_smooth);
+    self.path.throughput *= turn;
+    self.turn *= turn;
+    if (self.path.depth == 0 && turn > 0.0) self.kappa /= turn;
 }
 
 // Follows one segment; false when the particle ends with it. `by_spheres`: as link_to_camera has it.
@@ -26,13 +64,16 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
                   self.path.throughput);
     if (HAS_NESTED && passes(self.path, surface, material, side > 0.0)) return true;
+    if (HAS_TRANSMISSION && material.kind == PRINCIPLED) material = met_part(material, next_1d(rng));
     if (!carries_particles(material)) return false;
     precise mat3 around = frame_around(facing);
     precise Vertex vertex = vertex_of(around, to_local(around, -direction), material, side > 0.0);
     precise Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
+    precise Normals normals = Normals(facing, facing);
+    if (HAS_SHADING) normals.shading = side * (HAS_NORMAL_MAP ? bent_normal(self.path.ray, surface) : surface.normal);
     if (!is_delta(material)) {
         if (self.path.depth == 0) self.kappa = kappa_of(self.light, vertex, ray, -direction, hit.distance);
-        link_to_camera(self, vertex, ray, by_spheres, rng);
+        link_to_camera(self, vertex, normals, ray, by_spheres, rng);
     }
     uint beyond = self.path.counts;
     if (is_medium(material)) {
@@ -40,9 +81,10 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
         vertex.eta = ior_of_medium(self.path.counts) / ior_of_medium(beyond);
     }
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(self.path, material, side > 0.0) : vec3(0.0);
-    precise Scattering next = sample_material(vertex, rng);
+    precise Scattering next = scatter_particle(vertex, normals, rng);
     record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
     self.path.throughput *= next.weight;
+    if (HAS_SHADING) turn_particle(self, normals, next.direction, is_delta(material));
     if (self.path.throughput == vec3(0.0)) return false;
     if (ROULETTE && ends_at_random(self.path.throughput, KEEP, rng)) return false;
     ray.direction = next.direction;

@@ -79,17 +79,6 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
     note_end(i, light_count());
 }
 
-// Around the shading normal, on the side of wo; around the facet's own where the shading normal faces
-// away from wo, or would reflect it through the surface.
-mat3 shading_frame(vec3 facing, vec3 normal, vec3 direction) {
-    if (HAS_SMOOTH || HAS_NORMAL_MAP) {
-        precise float along = dot(normal, direction);
-        precise vec3 reflected = direction - 2.0 * along * normal;
-        if (along >= 0.0 || dot(reflected, facing) <= 0.0) return frame_around(facing);
-    }
-    return frame_around(normal);
-}
-
 // Of what lies behind a surface of this material; `enters`: whether behind is its inside.
 vec3 absorption_behind(Path path, Material material, bool enters) {
     if (is_medium(material)) {
@@ -149,8 +138,10 @@ float weight_of_emission(Path path, Hit hit, int light) {
 void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, int source, vec3 facing, vec3 behind) {
     precise float height = dot(light.ray.direction, facing);
     precise float along = dot(light.ray.direction, vertex.frame[2]);
-    if ((HAS_SMOOTH || HAS_NORMAL_MAP) && height * along <= 0.0) light.pdf = 0.0;
-    precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light, path.rho);
+    if (HAS_SHADING && height * along <= 0.0) light.pdf = 0.0;
+    precise float rho = path.rho;
+    if (HAS_PARTICLES) rho *= turn_around(vertex.frame[2], facing, light.ray.direction, -path.ray.direction, false);
+    precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light, rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
     record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
@@ -158,20 +149,27 @@ void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, i
 }
 
 // What particles that are linked to the camera at the path's first vertex are weighed against: none are, or
-// come so far, at a surface that they do not scatter at.
-float rho_beyond(Path path, Vertex vertex, Surface surface) {
+// come so far, at a surface that they do not scatter at. `facing`: the true normal on the side of wo.
+float rho_beyond(Path path, Vertex vertex, Surface surface, vec3 facing) {
     if (!carries_particles(vertex.material)) return 0.0;
     if (path.depth > 0 && (LINKED == 0 || path.chain.state == BROKEN)) return path.rho;
     if (is_delta(vertex.material)) return 0.0;
-    if (path.depth > 0) return rho_of_link(path.chain, surface.position, vertex.wo.z);
+    precise float cosine = HAS_SHADING ? -dot(path.ray.direction, facing) : vertex.wo.z;
+    if (path.depth > 0) return rho_of_link(path.chain, surface.position, cosine);
     precise float distance = length(surface.position - path.ray.origin);
-    precise float rho = pdf_film(path.ray.direction, vertex.wo.z, distance) / frame.particles;
+    precise float rho = pdf_film(path.ray.direction, cosine, distance) / frame.particles;
     return rho;
 }
 
 // The share of the sky's light that scattering may count.
 float sky_weight(Path path) {
-    if (path.pdf == 0.0) return 1.0;
+    if (SKY_SENDS && path.rho > 0.0) {
+        precise float kappa = SAMPLE_SKY && path.pdf > 0.0 ? pdf_sky(path.ray.direction) / path.pdf : 0.0;
+        precise float share = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SKY_LIGHT, kappa, path.rho);
+        record_weight(kappa * path.pdf, share);
+        return share;
+    }
+    if (!SAMPLE_SKY || path.pdf == 0.0) return 1.0;
     precise float light_pdf = pdf_sky(path.ray.direction);
     if (light_pdf == 0.0) return 1.0;
     precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
@@ -220,7 +218,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     }
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(path, material, side > 0.0) : vec3(0.0);
     precise float lamps = total_weight(ray);
-    if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface);
+    if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface, facing);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
         gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
@@ -236,8 +234,9 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     precise Scattering next = sample_material(vertex, rng);
     record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
     if (LINKED != 0) follow_chain(path.chain, surface.shape, vertex, next.crosses);
-    if ((HAS_SMOOTH || HAS_NORMAL_MAP) && (dot(next.direction, facing) < 0.0) != next.crosses) {
-        return goes_on(END_BELOW_SURFACE);
+    if (HAS_SHADING && (dot(next.direction, facing) < 0.0) != next.crosses) return goes_on(END_BELOW_SURFACE);
+    if (HAS_PARTICLES) {
+        path.rho *= turn_around(vertex.frame[2], facing, next.direction, -path.ray.direction, is_delta(material));
     }
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return goes_on(END_ABSORBED);
@@ -265,7 +264,7 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
         if (HAS_BACKGROUND) {
             precise vec3 sky = path.scale * path.throughput * background(path.ray.direction);
             if (HAS_ATTENUATION) sky *= share_left_of_sky(path.absorption);
-            if (SAMPLE_SKY) sky *= sky_weight(path);
+            if (SAMPLE_SKY || SKY_SENDS) sky *= sky_weight(path);
             record_light(BY_SCATTERING, FROM_BACKGROUND, path.pdf, background(path.ray.direction), sky);
             gather(path, sky, BACKGROUND_LAYER, path.depth);
         }

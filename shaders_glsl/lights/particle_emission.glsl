@@ -4,7 +4,10 @@
 // glass or metal, by its number; TARGETS: how many balls there are around other such shapes.
 //
 // From the sun, particles come along its rays, spread evenly over the disk that a ball fills across them: the ball
-// around the scene, or one that is aimed at.
+// around the scene, or one that is aimed at. So they do from the sky, in directions that are drawn as those of its
+// image are sampled, or evenly; all of them, where neither lamps nor the sun send any.
+
+const bool SKY_SENDS = HAS_PARTICLES && HAS_BACKGROUND && CLUSTERS == 0 && !HAS_SUN;
 
 const int NOT_AIMED = -1;
 const int FIRST_TARGET = 1 << 20;  // beyond all spheres: the number of what is aimed at, where that is no sphere
@@ -92,9 +95,8 @@ float density_across(vec3 center, float radius, vec3 p, vec3 direction, bool cer
     return density;
 }
 
-// PI times the density of particles from the sun on a line through p, per area across it and per solid angle; the sun
-// lies in that direction.
-float pdf_from_sun(vec3 p, vec3 direction, int certain) {
+// Density per area across it of particles from afar on a line through p.
+float density_from_afar(vec3 p, vec3 direction, int certain) {
     precise float density = density_across(frame.bounds_center, frame.bounds_radius, p, direction, false);
     if (is_aimed()) {
         precise float sum = 0.0;
@@ -111,7 +113,25 @@ float pdf_from_sun(vec3 p, vec3 direction, int certain) {
         }
         density = (1.0 - frame.aimed) * density + frame.aimed * sum / float(ball_count());
     }
-    precise float pdf = PI * frame.from_sun * pdf_sun() * density;
+    return density;
+}
+
+// PI times the density of particles from the sun on a line through p, per area across it and per solid angle; the sun
+// lies in that direction.
+float pdf_from_sun(vec3 p, vec3 direction, int certain) {
+    precise float pdf = PI * frame.from_sun * pdf_sun() * density_from_afar(p, direction, certain);
+    return pdf;
+}
+
+// Of directions towards the sky that particles come from, per solid angle.
+float pdf_sky_direction(vec3 towards) {
+    if (HAS_ENVIRONMENT) return pdf_sky(towards);
+    return 0.25 / PI;
+}
+
+// As pdf_from_sun; `direction` is that of the particles, and the sky lies behind them.
+float pdf_from_sky(vec3 p, vec3 direction, int certain) {
+    precise float pdf = PI * pdf_sky_direction(-direction) * density_from_afar(p, direction, certain);
     return pdf;
 }
 
@@ -151,8 +171,9 @@ Aspect aspect_of(Light light, vec3 p, vec3 direction) {
 }
 
 // PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
-// does. `certain` as pdf_aimed has it. Of the sun, p is any point on the line.
+// does. `certain` as pdf_aimed has it. Of the sun and the sky, p is any point on the line.
 float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
+    if (SKY_SENDS) return pdf_from_sky(p, direction, certain);
     if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);
     precise Aspect aspect = aspect_of(light_at(index), p, direction);
     if (aspect.by_cosine == 1.0 && aspect.cosine == 0.0) return 0.0;

@@ -3,6 +3,7 @@
 const int NO_LIGHT = -1;
 const int SEVERAL = -2;  // lamps, so no shape
 const int SUN_LIGHT = -3;  // in place of the number of a lamp
+const int SKY_LIGHT = -4;
 
 const int PARTS = 8;  // of a cluster, among many lamps
 

@@ -16,6 +16,8 @@ from tests.mutation.lights import LIGHTS
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
+from tests.mutation.particle_normals import PARTICLE_NORMALS
+from tests.mutation.particle_sky import PARTICLE_SKY
 from tests.mutation.particles import PARTICLES
 from tests.mutation.paths import PATHS
 from tests.mutation.principled import PRINCIPLED
@@ -32,6 +34,8 @@ MUTANTS = [
     *TRANSPORT,
     *PRINCIPLED,
     *PARTICLES,
+    *PARTICLE_NORMALS,
+    *PARTICLE_SKY,
     *SPHERE_LINKS,
     *SHAPES,
     *MESHES,

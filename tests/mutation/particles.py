@@ -178,6 +178,16 @@ PARTICLES = [
         _LIGHT,
     ),
     Mutant(
+        "particles end at glass that is a part of a surface",
+        edit(
+            _PARTICLES,
+            "    if (HAS_TRANSMISSION && material.kind == PRINCIPLED) "
+            "material = met_part(material, next_1d(rng));\n",
+            "",
+        ),
+        _LIGHT,
+    ),
+    Mutant(
         "all particles are on the first layer",
         edit(_LINKS, "min(BY_LENGTH ? length : self.layer, LAYERS - 1)", "0"),
         f"{_LAYERS}::test_a_group_alone_is_the_scene_with_the_other_one_dark",

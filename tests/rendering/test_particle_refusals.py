@@ -17,13 +17,13 @@ ON: dict[str, Any] = {"caustics": "on"}
 MANY = [sphere([0.1 * k, 0.5, -3], 0.02, "lamp") for k in range(40)]
 REFUSED: dict[str, tuple[Scene, dict[str, Any]]] = {
     "method mis alone, not by nee": (ROOMS["a lens"], {"method": "nee"}),
-    "no sphere, quad, disk, mesh or sun shines": (room(BALL), {}),
+    "no sphere, quad, disk, mesh, sun or sky shines": (room(BALL), {}),
     "of 40 lamps, too many": (room(*MANY), {}),
     "some surfaces have holes": (
         scene_of([LAMP, BALL], {**MATERIALS, "glass": {"type": "principled", "alpha": 0.5}}),
         {},
     ),
-    "a lamp or the sun is in tinted glass or in one with a priority": (
+    "a lamp, sun or sky is in tinted glass or one with a priority": (
         room(LAMP, sphere([0, 0.9, -0.2], 0.4, "water")),
         {},
     ),

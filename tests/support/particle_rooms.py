@@ -33,6 +33,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "ice": glass(1.31, priority=4),
     "dim": lamp(0.7),
     "plastic": {"type": "principled", "color": [0.2, 0.5, 0.8]},
+    "jelly": {"type": "principled", "color": [0.9, 0.8, 0.7], "transmission": 0.8, "roughness": 0},
     "lamp": lamp(12.0),
     "spot": lamp(60.0, cone={"axis": [0.2, -1, 0], "inner": 20, "outer": 50}),
 }
@@ -84,6 +85,7 @@ ROOMS = {
     "water in a glass": room(LAMP, *DRINK),
     "the sun": outside(BALL, cylinder([-0.5, -1, -0.5], [-0.5, -0.4, -0.5], 0.2, "glass")),
     "the sun, a lamp and a drink": outside(quad([-1, 1, -2], [2, 0, 0], [0, 1, 0], "dim"), *DRINK),
+    "glass in part": room(LAMP, {**BALL, "material": "jelly"}),
     "what particles end at": room(
         LAMP,
         BALL,

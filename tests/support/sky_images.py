@@ -8,7 +8,7 @@ import OpenEXR  # type: ignore[import-not-found]
 
 from glrt.scene.named_images import ImageFile, Pixels
 from glrt.scene.scene import Scene
-from tests.support.builders import MATTE, scene_of
+from tests.support.builders import MATTE, glass, scene_of
 from tests.support.numerics import Array
 
 
@@ -30,7 +30,8 @@ def random_sky(width: int, height: int, seed: int = 1) -> Pixels:
 
 def under(pixels: Pixels, *objects: dict[str, Any], **background: Any) -> Scene:
     """Matte things under an image of the sky that needs no file."""
-    materials = {"m": MATTE, "mirror": {"type": "metal", "color": [1, 1, 1]}}
+    mirror = {"type": "metal", "color": [1, 1, 1]}
+    materials = {"m": MATTE, "mirror": mirror, "glass": glass()}
     camera = background.pop("camera", {})
     sky = {"image": "sky.exr", **background}
     scene = scene_of(list(objects), materials, camera, background=sky)

@@ -1,0 +1,149 @@
+"""Particles from the sky, where nothing else sends any: the same light as without them."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from glrt.gpu.context import Context
+from glrt.methods.features import needs_of
+from glrt.methods.particles import ball_around
+from glrt.scene.scene import Scene
+from glrt.settings import settings_for
+from tests.conftest import CallGlsl
+from tests.support.builders import box, cylinder, glass, lamp, plane, scene_of, sphere
+from tests.support.images import same_bits
+from tests.support.numerics import directions
+from tests.support.particle_starts import particle_text, starts
+from tests.support.renders import assert_agree, assert_mean, rendered, rendering, whole
+from tests.support.sky_images import spot, under
+
+ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
+CAMERA: dict[str, Any] = {"position": [0, 0, 0.9], "look_at": [0, -0.3, -1], "fov": 80}
+BALL = sphere([0.35, -0.6, -0.3], 0.35, "glass")
+TUBE = cylinder([-0.5, -1, -0.5], [-0.5, -0.4, -0.5], 0.2, "glass")
+FLOOR = box([-2, -1.1, -2.5], [2, -1, 1], "m")
+DOME = {"bottom": [0.1, 0.1, 0.1], "horizon": [0.5, 0.5, 0.5], "top": [2, 1, 3]}
+KINDS: dict[str, dict[str, Any]] = {
+    "m": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},
+    "white": {"type": "lambertian", "color": [1, 1, 1]},
+    "glass": glass(),
+    "lamp": lamp(),
+}
+
+
+def sun_in_an_image(*things: dict[str, Any]) -> Scene:
+    """One bright pixel in a dim sky."""
+    return under(spot(10, 1, radiance=60.0) + np.float32(0.2), *things, camera=CAMERA)
+
+
+SKIES: dict[str, Scene] = {
+    "gradient": scene_of([FLOOR, BALL, TUBE], KINDS, CAMERA, background=DOME),
+    "image": sun_in_an_image(FLOOR, BALL),
+    "image, a floor without end": sun_in_an_image(plane([0, -1, 0], [0, 1, 0], "m"), BALL, TUBE),
+}
+
+
+@pytest.fixture
+def particle_files() -> str:
+    """What follows particles, without a film."""
+    return particle_text()
+
+
+@pytest.mark.parametrize("name", SKIES)
+def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
+    size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 5}
+    without = rendered(SKIES[name], context, 2048, seed=1, **size)
+    image = rendered(SKIES[name], context, 512, **size, **ON, particles=1.0)
+    assert_agree(image, without, within=0.05)
+
+
+def test_a_white_furnace_stays_white(context: Context) -> None:
+    """All that a constant sky surrounds has its radiance, if it absorbs nothing."""
+    things = [sphere([-0.4, 0, -1.5], 0.5, "white"), sphere([0.5, 0, -1.2], 0.4, "glass")]
+    sky = {"color": [0.7, 0.7, 0.7]}
+    scene = scene_of(things, KINDS, {**CAMERA, "look_at": [0, 0, -1]}, background=sky)
+    image = rendered(scene, context, 512, **ON, particles=2.0, bounces=60)
+    assert_mean(whole(image), 0.7, within=0.005, floor=1e-5)
+
+
+def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context) -> None:
+    """Over the floor beside the ball."""
+    size: dict[str, Any] = {"width": 48, "height": 48, "sampler": "sobol", "particles": 1.0}
+    errors = [
+        float(np.square(rendered(SKIES["image"], context, 256, **size, **way).stderr).mean()) ** 0.5
+        for way in ({}, ON)
+    ]
+    assert errors[1] < errors[0] / 1.3
+
+
+def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl) -> None:
+    """Over all directions, and the area across them, its integral is 1."""
+    scene = under(spot(10, 1, radiance=2.0) + np.float32(0.2), FLOOR, BALL, camera=CAMERA)
+    around = ball_around(scene)
+    assert around
+    eye = np.array(scene.camera.position)
+    towards = directions(400_000)
+    random = np.random.default_rng(5)
+    u = np.cross(towards, [0.3, 0.5, 0.8])
+    u /= np.linalg.norm(u, axis=1, keepdims=True)
+    a, b = (random.uniform(-1.2, 1.2, (len(towards), 1)) * around.radius for _ in range(2))
+    found = call_glsl(
+        "pdf_emission(SKY_LIGHT, p, towards, NOT_AIMED) / PI",
+        scene=scene,
+        options={**ON, "aimed": 0.5},
+        p=around.center - eye + a * u + b * np.cross(towards, u),
+        towards=-towards,
+    ).astype(np.float64)
+    total = 4 * np.pi * (2.4 * around.radius) ** 2 * found
+    assert abs(total.mean() - 1) < 5 * total.std() / np.sqrt(total.size)
+    assert total.std() / np.sqrt(total.size) < 0.02
+
+
+def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files: str) -> None:
+    """Through the ball around the scene: 4 pi times the radiance, times the area of its disk."""
+    scene = scene_of([FLOOR, BALL], KINDS, CAMERA, background={"color": [2, 2, 2]})
+    around = ball_around(scene)
+    assert around
+    power = starts(call_glsl, particle_files, scene, "particle.power.x + 0.0 * n", "float")
+    flux = 4 * np.pi * 2 * np.pi * around.radius**2
+    assert abs(power.mean() - flux) < 5 * power.std() / np.sqrt(power.size) + 1e-5 * flux
+    assert power.std() / np.sqrt(power.size) < 0.02 * flux
+
+
+def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
+    """As the light of a lamp is."""
+    random = np.random.default_rng(9)
+    kappa, rho, scattered = (10.0 ** random.uniform(-3, 3, 5000) for _ in range(3))
+    weights = [
+        "emission_beside_particles(ray, Hit(0.0, NO_SHAPE), SKY_LIGHT, kappa, rho)",
+        "sample_beside_particles(light, scattered, rho)",
+        "particle_weight(rho / pdf_emission(SKY_LIGHT, p, -ray.direction, NOT_AIMED), kappa)",
+    ]
+    setup = """
+    precise vec3 p = vec3(0.1, -0.5, -1.2);
+    precise Ray ray = Ray(p, normalized(vec3(0.3, 1.0, 0.2)), NO_SHAPE, false);
+    LightSample light = LightSample(ray, FAR, kappa * scattered, vec3(0.0), 0, 0, NO_LIGHT);"""
+    inputs = {"kappa": kappa, "rho": 0.01 * rho, "scattered": scattered}
+    shares = [
+        call_glsl(weight, scene=SKIES["image"], options=ON, setup=setup, **inputs)
+        for weight in weights
+    ]
+    assert_allclose(np.sum(shares, axis=0), 1, rtol=2e-6)
+    assert all((share > 0.5).sum() > 50 for share in shares)
+
+
+def test_where_a_lamp_shines_the_sky_sends_none(context: Context) -> None:
+    """So that pictures with particles, a lamp and a sky keep their bits."""
+    things = [FLOOR, BALL, sphere([0, 1, -0.5], 0.1, "lamp")]
+    films = []
+    for top in ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]):
+        sky = {"bottom": [0, 0, 0.5], "top": top}
+        scene = scene_of(things, KINDS, CAMERA, background=sky)
+        assert needs_of(scene, settings_for(scene.render, **ON)).has_particles
+        with rendering(scene, context, **ON) as renderer:
+            image = renderer.render(16).image()
+            assert image.particles
+            films.append(image.particles.mean)
+    assert same_bits(*films)
