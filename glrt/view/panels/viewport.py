@@ -21,6 +21,7 @@ from glrt.view.panels.pair_images import (
     draw_wipe_handle,
 )
 from glrt.view.panels.path_overlay import draw_outside, draw_paths
+from glrt.view.panels.tour import room_beside_tour
 from glrt.view.state.keys import Action, Move
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
@@ -97,8 +98,9 @@ def draw_viewport(app: App) -> None:
     low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
         draw_legend(app.show, app.camera, app.progress.last, low, seen[2])
-    for line, notice in enumerate(filter(None, _notices(app))):
-        draw_notice(notice, ImVec2(*seen[:2]) + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+    place, width = room_beside_tour(seen)
+    for notice in filter(None, _notices(app)):
+        place.y += draw_notice(notice, place, width)
     if app.inspects:
         _pixel_values(app, seen)
 
