@@ -178,6 +178,13 @@ class App:
         """Let the next clicks choose a pixel, or select objects again."""
         self.paths.is_choosing = not self.paths.is_choosing
 
+    def end_paths(self) -> None:
+        """Let clicks select objects again; where they do, show no paths."""
+        if self.paths.is_choosing:
+            self.paths.is_choosing = False
+        else:
+            self.paths.forget()
+
     def ask_paths(self, x: float, y: float) -> None:
         """Show the paths of the pixel at a place of the picture, from (0, 0) to (1, 1)."""
         session = self.session

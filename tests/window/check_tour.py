@@ -55,7 +55,8 @@ def the_tour_keeps_nobody_from_the_picture(hand: Hand) -> None:
 
 @check
 def lines_in_the_picture_are_not_under_the_tour(hand: Hand) -> None:
-    app, lines = hand.window.app, []
+    app = hand.window.app
+    lines: list[tuple[float, float, float]] = []
     hand.there(lambda: app.prefer(replaced(app.preferences, tour=True)))
     app.tour_step = 0
     hand.ctx.yield_(3)

@@ -3,10 +3,12 @@
 from typing import Any, get_args
 
 import numpy as np
+from imgui_bundle import imgui
 
 from glrt.rendering.false_colors import ERROR
 from glrt.settings import Aov
 from glrt.view.panels.inspector import told_pixel
+from tests.window.gestures import lines_told, press
 from tests.window.hand import Hand, check
 
 
@@ -74,7 +76,10 @@ def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -
     hand.until(lambda: session.samples >= session.known_from)
     hand.there(lambda: session.edit(samples=session.samples))
     hand.settle()
-    (shown,) = views(hand, "bounces")
+    views(hand, "bounces")
+    hand.until(lambda: app.show.is_done(session))
+    hand.ctx.yield_(2)
+    shown = hand.pixels()[..., :3]
     assert session.renderer
     image = hand.there(session.renderer.plain_image)
     found = image.aovs["bounces"]
@@ -104,3 +109,28 @@ def bounces_beyond_the_loop_limit_are_refused_once_and_the_picture_stays(hand: H
     samples = session.samples
     hand.until(lambda: session.samples > samples)
     assert not session.problem
+
+
+@check
+def a_view_that_is_on_its_way_is_told(hand: Hand) -> None:
+    app = hand.window.app
+    hand.ctx.set_ref("Controls")
+    with lines_told() as lines:
+        hand.ctx.combo_click("view/normal")
+        hand.until(lambda: app.show.drawn == "normal")
+        assert "The view normal comes with its first sample" in lines
+        hand.ctx.yield_(2)
+        lines.clear()
+        hand.ctx.yield_(2)
+        assert not any("comes with" in line for line in lines)
+
+
+@check
+def the_zoom_is_told_with_the_key_that_ends_it(hand: Hand) -> None:
+    with lines_told() as lines:
+        press(hand, imgui.Key._1)
+        assert "zoom 1:1; 0 shows the whole picture" in lines
+        press(hand, imgui.Key._0)
+        lines.clear()
+        hand.ctx.yield_(2)
+        assert not any("zoom" in line for line in lines)

@@ -9,6 +9,7 @@ from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.pass_film import Array
 from glrt.rendering.weighting import Reading
 from glrt.settings import Cost
+from glrt.text import counted
 from glrt.view.app import App
 from glrt.view.panels.widgets import beside, button, edited, tip
 from glrt.view.state.controls import switch
@@ -84,7 +85,7 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
     codes = expose_and_encode(found.radiance, settings.exposure, settings.tonemap)
     shown = " ".join(f"{int(code):3d}" for code in codes)
     return [
-        f"pixel {pixel[0]}, {pixel[1]}{name}: {found.samples} samples",
+        f"pixel {pixel[0]}, {pixel[1]}{name}: {counted(found.samples, 'sample')}",
         f"radiance {_numbers(found.radiance)}",
         f"standard error {_error(found)}",
         f"on the screen {shown}",

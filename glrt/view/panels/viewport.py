@@ -20,9 +20,9 @@ from glrt.view.panels.pair_images import (
     draw_wipe,
     draw_wipe_handle,
 )
-from glrt.view.panels.path_overlay import draw_outside, draw_paths
+from glrt.view.panels.path_overlay import draw_outside, draw_paths, told_paths
 from glrt.view.panels.tour import room_beside_tour
-from glrt.view.state.keys import Action, Move
+from glrt.view.state.keys import Action, Move, label
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
 
@@ -60,7 +60,6 @@ _EVERY_BUTTON = int(
     | imgui.ButtonFlags_.mouse_button_middle
 )
 _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
-_CHOOSE = "click a pixel to see its paths"
 _FRAMED = 4.0  # pixels of the screen: a pixel that is as large gets a frame when it is read
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 
@@ -116,12 +115,22 @@ def _notices(app: App) -> tuple[str, ...]:
     """What is told in the picture, a line each; "" for nothing."""
     return (
         app.show.notice(app.session),
-        app.paths.busy or _CHOOSE * (app.paths.is_choosing and not app.paths.found),
+        told_paths(app),
         "old picture, until the new one has a sample" if _is_old(app) else "",
         "paused" if app.session.paused else "",
         NOTICE if app.navigates else "",
+        _told_zoom(app),
         app.messages.recent(time.perf_counter()),
     )
+
+
+def _told_zoom(app: App) -> str:
+    """How large pixels are, and the key that ends it; "" where the whole picture is shown."""
+    scale, keys = app.zoom.scale, app.preferences.bindings["fit"]
+    if scale is None:
+        return ""
+    ratio = f"{scale:.3g}:1" if scale >= 1 else f"1:{1 / scale:.3g}"
+    return f"zoom {ratio}" + (f"; {label(keys[0])} shows the whole picture" if keys else "")
 
 
 def _is_old(app: App) -> bool:
@@ -180,11 +189,14 @@ def draw_keys(app: App) -> None:
     is_open = imgui.is_popup_open("", _ANY_POPUP)
     if is_open and imgui.is_key_pressed(imgui.Key.escape):
         imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+    is_free = not app.was_busy  # Dear ImGui has had Escape before
     is_left = leaves(app)
     if io.want_text_input or is_open or is_choosing(app):
         return
     if is_left:
         navigate(app, False)
+    elif is_free and imgui.is_key_pressed(imgui.Key.escape, False):
+        app.end_paths()
     seconds = min(io.delta_time, _LONGEST_STEP)
     moves = {} if app.navigates else _AXES
     held = [axis for action, axis in moves.items() if _is_held(app, action)]

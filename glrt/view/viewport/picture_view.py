@@ -16,7 +16,7 @@ from glrt.view.viewport.views import View, aov_of, scale_of
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
-HISTORY = "with light of earlier views, until there are samples enough"
+HISTORY = "with light of earlier views, until there are {} samples"
 
 
 @dataclass
@@ -128,12 +128,14 @@ class PictureView:
             return session.busy
         if self.is_surface:
             return SURFACE
-        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
-            return HISTORY
-        if self.view == "picture":
-            return ""
         if self.view == "error" and not self._knows_error(session):
             return f"The error is known after {2 * renderer.film.extent.block} samples"
+        if aov_of(self.view) and self.drawn != self.view:
+            return f"The view {self.view} comes with its first sample"
+        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
+            return HISTORY.format(session.moving.end)
+        if self.view == "picture":
+            return ""
         if self.view != "difference":
             return ""
         if not kept:
