@@ -2,23 +2,20 @@
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
-from glrt.errors import GlrtError, UsageError
+from glrt.errors import GlrtError
 from glrt.gpu.glsl import files_anew
-from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
-from glrt.scene.values import LARGEST, SMALLEST, Vector
+from glrt.scene.values import Vector
+from glrt.view.camera_moves import CameraMoves
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
 from glrt.view.pair import Pair
-from glrt.view.state.controls import replaced
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
@@ -37,7 +34,7 @@ SIZE = 0.07  # of half a new object, in distances from the camera to the pivot
 
 
 @dataclass
-class App:
+class App(CameraMoves):
     """A session with its picture, and how the user wants to see it."""
 
     session: Session
@@ -79,29 +76,10 @@ class App:
             self.session, self.messages, source, recent, self.show_scene, self.add_model
         )
 
-    @property
-    def camera(self) -> Camera:
-        """The camera as edited."""
-        return self.session.scene.camera
-
     def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
         """Replace the scene by what is made of it; a scene that does not fit is told."""
         with self.messages.telling():
             self.session.edit(make(self.session.scene), gesture)
-
-    def place(self, camera: Camera) -> None:
-        """Put the camera somewhere else; moves in a row are one step to undo."""
-        self.session.edit(self.session.scene.model_copy(update={"camera": camera}), "camera")
-
-    def _move(self, motion: Callable[..., Camera], *how: Any) -> None:
-        """Move the camera as one of `orbit` does; where that ends, the camera stops."""
-        with suppress(UsageError):
-            self.place(motion(self.camera, *how))
-
-    def home(self) -> None:
-        """Back to the camera that the scene came with."""
-        self.pivot = self.session.opened.scene.camera.look_at
-        self.place(self.session.opened.scene.camera)
 
     def prefer(self, preferences: Preferences) -> None:
         """Take other preferences, and keep them."""
@@ -222,20 +200,6 @@ class App:
                 self.place(orbit.framed(self.camera, shape.middle, reach))
                 self.pivot = shape.middle
 
-    def focus_on(self, point: Vector) -> None:
-        """Make a point sharp; one behind the camera is left alone."""
-        depth = orbit.depth_of(self.camera, point)
-        if depth > 0:
-            near = max(SMALLEST, min(depth, LARGEST))
-            self.place(replaced(self.camera, focus_distance=near))
-
-    def turn_about(self, point: Vector) -> None:
-        """Make a point the pivot; no camera comes to one beyond all lengths."""
-        if all(abs(part) <= LARGEST for part in point):
-            self.pivot = point
-        else:
-            self.messages.complain("That point is too far away for a pivot.")
-
     @property
     def picture(self) -> Picture:
         """What is on the screen."""
@@ -271,33 +235,3 @@ class App:
             self.pair.look(now)
             look = self.progress.follow(self.session, now)
             self.show.mean = look.mean if look else self.show.mean
-
-    def turn(self, across: float, down: float, about_camera: bool) -> None:
-        """Turn by a drag, given as shares of the window's width and height."""
-        yaw = -across * self.preferences.turn_speed
-        pitch = -down * self.preferences.turn_speed * (-1 if self.preferences.invert else 1)
-        if about_camera:
-            self._move(orbit.looked, yaw, pitch)
-        else:
-            self._move(orbit.orbited, self.pivot, yaw, pitch)
-
-    def shift(self, across: float, down: float) -> None:
-        """Shift by a drag so that what is as far as the pivot follows the mouse, about."""
-        self._move(orbit.moved, -across * self.reach, down * self.reach, 0)
-
-    def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
-        """Step along the camera's axes, at the speed that is preferred."""
-        step = seconds * self.preferences.walk_speed * self.reach
-        self._move(orbit.moved, right * step, up * step, forward * step)
-
-    def wheel(self, clicks: float) -> None:
-        """Towards the pivot; in fly mode straight on."""
-        clicks *= self.preferences.wheel_speed
-        if self.preferences.mode == "orbit":
-            return self._move(orbit.dollied, self.pivot, clicks)
-        return self._move(orbit.moved, 0, 0, 0.1 * clicks * self.reach)
-
-    @property
-    def reach(self) -> float:
-        """The distance that speeds are measured in: to the pivot."""
-        return max(orbit.distance_to(self.camera, self.pivot), 1e-6)
