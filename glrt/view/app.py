@@ -16,10 +16,11 @@ from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
 from glrt.view.pair import Pair
+from glrt.view.state.changes import told_change
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
-from glrt.view.state.new_objects import with_model, with_new
+from glrt.view.state.new_objects import two_digits, with_model, with_new
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.scene_edits import found_again, with_duplicate, without_object
@@ -29,6 +30,7 @@ from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
+from glrt.view.viewport.transform import clear_of
 
 SIZE = 0.07  # of half a new object, in distances from the camera to the pivot
 
@@ -128,9 +130,10 @@ class App(CameraMoves):
         self._add(lambda scene: with_model(scene, path, self.pivot, 2 * SIZE * self.reach))
 
     def duplicate(self) -> None:
-        """A copy of the selected object, as the selected one."""
-        if self.selected_shape and self.selected is not None:
-            self._add(partial(with_duplicate, index=self.selected))
+        """A copy of the selected object beside it, as the selected one."""
+        if (shape := self.selected_shape) and self.selected is not None:
+            copy = clear_of(shape, self.pivot, two_digits(SIZE * self.reach))
+            self._add(partial(with_duplicate, index=self.selected, moved=copy))
 
     def _add(self, make: Callable[[Scene], Scene]) -> None:
         count = len(self.session.scene.objects)
@@ -176,15 +179,28 @@ class App(CameraMoves):
 
     def undo(self) -> None:
         """Take back the last gesture; what was selected stays so, or what comes back is."""
-        self._step(self.session.undo)
+        self._step(self.session.undo, self.undoes)
 
     def redo(self) -> None:
         """Do again what was taken back."""
-        self._step(self.session.redo)
+        self._step(self.session.redo, self.redoes)
 
-    def _step(self, step: Callable[[], None]) -> None:
+    @property
+    def undoes(self) -> str:
+        """What undo takes back, in a few words; "" where there is nothing."""
+        before = self.session.history.before
+        return f"Undo: {told_change(before, self.session.state)}" if before else ""
+
+    @property
+    def redoes(self) -> str:
+        """What redo does again; "" where there is nothing."""
+        after = self.session.history.undone
+        return f"Redo: {told_change(self.session.state, after)}" if after else ""
+
+    def _step(self, step: Callable[[], None], told: str) -> None:
         before = self.session.scene.objects
         step()
+        self.messages.tell(told or "There is nothing more to undo or redo")
         self.selected = found_again(before, self.session.scene.objects, self.selected)
 
     def pick(self, x: float, y: float) -> Picked | None:
