@@ -3,10 +3,12 @@
 from typing import Any, get_args
 
 import numpy as np
+import pytest
 from imgui_bundle import imgui
 
 from glrt.rendering.false_colors import ERROR
-from glrt.settings import Aov
+from glrt.settings import Aov, Cost
+from glrt.view.panels import legend
 from glrt.view.panels.inspector import told_pixel
 from tests.window.gestures import lines_told, press
 from tests.window.hand import Hand, check
@@ -94,6 +96,35 @@ def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -
     hand.there(lambda: session.edit(bounces=2, samples=session.samples))
     hand.settle()
     hand.until(lambda: app.show.scale.high == 2 and app.show.drawn == "bounces")
+
+
+@check
+def counts_of_more_bounces_than_are_shown_are_labelled(hand: Hand) -> None:
+    """A lower limit is relit from layers: the counts are those of the paths that were traced."""
+    app, session = hand.window.app, hand.session
+    hand.there(lambda: session.edit(bounces=5))
+    hand.ctx.set_ref("Controls")
+    hand.ctx.item_click("bounces live")
+    hand.settle()
+    views(hand, "bounces")
+    hand.until(lambda: session.samples > 20)
+    session.paused = True
+    hand.ctx.yield_(3)
+    before, counts = hand.pixels(), hand.there(lambda: told_pixel(app, 0.5, 0.8))[-1]
+    titles: list[str] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(legend, "_draw", lambda title, *_: titles.append(title))
+        hand.ctx.yield_(2)
+        assert titles[-1] == "bounces of a path until its end, mean"
+        hand.there(lambda: session.edit(bounces=2))
+        hand.ctx.yield_(4)
+        assert session.last_cost is Cost.RELIGHT
+        assert titles[-1] == "bounces of a path until its end, mean, of paths of up to 5"
+    assert hand.there(lambda: told_pixel(app, 0.5, 0.8))[-1] == f"{counts}, of paths of up to 5"
+    assert app.show.scale.high == 5
+    assert np.array_equal(hand.pixels(), before), "the colours mean what they did"
+    views(hand, "picture")
+    hand.ctx.item_click("bounces live")
 
 
 @check

@@ -13,8 +13,10 @@ from glrt.text import counted
 from glrt.view.app import App
 from glrt.view.panels.widgets import beside, button, edited, tip
 from glrt.view.state.controls import switch
+from glrt.view.state.costs import limit_beyond
 from glrt.view.state.histogram import Histogram
 from glrt.view.state.zoom import FIT
+from glrt.view.viewport.views import told_limit
 
 SCALES = {"1:1": 1.0, "4:1": 4.0, "16:1": 16.0}
 PIXEL = switch(
@@ -101,7 +103,8 @@ def _told_bounces(app: App, pixel: tuple[int, int]) -> list[str]:
     if found is None:
         return []
     mean, error = (float(values[0]) for values in found)
-    return [f"bounces until the end {mean:.4g}" + (f" +- {error:.2g}" if error >= 0 else "")]
+    band = f" +- {error:.2g}" if error >= 0 else ""
+    return [f"bounces until the end {mean:.4g}{band}{told_limit(limit_beyond(app.session))}"]
 
 
 def _numbers(values: Array) -> str:

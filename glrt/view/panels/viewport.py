@@ -66,7 +66,7 @@ def draw_viewport(app: App) -> None:
         _clicks(app)
     low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
-        draw_legend(app.show, app.camera, app.progress.last, low, seen[2])
+        draw_legend(app.show, app.session, app.progress.last, low, seen[2])
     place, width = room_beside_tour(seen)
     for notice in filter(None, _notices(app)):
         place.y += draw_notice(notice, place, width)
