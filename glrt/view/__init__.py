@@ -14,6 +14,7 @@ Modules, each importing only what stands above it:
 - pair: the picture A, which goes on beside B
 - messages: what the window tells and asks
 - files: what is open, and where it is saved
+- camera_moves: the camera, by mouse and keys
 - app: what the window's parts share
 - panels: what the user sees and edits
 - window: the loop, and how it ends

@@ -2,27 +2,25 @@
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
-from glrt.errors import GlrtError, UsageError
+from glrt.errors import GlrtError
 from glrt.gpu.glsl import files_anew
-from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
-from glrt.scene.values import LARGEST, SMALLEST, Vector
+from glrt.scene.values import Vector
+from glrt.view.camera_moves import CameraMoves
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
 from glrt.view.pair import Pair
-from glrt.view.state.controls import replaced
+from glrt.view.state.changes import told_change
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
-from glrt.view.state.new_objects import with_model, with_new
+from glrt.view.state.new_objects import two_digits, with_model, with_new
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.scene_edits import found_again, with_duplicate, without_object
@@ -32,12 +30,13 @@ from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
+from glrt.view.viewport.transform import clear_of
 
 SIZE = 0.07  # of half a new object, in distances from the camera to the pivot
 
 
 @dataclass
-class App:
+class App(CameraMoves):
     """A session with its picture, and how the user wants to see it."""
 
     session: Session
@@ -79,29 +78,10 @@ class App:
             self.session, self.messages, source, recent, self.show_scene, self.add_model
         )
 
-    @property
-    def camera(self) -> Camera:
-        """The camera as edited."""
-        return self.session.scene.camera
-
     def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
         """Replace the scene by what is made of it; a scene that does not fit is told."""
         with self.messages.telling():
             self.session.edit(make(self.session.scene), gesture)
-
-    def place(self, camera: Camera) -> None:
-        """Put the camera somewhere else; moves in a row are one step to undo."""
-        self.session.edit(self.session.scene.model_copy(update={"camera": camera}), "camera")
-
-    def _move(self, motion: Callable[..., Camera], *how: Any) -> None:
-        """Move the camera as one of `orbit` does; where that ends, the camera stops."""
-        with suppress(UsageError):
-            self.place(motion(self.camera, *how))
-
-    def home(self) -> None:
-        """Back to the camera that the scene came with."""
-        self.pivot = self.session.opened.scene.camera.look_at
-        self.place(self.session.opened.scene.camera)
 
     def prefer(self, preferences: Preferences) -> None:
         """Take other preferences, and keep them."""
@@ -150,9 +130,10 @@ class App:
         self._add(lambda scene: with_model(scene, path, self.pivot, 2 * SIZE * self.reach))
 
     def duplicate(self) -> None:
-        """A copy of the selected object, as the selected one."""
-        if self.selected_shape and self.selected is not None:
-            self._add(partial(with_duplicate, index=self.selected))
+        """A copy of the selected object beside it, as the selected one."""
+        if (shape := self.selected_shape) and self.selected is not None:
+            copy = clear_of(shape, self.pivot, two_digits(SIZE * self.reach))
+            self._add(partial(with_duplicate, index=self.selected, moved=copy))
 
     def _add(self, make: Callable[[Scene], Scene]) -> None:
         count = len(self.session.scene.objects)
@@ -178,6 +159,13 @@ class App:
         """Let the next clicks choose a pixel, or select objects again."""
         self.paths.is_choosing = not self.paths.is_choosing
 
+    def end_paths(self) -> None:
+        """Let clicks select objects again; where they do, show no paths."""
+        if self.paths.is_choosing:
+            self.paths.is_choosing = False
+        else:
+            self.paths.forget()
+
     def ask_paths(self, x: float, y: float) -> None:
         """Show the paths of the pixel at a place of the picture, from (0, 0) to (1, 1)."""
         session = self.session
@@ -191,15 +179,28 @@ class App:
 
     def undo(self) -> None:
         """Take back the last gesture; what was selected stays so, or what comes back is."""
-        self._step(self.session.undo)
+        self._step(self.session.undo, self.undoes)
 
     def redo(self) -> None:
         """Do again what was taken back."""
-        self._step(self.session.redo)
+        self._step(self.session.redo, self.redoes)
 
-    def _step(self, step: Callable[[], None]) -> None:
+    @property
+    def undoes(self) -> str:
+        """What undo takes back, in a few words; "" where there is nothing."""
+        before = self.session.history.before
+        return f"Undo: {told_change(before, self.session.state)}" if before else ""
+
+    @property
+    def redoes(self) -> str:
+        """What redo does again; "" where there is nothing."""
+        after = self.session.history.undone
+        return f"Redo: {told_change(self.session.state, after)}" if after else ""
+
+    def _step(self, step: Callable[[], None], told: str) -> None:
         before = self.session.scene.objects
         step()
+        self.messages.tell(told or "There is nothing more to undo or redo")
         self.selected = found_again(before, self.session.scene.objects, self.selected)
 
     def pick(self, x: float, y: float) -> Picked | None:
@@ -214,20 +215,6 @@ class App:
                 reach = shape.reach if math.isfinite(shape.reach) else 1.0
                 self.place(orbit.framed(self.camera, shape.middle, reach))
                 self.pivot = shape.middle
-
-    def focus_on(self, point: Vector) -> None:
-        """Make a point sharp; one behind the camera is left alone."""
-        depth = orbit.depth_of(self.camera, point)
-        if depth > 0:
-            near = max(SMALLEST, min(depth, LARGEST))
-            self.place(replaced(self.camera, focus_distance=near))
-
-    def turn_about(self, point: Vector) -> None:
-        """Make a point the pivot; no camera comes to one beyond all lengths."""
-        if all(abs(part) <= LARGEST for part in point):
-            self.pivot = point
-        else:
-            self.messages.complain("That point is too far away for a pivot.")
 
     @property
     def picture(self) -> Picture:
@@ -264,33 +251,3 @@ class App:
             self.pair.look(now)
             look = self.progress.follow(self.session, now)
             self.show.mean = look.mean if look else self.show.mean
-
-    def turn(self, across: float, down: float, about_camera: bool) -> None:
-        """Turn by a drag, given as shares of the window's width and height."""
-        yaw = -across * self.preferences.turn_speed
-        pitch = -down * self.preferences.turn_speed * (-1 if self.preferences.invert else 1)
-        if about_camera:
-            self._move(orbit.looked, yaw, pitch)
-        else:
-            self._move(orbit.orbited, self.pivot, yaw, pitch)
-
-    def shift(self, across: float, down: float) -> None:
-        """Shift by a drag so that what is as far as the pivot follows the mouse, about."""
-        self._move(orbit.moved, -across * self.reach, down * self.reach, 0)
-
-    def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
-        """Step along the camera's axes, at the speed that is preferred."""
-        step = seconds * self.preferences.walk_speed * self.reach
-        self._move(orbit.moved, right * step, up * step, forward * step)
-
-    def wheel(self, clicks: float) -> None:
-        """Towards the pivot; in fly mode straight on."""
-        clicks *= self.preferences.wheel_speed
-        if self.preferences.mode == "orbit":
-            return self._move(orbit.dollied, self.pivot, clicks)
-        return self._move(orbit.moved, 0, 0, 0.1 * clicks * self.reach)
-
-    @property
-    def reach(self) -> float:
-        """The distance that speeds are measured in: to the pivot."""
-        return max(orbit.distance_to(self.camera, self.pivot), 1e-6)

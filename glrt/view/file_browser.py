@@ -19,7 +19,7 @@ class FileBrowser:
         self._title, self._act, self._suffixes = f"{title}###file browser", act, suffixes
         self._name = "" if path.is_dir() else path.name
         self._answer: str | None = None
-        self._is_open = False
+        self._is_open, self._is_new = False, True
         self._go(path if path.is_dir() else path.parent)
 
     def _go(self, folder: Path) -> None:
@@ -86,7 +86,12 @@ class FileBrowser:
 
     def _draw_answers(self) -> None:
         imgui.set_next_item_width(hello_imgui.em_size(_WIDTH - 12))
-        flags = imgui.InputTextFlags_.enter_returns_true.value
+        if self._is_new:
+            imgui.set_keyboard_focus_here()  # a name can be typed at once
+            self._is_new = False
+        flags = int(
+            imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
+        )
         shown = printable(self._name)
         is_entered, typed = imgui.input_text("##name", shown, flags)
         self._name = self._name if typed == shown else typed

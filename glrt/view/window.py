@@ -25,8 +25,9 @@ from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.questions import draw_question
+from glrt.view.panels.shortcuts import draw_keys
 from glrt.view.panels.tour import draw_tour
-from glrt.view.panels.viewport import draw_keys, draw_viewport
+from glrt.view.panels.viewport import draw_viewport
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.preferences import load_preferences, preferences_file

@@ -7,6 +7,8 @@ _OUTLINE = "view/viewport/outline.py"
 _EDITS = "view/state/scene_edits.py"
 _LISTS = "scene/toml_lists.py"
 _NAMES = "scene/names.py"
+_VIEW = "view/viewport/picture_view.py"
+_REFUSED = "view/test_refused_views.py"
 
 EDITOR: list[Mutant] = [
     bug(
@@ -113,5 +115,68 @@ EDITOR: list[Mutant] = [
         'Line(places[at], np.array(eye), "linked")',
         'Line(places[at], places[0], "linked")',
         "view/test_path_lines.py::test_a_particle_is_linked_to_the_camera_from_where_it_was_seen",
+    ),
+    bug(
+        "a refusal outlives the edit that it was of",
+        _VIEW,
+        "session.aov, session.refused = aov_of(self.view), None",
+        "session.aov = aov_of(self.view)",
+        f"{_REFUSED}::test_a_refused_view_is_given_up_and_had_once_the_edit_is_undone",
+    ),
+    bug(
+        "a refused view is not given up",
+        _VIEW,
+        "if session.refused == self.view:",
+        "if session.refused != session.refused:",
+        f"{_REFUSED}::test_a_refused_view_is_given_up_and_had_once_the_edit_is_undone",
+    ),
+    bug(
+        "a chord whose Ctrl is let go within a slow frame is a step",
+        "view/panels/shortcuts.py",
+        "if down[name] or any(imgui.is_key_released(key) for key in keys)",
+        "if down[name] and keys",
+        "view/test_viewport.py::test_a_chord_that_ends_within_a_slow_frame_is_no_step",
+    ),
+    bug(
+        "a key that stays down after its chord makes steps",
+        "view/panels/shortcuts.py",
+        'app.is_deaf = "ctrl" in modifiers()',
+        "app.is_deaf = False",
+        "view/test_viewport.py::test_a_chord_that_ends_within_a_slow_frame_is_no_step",
+    ),
+    bug(
+        "a copy lies where its original does",
+        "view/viewport/transform.py",
+        "step = max(_CLEAR * height, least)",
+        "step = 0.0 * max(_CLEAR * height, least)",
+        "view/test_duplicates.py::test_a_copy_of_a_solid_stands_clear_of_it_towards_the_pivot",
+    ),
+    bug(
+        "a copy of what hangs high goes higher",
+        "view/viewport/transform.py",
+        "-step if shape.middle[1] > pivot[1] else step",
+        "step",
+        "view/test_duplicates.py::test_a_copy_of_a_solid_stands_clear_of_it_towards_the_pivot",
+    ),
+    bug(
+        "undo tells of each object what was a new name of their material",
+        "view/state/changes.py",
+        "renamed.get(old.material, old.material)",
+        "old.material",
+        "view/test_changes.py::test_a_renamed_material_is_told_and_not_each_of_its_objects",
+    ),
+    bug(
+        "an object that is deleted is told as the one that moved up",
+        "view/state/changes.py",
+        "return came if len(after) > len(before) else gone",
+        "return came or [name_of(after[-1])]",
+        "view/test_changes.py::test_an_edit_is_told_in_a_few_words",
+    ),
+    bug(
+        "counts of bounces pass for those of a lower limit",
+        "view/state/costs.py",
+        "return renderer.plan.settings.bounces if renderer else session.settings.bounces",
+        "return session.settings.bounces",
+        "view/test_costs.py::test_the_limit_that_was_traced_is_told_while_fewer_bounces_are_shown",
     ),
 ]

@@ -4,7 +4,14 @@ import pytest
 
 from glrt.methods.light_layers import Plan, plan_for
 from glrt.settings import Cost
-from glrt.view.state.costs import cost_of_light, cost_of_tint, reach_of_bounces, reach_of_size
+from glrt.view.state.costs import (
+    cost_of_light,
+    cost_of_tint,
+    limit_beyond,
+    reach_of_bounces,
+    reach_of_size,
+    traced_bounces,
+)
 from glrt.view.state.scene_edits import with_material
 from glrt.view.state.session import Session
 from tests.support.sessions import start
@@ -51,6 +58,15 @@ def test_an_edit_of_bounces_costs_what_its_label_says(session: Session) -> None:
         session.edit(bounces=bounces)
         session.advance(0.01)
         assert session.last_cost is cost
+
+
+def test_the_limit_that_was_traced_is_told_while_fewer_bounces_are_shown(session: Session) -> None:
+    live(session, 10)
+    for bounces, traced in ((10, 10), (4, 10), (1, 10), (7, 7)):
+        session.edit(bounces=bounces)
+        start(session)
+        assert traced_bounces(session) == traced
+        assert limit_beyond(session) == (None if traced == bounces else traced)
 
 
 def test_undo_covers_bounces_live(session: Session) -> None:

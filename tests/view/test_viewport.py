@@ -13,8 +13,9 @@ from glrt.resources import folder
 from glrt.settings import Settings
 from glrt.view.files import Files
 from glrt.view.messages import SHOWN, Messages
-from glrt.view.panels import viewport
+from glrt.view.panels import shortcuts, viewport
 from glrt.view.state.preferences import Preferences
+from glrt.view.state.zoom import FIT
 
 
 class Turned:
@@ -97,10 +98,58 @@ def test_arrows_in_an_open_list_leave_the_camera_alone(io: imgui.IO, is_open: bo
     imgui.begin("Controls")
     if is_open:
         imgui.open_popup("list")
-    viewport.draw_keys(app)
+    shortcuts.draw_keys(app)
     imgui.end()
     imgui.render()
     assert app.steps == ([] if is_open else [(0.0, 0.0, -1.0)])
+
+
+def struck(app: Any, io: imgui.IO, *events: tuple[imgui.Key, bool]) -> None:
+    """A frame after keys went down or up, as the backend of GLFW tells them."""
+    for key, is_down in events:
+        if key == imgui.Key.left_ctrl:
+            io.add_key_event(imgui.Key.mod_ctrl, is_down)
+        io.add_key_event(key, is_down)
+    imgui.new_frame()
+    shortcuts.draw_keys(app)
+    imgui.render()
+
+
+@pytest.mark.parametrize("let_go", [(imgui.Key.left_ctrl, imgui.Key.q), (imgui.Key.left_ctrl,)])
+def test_a_chord_that_ends_within_a_slow_frame_is_no_step(
+    io: imgui.IO, let_go: tuple[imgui.Key, ...]
+) -> None:
+    """Ctrl is let go in the frame in which Q comes, and Q in it or in a later one."""
+    app: Any = Turned()
+    closed: list[bool] = []
+    app.leave = None
+    app.files = SimpleNamespace(close=lambda leave: closed.append(True))
+    app.session = SimpleNamespace(history=SimpleNamespace(settle=lambda: None))
+    struck(app, io)
+    struck(app, io, (imgui.Key.left_ctrl, True))
+    struck(app, io, (imgui.Key.q, True), *((key, False) for key in let_go))
+    assert closed == [True]
+    for _ in range(3):
+        struck(app, io)
+    struck(app, io, (imgui.Key.q, False))
+    assert app.steps == []
+    struck(app, io)
+    struck(app, io, (imgui.Key.q, True))
+    assert app.steps == [(0.0, -1.0, 0.0)]
+
+
+def test_a_wheel_turned_with_ctrl_let_go_in_the_same_frame_zooms(io: imgui.IO) -> None:
+    app: Any = Turned()
+    app.zoom, app.session = FIT, SimpleNamespace(settings=Settings())
+    moved(app, io, (400.0, 300.0))
+    io.add_key_event(imgui.Key.mod_ctrl, True)
+    io.add_key_event(imgui.Key.left_ctrl, True)
+    frame(app)
+    io.add_mouse_wheel_event(0.0, 1.0)
+    io.add_key_event(imgui.Key.mod_ctrl, False)
+    io.add_key_event(imgui.Key.left_ctrl, False)
+    frame(app)
+    assert app.zoom != FIT
 
 
 def files(folder: Path, source: str = "") -> Files:

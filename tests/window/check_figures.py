@@ -1,28 +1,15 @@
 """Figures and marks belong to the picture beside them."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import pytest
 from imgui_bundle import imgui
 
 from glrt.rendering.renderer import Renderer
-from glrt.view.panels import viewport
 from glrt.view.panels.plots import figures
 from glrt.view.state.controls import replaced
-from tests.window.gestures import replaced_fov
+from tests.window.gestures import lines_told, replaced_fov
 from tests.window.hand import Hand, check
 
 ENOUGH = 32  # samples: two observations
-
-
-@contextmanager
-def told_in_the_picture() -> Iterator[list[str]]:
-    """What is written over the picture."""
-    told: list[str] = []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(viewport, "draw_notice", lambda text, corner: told.append(text))
-        yield told
 
 
 @check
@@ -62,9 +49,9 @@ def history_of_earlier_views_is_marked_in_the_picture(hand: Hand) -> None:
     hand.there(move)
     hand.settle()
     session.paused = True
-    with told_in_the_picture() as told:
+    with lines_told() as told:
         hand.ctx.yield_(2)
-        assert any(text.startswith("with light of earlier views") for text in told)
+        assert any(text.startswith("with light of earlier views, until there are") for text in told)
     assert figures(app)[2] == "error unknown while history of earlier views is shown"
 
 
@@ -73,7 +60,7 @@ def an_old_picture_and_a_pause_are_marked_in_the_picture(hand: Hand) -> None:
     session = hand.session
     hand.until(lambda: session.samples > 3)
     hand.ctx.yield_()
-    with told_in_the_picture() as told:
+    with lines_told() as told:
         hand.ctx.yield_(2)
         assert told == []
         session.paused = True

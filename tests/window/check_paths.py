@@ -11,7 +11,7 @@ from glrt.rendering.path_replay import path_replay, pixel_paths
 from glrt.rendering.path_values import PixelPaths
 from glrt.settings import settings_for
 from glrt.view.state.path_explorer import FOLLOWED
-from tests.window.gestures import press
+from tests.window.gestures import ball, click, lines_told, press
 from tests.window.hand import SMALL, Hand, check
 
 PLACE = (0.645, 0.935)  # on the floor, under the glass ball
@@ -204,3 +204,47 @@ def a_scene_whose_particles_cannot_be_followed_is_told(hand: Hand) -> None:
     hand.until(lambda: bool(session.problem))
     assert "particles are weighed by the method mis alone" in session.problem
     assert app.paths.found is None
+
+
+@check
+def escape_ends_the_choice_of_a_pixel_and_then_removes_its_paths(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    with lines_told() as lines:
+        press(hand, imgui.Key.p)
+        assert any("click a pixel" in line and "Escape" in line for line in lines)
+        press(hand, imgui.Key.escape)
+        assert not app.paths.is_choosing
+        ask(hand)
+        x, y = app.paths.found.pixel if app.paths.found else (-1, -1)
+        lines.clear()
+        ctx.yield_(2)
+        assert f"paths of pixel {x}, {y}; Escape: clicks select objects again" in lines
+        press(hand, imgui.Key.escape)
+        assert app.paths.found
+        lines.clear()
+        ctx.yield_(2)
+        assert f"paths of pixel {x}, {y}; Escape removes them" in lines
+    number, shape = ball(hand)
+    click(hand, shape.center)
+    assert app.selected == number
+    press(hand, imgui.Key.escape)
+    assert app.paths.found is None
+
+
+@check
+def the_table_of_lights_tells_what_was_added_without_being_scrolled(hand: Hand) -> None:
+    """Beside its strategy, in a panel of the usual width."""
+    columns: list[str] = []
+
+    written = imgui.text_unformatted
+
+    def heard(text: str) -> None:
+        columns.append(text)
+        written(text)
+
+    ask(hand)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(imgui, "text_unformatted", heard)
+        hand.until(lambda: "added" in columns)
+    found_by = columns.index("found by")
+    assert columns[found_by + 1] == "added"

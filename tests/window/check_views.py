@@ -3,10 +3,14 @@
 from typing import Any, get_args
 
 import numpy as np
+import pytest
+from imgui_bundle import imgui
 
 from glrt.rendering.false_colors import ERROR
-from glrt.settings import Aov
+from glrt.settings import Aov, Cost
+from glrt.view.panels import legend
 from glrt.view.panels.inspector import told_pixel
+from tests.window.gestures import lines_told, press
 from tests.window.hand import Hand, check
 
 
@@ -75,7 +79,7 @@ def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -
     hand.there(lambda: session.edit(samples=session.samples))
     hand.settle()
     views(hand, "bounces")
-    hand.until(lambda: session.is_done)
+    hand.until(lambda: app.show.is_done(session))
     hand.ctx.yield_(2)
     shown = hand.pixels()[..., :3]
     assert session.renderer
@@ -95,6 +99,35 @@ def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -
 
 
 @check
+def counts_of_more_bounces_than_are_shown_are_labelled(hand: Hand) -> None:
+    """A lower limit is relit from layers: the counts are those of the paths that were traced."""
+    app, session = hand.window.app, hand.session
+    hand.there(lambda: session.edit(bounces=5))
+    hand.ctx.set_ref("Controls")
+    hand.ctx.item_click("bounces live")
+    hand.settle()
+    views(hand, "bounces")
+    hand.until(lambda: session.samples > 20)
+    session.paused = True
+    hand.ctx.yield_(3)
+    before, counts = hand.pixels(), hand.there(lambda: told_pixel(app, 0.5, 0.8))[-1]
+    titles: list[str] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(legend, "_draw", lambda title, *_: titles.append(title))
+        hand.ctx.yield_(2)
+        assert titles[-1] == "bounces of a path until its end, mean"
+        hand.there(lambda: session.edit(bounces=2))
+        hand.ctx.yield_(4)
+        assert session.last_cost is Cost.RELIGHT
+        assert titles[-1] == "bounces of a path until its end, mean, of paths of up to 5"
+    assert hand.there(lambda: told_pixel(app, 0.5, 0.8))[-1] == f"{counts}, of paths of up to 5"
+    assert app.show.scale.high == 5
+    assert np.array_equal(hand.pixels(), before), "the colours mean what they did"
+    views(hand, "picture")
+    hand.ctx.item_click("bounces live")
+
+
+@check
 def bounces_beyond_the_loop_limit_are_refused_once_and_the_picture_stays(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     hand.there(lambda: session.edit(bounces=700))
@@ -107,3 +140,28 @@ def bounces_beyond_the_loop_limit_are_refused_once_and_the_picture_stays(hand: H
     samples = session.samples
     hand.until(lambda: session.samples > samples)
     assert not session.problem
+
+
+@check
+def a_view_that_is_on_its_way_is_told(hand: Hand) -> None:
+    app = hand.window.app
+    hand.ctx.set_ref("Controls")
+    with lines_told() as lines:
+        hand.ctx.combo_click("view/normal")
+        hand.until(lambda: app.show.drawn == "normal")
+        assert "The view normal comes with its first sample" in lines
+        hand.ctx.yield_(2)
+        lines.clear()
+        hand.ctx.yield_(2)
+        assert not any("comes with" in line for line in lines)
+
+
+@check
+def the_zoom_is_told_with_the_key_that_ends_it(hand: Hand) -> None:
+    with lines_told() as lines:
+        press(hand, imgui.Key._1)
+        assert "zoom 1:1; 0 shows the whole picture" in lines
+        press(hand, imgui.Key._0)
+        lines.clear()
+        hand.ctx.yield_(2)
+        assert not any("zoom" in line for line in lines)

@@ -2,16 +2,21 @@
 
 import math
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from imgui_bundle import imgui
+import pytest
+from imgui_bundle import ImVec2, imgui
 
 import glfw  # isort: skip
 
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
+from glrt.view.panels import viewport
+from glrt.view.panels.pair_images import draw_notice
 from glrt.view.state.controls import replaced
 from glrt.view.viewport.orbit import axes
 from tests.window.hand import SMALL, WAIT, Hand
@@ -132,6 +137,20 @@ def answer(hand: Hand, name: str) -> None:
     assert question
     hand.ctx.item_click(f"//{question.title}##question/{name}")
     hand.ctx.yield_(3)
+
+
+@contextmanager
+def lines_told() -> Iterator[list[str]]:
+    """Lines of text that are drawn over the picture meanwhile."""
+    lines: list[str] = []
+
+    def written(text: str, corner: ImVec2, width: float = 0.0) -> float:
+        lines.append(text)
+        return draw_notice(text, corner, width)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(viewport, "draw_notice", written)
+        yield lines
 
 
 def drop(hand: Hand, path: Path) -> None:

@@ -7,7 +7,7 @@ from imgui_bundle import hello_imgui, imgui
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.pair import Pairing
-from glrt.view.panels.widgets import button, edited, tip
+from glrt.view.panels.widgets import beside, button, edited, room_for, tip
 from glrt.view.state.controls import Control, choice, switch
 from glrt.view.viewport.views import HELP, VIEWS
 
@@ -45,8 +45,8 @@ def _slot(app: App) -> None:
     if app.pair.slot:
         pairing = edited(PAIRING, app.pair.pairing)
         app.pair.pairing = app.pair.pairing if pairing is None else pairing
-    beside = edited(BESIDE, app.pair.is_beside)
-    app.pair.is_beside = app.pair.is_beside if beside is None else beside
+    wanted = edited(BESIDE, app.pair.is_beside)
+    app.pair.is_beside = app.pair.is_beside if wanted is None else wanted
     if button("swap A and B"):
         app.pair.swap()
     tip("Go on editing A; what is edited now becomes A. Both begin anew; undo brings B back")
@@ -58,7 +58,7 @@ def draw_compare(app: App) -> None:
     if button("keep this picture", bool(app.picture.name)):
         app.keep()
     tip("Keep the picture as A: a line parts it from the one that is edited, B, to its right")
-    imgui.same_line()
+    beside("forget it")
     if button("forget it", show.kept is not None):
         show.forget()
         show.view = "picture" if show.view == "difference" else show.view
@@ -66,7 +66,7 @@ def draw_compare(app: App) -> None:
     if not show.kept:
         return
     _slot(app)
-    imgui.set_next_item_width(hello_imgui.em_size(9.5))
+    imgui.set_next_item_width(room_for("wipe", hello_imgui.em_size(9.5)))
     _, show.wipe = imgui.slider_float("wipe", show.wipe, 0.0, 1.0, "%.2f")
     _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
     tip(

@@ -8,7 +8,7 @@ from glrt.files import printable
 from glrt.scene.catalog import scene_names
 from glrt.view.app import App
 from glrt.view.files import Files
-from glrt.view.panels.widgets import button, tip
+from glrt.view.panels.widgets import button, room_for, tip
 
 
 def draw_files(app: App) -> None:
@@ -47,16 +47,19 @@ def draw_files(app: App) -> None:
 def _chooser(files: Files) -> None:
     names = scene_names()
     index = names.index(files.source) if files.source in names else -1
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    chosen, index = imgui.combo("scene", index, names)
-    if chosen:
-        files.ask_open(names[index])
+    imgui.set_next_item_width(room_for("scene", hello_imgui.em_size(12)))
+    if not imgui.begin_combo("scene", names[index] if index >= 0 else "one of glrt's"):
+        return
+    for number, name in enumerate(names):
+        if imgui.selectable(name, number == index)[0]:
+            files.ask_open(name)
+    imgui.end_combo()
 
 
 def _recent(files: Files) -> None:
     """What was opened last; names of one kind are told apart by their folders."""
-    imgui.set_next_item_width(hello_imgui.em_size(12))
-    if not imgui.begin_combo("recent", ""):
+    imgui.set_next_item_width(room_for("recent", hello_imgui.em_size(12)))
+    if not imgui.begin_combo("recent", "opened lately"):
         return
     for number, source in enumerate(files.recent):
         path = Path(source)

@@ -9,11 +9,14 @@ from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.pass_film import Array
 from glrt.rendering.weighting import Reading
 from glrt.settings import Cost
+from glrt.text import counted
 from glrt.view.app import App
 from glrt.view.panels.widgets import beside, button, edited, tip
 from glrt.view.state.controls import switch
+from glrt.view.state.costs import limit_beyond
 from glrt.view.state.histogram import Histogram
 from glrt.view.state.zoom import FIT
+from glrt.view.viewport.views import told_limit
 
 SCALES = {"1:1": 1.0, "4:1": 4.0, "16:1": 16.0}
 PIXEL = switch(
@@ -84,7 +87,7 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
     codes = expose_and_encode(found.radiance, settings.exposure, settings.tonemap)
     shown = " ".join(f"{int(code):3d}" for code in codes)
     return [
-        f"pixel {pixel[0]}, {pixel[1]}{name}: {found.samples} samples",
+        f"pixel {pixel[0]}, {pixel[1]}{name}: {counted(found.samples, 'sample')}",
         f"radiance {_numbers(found.radiance)}",
         f"standard error {_error(found)}",
         f"on the screen {shown}",
@@ -100,7 +103,8 @@ def _told_bounces(app: App, pixel: tuple[int, int]) -> list[str]:
     if found is None:
         return []
     mean, error = (float(values[0]) for values in found)
-    return [f"bounces until the end {mean:.4g}" + (f" +- {error:.2g}" if error >= 0 else "")]
+    band = f" +- {error:.2g}" if error >= 0 else ""
+    return [f"bounces until the end {mean:.4g}{band}{told_limit(limit_beyond(app.session))}"]
 
 
 def _numbers(values: Array) -> str:

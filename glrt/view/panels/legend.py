@@ -3,8 +3,9 @@
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.rendering.false_colors import Color, Scale
-from glrt.scene.camera import Camera
+from glrt.view.state.costs import limit_beyond
 from glrt.view.state.error_history import Look
+from glrt.view.state.session import Session
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.views import has_scale, ticks_of, title_of
 
@@ -15,10 +16,14 @@ HEIGHT = 4.2  # of all of it, in lines
 
 
 def draw_legend(
-    show: PictureView, camera: Camera, last: Look | None, corner: ImVec2, width: float
+    show: PictureView,
+    session: Session,
+    last: Look | None,
+    corner: ImVec2,
+    width: float,
 ) -> None:
     """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
-    title = title_of(show.drawn, camera)
+    title = title_of(show.drawn, session.scene.camera, limit_beyond(session))
     if not has_scale(show.drawn):
         return _draw_title(title, corner)
     if show.drawn == "dropped" and last and not last.nonfinite:

@@ -33,21 +33,33 @@ def draw_lights(app: App) -> None:
     for group, intensity in intensities.items():
         imgui.separator_text(group)
         row = f"{group} intensity" if len(intensities) > 1 else "intensity"
-        control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
-        new = edited(control, intensity, group)
-        if new is not None:
-            app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
+        _intensity(app, group, intensity, row, group)
         for name in lamps.get(group, ()):
-            _emission(app, name, is_one)
+            _emission(app, name, is_one, name)
 
 
-def _emission(app: App, name: str, is_one: bool) -> None:
+def draw_lamp(app: App, name: str, group: str) -> None:
+    """The same of one lamp, where its object is edited."""
+    intensity = app.session.scene.light_groups.get(group)
+    if intensity is not None:
+        _intensity(app, group, intensity, "intensity", f"{group} of object")
+    _emission(app, name, True, f"{name} of object")
+
+
+def _intensity(app: App, group: str, value: float, row: str, key: str) -> None:
+    control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
+    new = edited(control, value, key)
+    if new is not None:
+        app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
+
+
+def _emission(app: App, name: str, is_one: bool, key: str) -> None:
     """Of a lamp. Other materials that emit have theirs beside their colour: at 0 they are none."""
     material = app.session.scene.materials[name]
     if not isinstance(material, Light):
         return
     row = EMISSION if is_one else EMISSION.named(f"{name} emission")
-    color = edited(row.costing(cost_of_tint(app.session, name)), material.emission, name)
+    color = edited(row.costing(cost_of_tint(app.session, name)), material.emission, key)
     if color is not None:
         app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
 

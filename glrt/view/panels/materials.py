@@ -14,6 +14,7 @@ from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.lights import draw_lamp
 from glrt.view.panels.widgets import beside, button, edited, edited_fields, named, tip
 from glrt.view.state.controls import Control, choice, controls_of, switch
 from glrt.view.state.scene_edits import (
@@ -43,14 +44,24 @@ _OPTIONS: dict[Control, dict[str, Any]] = {  # what begins where a switch is tur
     NESTS: {"priority": 0},
 }
 _TYPE = "what kind of surface it is; the values that both kinds have stay"
-TYPE = choice("type", _TYPE, Cost.RECOMPILE, tuple(TYPES))
+_KINDS = {
+    "lambertian": "matte",
+    "metal": "mirror, gold",
+    "dielectric": "glass, water",
+    "principled": "plastic, paint",
+    "light": "a lamp",
+}
+TYPE = replace(
+    choice("type", _TYPE, Cost.RECOMPILE, tuple(TYPES)), told=tuple(_KINDS[kind] for kind in TYPES)
+)
 MATERIAL = choice("material", _MATERIAL, Cost.RECOMPILE)
 
 
 def draw_material(app: App, index: int, shape: Shape) -> None:
     """Which material an object has, and what it is like."""
     scene, name = app.session.scene, shape.material
-    chosen = edited(replace(MATERIAL, choices=tuple(scene.materials)), name)
+    kinds = tuple(material.type for material in scene.materials.values())
+    chosen = edited(replace(MATERIAL, choices=tuple(scene.materials), told=kinds), name)
     if chosen is not None:
         app.edit_scene("", partial(with_object_of, index=index, material=chosen))
         return
@@ -63,7 +74,7 @@ def draw_material(app: App, index: int, shape: Shape) -> None:
     elif wanted := _another_way(material, name):
         app.edit_scene("", partial(with_material, name=name, **wanted))
     else:
-        _values(app, name, material)
+        _values(app, name, material, scene.finish(shape).group)
 
 
 def _commands(app: App, index: int, name: str) -> bool:
@@ -71,13 +82,14 @@ def _commands(app: App, index: int, name: str) -> bool:
     scene = app.session.scene
     renamed = named("name", name, f"material {name}")
     sharing = _uses(scene.objects)[name]
-    imgui.text_disabled(f"of {sharing} objects" if sharing > 1 else "of this object alone")
-    beside("new")
     is_new = button("new##material")
     tip("A matte material of its own for this object")
     beside("make unique")
     is_own = button("make unique", sharing > 1)
     tip("A copy of the material for this object alone; the other objects keep theirs")
+    told = f"of {sharing} objects" if sharing > 1 else "of this object alone"
+    beside(told)
+    imgui.text_disabled(told)
     unused = _unused(scene)
     is_cleared = bool(unused) and _removes(unused)
     if renamed:
@@ -103,10 +115,10 @@ def _removes(unused: list[str]) -> bool:
     return is_pressed
 
 
-def _values(app: App, name: str, material: Material) -> None:
-    """Its values, and its cone and textures if it has some."""
+def _values(app: App, name: str, material: Material, group: str) -> None:
+    """Its values, and its cone and textures if it has some; `group`: of the light of the object."""
     if isinstance(material, Light):
-        imgui.text_disabled("its emission and intensity stand under Light")
+        draw_lamp(app, name, group)
     changes = edited_fields(_controls(material), dict(material), f"material {name}")
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
@@ -163,7 +175,7 @@ def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
 
 
 def _controls(material: Material) -> tuple[Control, ...]:
-    """Of what is given; the emission of lamps stands with the light groups.
+    """Of what is given; the emission of lamps stands with the intensity of their light.
 
     Glass that becomes rough is another kernel.
     """

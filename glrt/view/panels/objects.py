@@ -13,7 +13,8 @@ from glrt.view import file_dialogs
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.materials import draw_material
-from glrt.view.panels.widgets import beside, button, edited_fields, named, tag, tip
+from glrt.view.panels.tags import tag
+from glrt.view.panels.widgets import beside, button, edited_fields, named, room_for, tip
 from glrt.view.state.controls import controls_of, replaced
 from glrt.view.state.new_objects import ADDED
 from glrt.view.state.scene_edits import with_object, with_own_group
@@ -43,7 +44,7 @@ def _chooser(app: App) -> None:
     """A list of all objects, of which those in sight are drawn: there may be thousands."""
     objects, index = app.session.scene.objects, app.selected
     row = 0 if app.selected_shape is None or index is None else index + 1
-    imgui.set_next_item_width(hello_imgui.em_size(12))
+    imgui.set_next_item_width(room_for("object", hello_imgui.em_size(12)))
     if not imgui.begin_combo("object", _row(objects, row)):
         return
     clipper = imgui.ListClipper()
@@ -79,7 +80,7 @@ def _commands(app: App) -> None:
     beside("duplicate")
     if button("duplicate", has_one):
         app.duplicate()
-    tip("A copy in the same place, of the same material; drag it away by its handles")
+    tip("A copy above or below it, of the same material")
     beside("delete")
     if button("delete", has_one):
         app.delete()
@@ -100,10 +101,10 @@ def _menu(app: App) -> None:
 def _buttons(app: App, shape: Shape) -> None:
     if imgui.button("frame"):
         app.frame_selected()
-    imgui.same_line()
+    beside("focus here")
     if imgui.button("focus here"):
         app.focus_on(shape.middle)
-    imgui.same_line()
+    beside("handles; Shift scales")
     imgui.text_disabled("handles; Shift scales")
     tip("Drag the handles of the selected object in the picture to move it")
     tag(Cost.RESTART)

@@ -73,11 +73,13 @@ def draw_wipe_handle(app: App) -> None:
         app.show.wipe = min(max(share, 0.0), 1.0)
 
 
-def draw_notice(text: str, corner: ImVec2) -> None:
-    """A line of text over the picture."""
-    margin = ImVec2(imgui.get_font_size() * 0.6, imgui.get_font_size() * 0.4)
+def draw_notice(text: str, corner: ImVec2, width: float = 0.0) -> float:
+    """A line of text over the picture, broken where it is wider than `width`; its height."""
+    em = imgui.get_font_size()
+    margin, room = ImVec2(em * 0.6, em * 0.4), max(width - 2.4 * em, 8 * em) if width else 0.0
     painter, at = imgui.get_window_draw_list(), corner + margin
-    painter.add_rect_filled(
-        at, at + imgui.calc_text_size(text) + margin + margin, imgui.get_color_u32(_NOTICE), 4.0
-    )
-    painter.add_text(at + margin, imgui.get_color_u32((1.0, 1.0, 1.0, 1.0)), text)
+    size = imgui.calc_text_size(text, wrap_width=room or -1.0) + margin + margin
+    painter.add_rect_filled(at, at + size, imgui.get_color_u32(_NOTICE), 4.0)
+    white = imgui.get_color_u32((1.0, 1.0, 1.0, 1.0))
+    painter.add_text(imgui.get_font(), em, at + margin, white, text, wrap_width=room)
+    return size.y + margin.y

@@ -23,9 +23,11 @@ from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
 from glrt.view.panels.pixel_paths import draw_pixel_paths
 from glrt.view.panels.sun import draw_sun
-from glrt.view.panels.widgets import COLORS, beside, button, edited, edited_fields, legend
+from glrt.view.panels.tags import COLORS, legend
+from glrt.view.panels.widgets import beside, button, edited, edited_fields, tip
 from glrt.view.state.controls import Control, controls_of, replaced, switch
 from glrt.view.state.costs import reach_of_bounces, reach_of_size
+from glrt.view.state.keys import Action, label
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
@@ -61,9 +63,24 @@ def draw_panel(app: App) -> None:
             section is draw_pixel_paths and app.paths.is_new
         ):
             imgui.set_next_item_open(True)
-        if imgui.collapsing_header(title, flags):
+        is_shown = imgui.collapsing_header(title, flags)
+        ANCHOR.note()
+        top = imgui.get_item_rect_min().y
+        is_new = is_shown and imgui.is_item_toggled_open()
+        if is_shown:
             section(app)
+        if is_new:
+            _bring_to_sight(top)
     ANCHOR.keep()
+
+
+def _bring_to_sight(top: float) -> None:
+    """Scroll down to the end of a part that was unfolded, but not past its title."""
+    corner, height = imgui.get_window_pos().y, imgui.get_window_height()
+    hidden = imgui.get_cursor_screen_pos().y - corner - height
+    room = top - corner - imgui.get_style().window_padding.y - imgui.get_frame_height()
+    if hidden > 0 and room > 0:
+        imgui.set_scroll_y(imgui.get_scroll_y() + min(hidden, room))
 
 
 def _problem(app: App) -> None:
@@ -105,9 +122,20 @@ def _commands(app: App) -> None:
     beside("undo")
     if button("undo", session.history.can_undo):
         app.undo()
+    _told_step(app, "undo")
     beside("redo")
     if button("redo", session.history.can_redo):
         app.redo()
+    _told_step(app, "redo")
+
+
+def _told_step(app: App, action: Action) -> None:
+    """The edit that a button would take back or do again, and its keys."""
+    is_hovered = imgui.is_item_hovered()
+    what = (app.undoes if action == "undo" else app.redoes) if is_hovered else ""
+    keys = " or ".join(label(chord) for chord in app.preferences.bindings[action])
+    if what:
+        tip(f"{what} ({keys})" if keys else what)
 
 
 def _with_camera(scene: Scene, **changes: Any) -> Scene:
@@ -132,8 +160,8 @@ def _paths(app: App) -> None:
 def _lengths(session: Session) -> None:
     """Show the light of one length of paths alone."""
     last = min(session.settings.bounces, MOST_LAYERS - 1)
-    rest = f"{last} and more" if session.settings.bounces > last else f"{last}"
-    names = ["all light", *[f"bounce {n} alone" for n in range(last)], f"bounce {rest} alone"]
+    rest = f"bounces from {last}" if session.settings.bounces > last else f"bounce {last} alone"
+    names = ["all light", *[f"bounce {n} alone" for n in range(last)], rest]
     chosen = 0 if session.alone is None else min(session.alone, last) + 1
     shown = edited(replace(SHOWN, choices=tuple(names)), names[chosen])
     if shown is not None:

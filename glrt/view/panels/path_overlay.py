@@ -48,6 +48,18 @@ def draw_paths(app: App, seen: Rectangle) -> None:
     painter.pop_clip_rect()
 
 
+def told_paths(app: App) -> str:
+    """What a click does while a pixel is chosen, and how paths are removed; "" for nothing."""
+    paths = app.paths
+    if paths.busy or not (paths.is_choosing or paths.found):
+        return paths.busy
+    if not paths.found:
+        return "click a pixel to see its paths; Escape ends this"
+    x, y = paths.found.pixel
+    escape = "Escape: clicks select objects again" if paths.is_choosing else "Escape removes them"
+    return f"paths of pixel {x}, {y}; {escape}"
+
+
 def draw_outside(app: App, seen: Rectangle) -> None:
     """The same from outside, in the corner of the picture that is far from the pixel."""
     path, found = app.paths.shown, app.paths.found
@@ -74,9 +86,12 @@ def draw_outside(app: App, seen: Rectangle) -> None:
     view.draw(lines_of(path, ball.radius, scene.camera.position))
     view.dots(path)
     painter.add_text(
+        imgui.get_font(),
+        imgui.get_font_size(),
         ImVec2(*corner) + ImVec2(6, 4),
         imgui.get_color_u32(COLORS["path"]),
         "from outside; a drag turns it",
+        wrap_width=max(side - 12, 1),
     )
     painter.pop_clip_rect()
     _turn(app, corner, side)

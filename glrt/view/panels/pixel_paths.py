@@ -60,10 +60,10 @@ def draw_pixel_paths(app: App) -> None:
 
 def _pixel(app: App, found: PixelPaths) -> None:
     x, y = found.pixel
-    imgui.text(f"pixel {x}, {y}: {len(found.radiances)} samples")
+    imgui.text(f"pixel {x}, {y}: {counted(len(found.radiances), 'sample')}")
     imgui.text(f"mean {triple(found.mean)}")
     if found.recipe.settings.caustics == "on":
-        imgui.text_disabled("by paths from the camera, beside particles")
+        _dimmed("by paths from the camera, beside particles")
     if not app.paths.is_of(app.session.scene):
         imgui.text_wrapped("The scene has changed since; click the pixel again.")
     if button("save as a test"):
@@ -76,7 +76,7 @@ def _pixel(app: App, found: PixelPaths) -> None:
 
 def _samples(app: App, found: PixelPaths) -> None:
     """Those that carry most light; a click shows one."""
-    imgui.text_disabled("samples by their share of its light")
+    _dimmed("samples by their share of its light")
     for path in found.paths:
         share = percent(found.shares[path.sample])
         is_shown = app.paths.shown is path
@@ -95,7 +95,7 @@ def _particles(app: App, found: PixelPaths) -> None:
         f"this pixel, and bring {triple(there.mean)}; "
         f"with the paths {triple(found.mean + there.mean)}"
     )
-    imgui.text_disabled("by their share of what particles bring")
+    _dimmed("by their share of what particles bring")
     whole = float(there.radiances.sum(dtype="float64")) or 1.0
     for path in there.paths:
         share = percent(sum(path.radiance) / whole)
@@ -112,11 +112,18 @@ def _path(path: Path) -> None:
         imgui.text_wrapped(told)
     _table("vertices", vertex_rows(path), (0, 1, 2, 5, 6))
     if path.contributions:
-        _table("lights", light_rows(path), (0, 1, 2, 3, 4, 6, 7))
+        _table("lights", light_rows(path), (0, 1, 2, 7, 6, 4, 3))
     for kind, meaning in _LEGEND.items():
         imgui.text_colored(COLORS[kind], "---")
         imgui.same_line(hello_imgui.em_size(2.5))
-        imgui.text_disabled(meaning)
+        _dimmed(meaning)
+
+
+def _dimmed(text: str) -> None:
+    """Grey, in more lines where the panel is narrow."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_disabled(text)
+    imgui.pop_text_wrap_pos()
 
 
 def _table(name: str, rows: list[tuple[str, ...]], columns: tuple[int, ...]) -> None:

@@ -137,7 +137,7 @@ def _contents(plan: Plan) -> tuple[str, str]:
     features = explain(plan.scene, plan.settings)
     inside = ", ".join(feature.name for feature in features if feature.present)
     layers = f"; {plan.layers} layers" if plan.layers else ""
-    left_out = "\n".join(f"{f.name}: {f.reason}" for f in features if not f.present)
+    left_out = "; ".join(f"{f.name}: {f.reason}" for f in features if not f.present)
     return f"{inside}{layers}", left_out
 
 

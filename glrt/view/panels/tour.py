@@ -3,7 +3,9 @@
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.view.app import App
+from glrt.view.panels.widgets import button, tip
 from glrt.view.state.controls import replaced
+from glrt.view.state.zoom import Rectangle
 
 STEPS = (
     (
@@ -14,18 +16,20 @@ STEPS = (
     ),
     (
         "Change the light",
-        "Drag `intensity` or a colour under Light. The word beside each control says what an edit "
-        "costs: relight keeps all samples, restart begins anew, recompile compiles a kernel first.",
+        "Drag the intensity or a colour under Light. The word beside each control says what an "
+        "edit costs: relight keeps all samples, restart begins anew, recompile compiles a kernel "
+        "first.",
     ),
     (
         "Edit objects",
-        "Click an object: it is outlined, its handles move it, and the panel shows its material. "
-        "`add` makes a new one. Everything can be undone by Ctrl-Z.",
+        "Click an object: it is outlined, its handles move it, and the panel shows its "
+        "material. The button add, under Object, makes a new object. Everything can be undone by "
+        "Ctrl-Z.",
     ),
     (
         "Ask a pixel",
-        "P, then a click, shows the paths of a pixel and why it is bright. I shows its values, "
-        "Ctrl and the wheel zoom.",
+        "P, then a click, shows the paths of a pixel and why it is bright; Escape ends that. "
+        "I shows its values, Ctrl and the wheel zoom.",
     ),
     (
         "Keep what you have",
@@ -34,6 +38,7 @@ STEPS = (
     ),
 )
 _WIDTH = 22.0  # letters' heights
+_LEAST = 14.0  # letters' heights: lines beside the box are no narrower
 
 
 def draw_tour(app: App) -> None:
@@ -50,23 +55,39 @@ def draw_tour(app: App) -> None:
     number = f"{app.tour_step + 1} of {len(STEPS)}"
     is_shown, is_open = imgui.begin(f"{title} ({number})###tour", True, int(flags))
     if is_shown:
+        below = imgui.get_cursor_pos_y() + _tallest(imgui.get_content_region_avail().x)
         imgui.text_wrapped(text)
-        imgui.spacing()
+        imgui.set_cursor_pos_y(below + imgui.get_style().item_spacing.y)
         _answers(app, app.tour_step)
     imgui.end()
     if not is_open:
         app.tour_step = None
 
 
+def room_beside_tour(seen: Rectangle) -> tuple[ImVec2, float]:
+    """Where lines of text begin over the picture, and how wide they may be: not under the box."""
+    left, top, width, _ = seen
+    box, least = imgui.internal.find_window_by_name("###tour"), hello_imgui.em_size(_LEAST)
+    is_clear = not (box and box.active) or box.pos.x > left + width
+    if is_clear or box.pos.y + box.size.y < top:
+        return ImVec2(left, top), width
+    if box.pos.x - left >= least:
+        return ImVec2(left, top), box.pos.x - left
+    return ImVec2(left, max(top, box.pos.y + box.size.y)), width
+
+
+def _tallest(width: float) -> float:
+    """The height of the longest text: buttons that stay in their place are clicked in a row."""
+    return max(imgui.calc_text_size(text, wrap_width=width).y for _, text in STEPS)
+
+
 def _answers(app: App, step: int) -> None:
-    if step and imgui.button("back"):
-        app.tour_step = step - 1
-    if step:
-        imgui.same_line()
-    is_last = step == len(STEPS) - 1
-    if not is_last and imgui.button("next"):
+    if button("next", step + 1 < len(STEPS)):
         app.tour_step = step + 1
-    if not is_last:
-        imgui.same_line()
-    if imgui.button("close for ever"):
+    imgui.same_line()
+    if button("back", step > 0):
+        app.tour_step = step - 1
+    imgui.same_line()
+    if button("do not show again"):
         app.prefer(replaced(app.preferences, tour=False))
+    tip("Tick tour under Window, at the end of the panel, to see it again; x closes it until then")

@@ -1,8 +1,7 @@
-"""The picture in its window, and the mouse and the keys that move the camera."""
+"""The picture in its window, and the mouse that moves the camera."""
 
 import math
 import time
-from collections.abc import Callable
 
 from imgui_bundle import ImVec2, imgui
 
@@ -10,9 +9,8 @@ from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import told_pixel
-from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.legend import HEIGHT, draw_legend
-from glrt.view.panels.navigation import NOTICE, leaves, navigate
+from glrt.view.panels.navigation import NOTICE
 from glrt.view.panels.pair_images import (
     draw_beside,
     draw_image,
@@ -20,46 +18,18 @@ from glrt.view.panels.pair_images import (
     draw_wipe,
     draw_wipe_handle,
 )
-from glrt.view.panels.path_overlay import draw_outside, draw_paths
-from glrt.view.state.keys import Action, Move
+from glrt.view.panels.path_overlay import draw_outside, draw_paths, told_paths
+from glrt.view.panels.shortcuts import modifiers
+from glrt.view.panels.tour import room_beside_tour
+from glrt.view.state.keys import label
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
 
-_AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
-    "forward": (0, 0, 1),
-    "back": (0, 0, -1),
-    "left": (-1, 0, 0),
-    "right": (1, 0, 0),
-    "up": (0, 1, 0),
-    "down": (0, -1, 0),
-}
-_COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key does
-    "home": lambda app: app.home(),
-    "frame": lambda app: app.frame_selected(),
-    "pause": lambda app: app.pause(),
-    "fit": lambda app: app.zoom_to(None),
-    "one_to_one": lambda app: app.zoom_to(1.0),
-    "inspect": lambda app: app.inspect(),
-    "paths": lambda app: app.choose_paths(),
-    "panel": lambda app: navigate(app, not app.navigates),
-    "undo": lambda app: app.undo(),
-    "redo": lambda app: app.redo(),
-    "duplicate": lambda app: app.duplicate(),
-    "delete": lambda app: app.delete(),
-    "open": lambda app: app.files.browse_open(),
-    "save_scene": lambda app: app.files.save_again(),
-    "save_scene_as": lambda app: app.files.browse_scene(),
-    "save": lambda app: app.files.save_picture(),
-    "quit": lambda app: app.files.close(app.leave),
-}
-_LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
 _EVERY_BUTTON = int(
     imgui.ButtonFlags_.mouse_button_left
     | imgui.ButtonFlags_.mouse_button_right
     | imgui.ButtonFlags_.mouse_button_middle
 )
-_ANY_POPUP = int(imgui.PopupFlags_.any_popup)
-_CHOOSE = "click a pixel to see its paths"
 _FRAMED = 4.0  # pixels of the screen: a pixel that is as large gets a frame when it is read
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 
@@ -96,9 +66,10 @@ def draw_viewport(app: App) -> None:
         _clicks(app)
     low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
-        draw_legend(app.show, app.camera, app.progress.last, low, seen[2])
-    for line, notice in enumerate(filter(None, _notices(app))):
-        draw_notice(notice, ImVec2(*seen[:2]) + ImVec2(0, 2.4 * line * imgui.get_font_size()))
+        draw_legend(app.show, app.session, app.progress.last, low, seen[2])
+    place, width = room_beside_tour(seen)
+    for notice in filter(None, _notices(app)):
+        place.y += draw_notice(notice, place, width)
     if app.inspects:
         _pixel_values(app, seen)
 
@@ -114,12 +85,22 @@ def _notices(app: App) -> tuple[str, ...]:
     """What is told in the picture, a line each; "" for nothing."""
     return (
         app.show.notice(app.session),
-        app.paths.busy or _CHOOSE * (app.paths.is_choosing and not app.paths.found),
+        told_paths(app),
         "old picture, until the new one has a sample" if _is_old(app) else "",
         "paused" if app.session.paused else "",
         NOTICE if app.navigates else "",
+        _told_zoom(app),
         app.messages.recent(time.perf_counter()),
     )
+
+
+def _told_zoom(app: App) -> str:
+    """How large pixels are, and the key that ends it; "" where the whole picture is shown."""
+    scale, keys = app.zoom.scale, app.preferences.bindings["fit"]
+    if scale is None:
+        return ""
+    ratio = f"{scale:.3g}:1" if scale >= 1 else f"1:{1 / scale:.3g}"
+    return f"zoom {ratio}" + (f"; {label(keys[0])} shows the whole picture" if keys else "")
 
 
 def _is_old(app: App) -> bool:
@@ -169,40 +150,14 @@ def _outline(app: App) -> None:
 _edges = kept_for_the_same(outline)
 
 
-def draw_keys(app: App) -> None:
-    """Act on the keys; not while a text is typed, a list is open, or a key is chosen.
-
-    Those that move the camera do not while keys move in the panel.
-    """
-    io = imgui.get_io()
-    is_open = imgui.is_popup_open("", _ANY_POPUP)
-    if is_open and imgui.is_key_pressed(imgui.Key.escape):
-        imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
-    is_left = leaves(app)
-    if io.want_text_input or is_open or is_choosing(app):
-        return
-    if is_left:
-        navigate(app, False)
-    seconds = min(io.delta_time, _LONGEST_STEP)
-    moves = {} if app.navigates else _AXES
-    held = [axis for action, axis in moves.items() if _is_held(app, action)]
-    if held:
-        right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
-        app.walk(right, up, forward, seconds)
-    for action, act in _COMMANDS.items():
-        if _is_pressed(app, action):
-            act(app)
-    if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
-        app.session.history.settle()
-
-
 def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
     """Left drags by the mode, right the other way, middle shifts; the wheel dollies.
 
     With Ctrl, the wheel and drags are those of the zoom.
     """
     io = imgui.get_io()
-    if imgui.is_item_hovered() and io.mouse_wheel and io.key_ctrl:
+    is_zoom = "ctrl" in modifiers()
+    if imgui.is_item_hovered() and io.mouse_wheel and is_zoom:
         at = (io.mouse_pos.x - here.x, io.mouse_pos.y - here.y)
         size, factor = app.session.settings.size, 2 ** (0.5 * io.mouse_wheel)
         app.zoom = app.zoom.about((room.x, room.y), size, at, factor)
@@ -212,7 +167,7 @@ def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
         return
     if not imgui.is_item_active() or (io.mouse_delta.x == 0 and io.mouse_delta.y == 0):
         return
-    if io.key_ctrl:
+    if is_zoom:
         app.zoom = app.zoom.shifted(app.session.settings.size, io.mouse_delta.x, io.mouse_delta.y)
         return
     across, down = io.mouse_delta.x / io.display_size.x, io.mouse_delta.y / io.display_size.y
@@ -245,27 +200,3 @@ def _clicks(app: App) -> None:
 def _was_dragged() -> bool:
     moved = imgui.get_io().mouse_drag_max_distance_sqr[0]
     return bool(moved > imgui.get_io().mouse_drag_threshold ** 2)
-
-
-def _is_held(app: App, action: Action) -> bool:
-    """Whether a key without modifiers is down."""
-    if imgui.get_io().key_ctrl:
-        return False
-    return any(imgui.is_key_down(key_named(name)) for name in app.preferences.bindings[action])
-
-
-def _is_pressed(app: App, action: Action) -> bool:
-    """In the panel, keys without Ctrl are those of its widgets."""
-    chords = app.preferences.bindings[action]
-    if app.navigates and action != "panel":
-        chords = tuple(name for name in chords if name.startswith("ctrl+"))
-    return any(imgui.is_key_chord_pressed(_chord(name)) for name in chords)
-
-
-def _chord(name: str) -> int:
-    """ "ctrl+shift+z" as Dear ImGui has it."""
-    *modifiers, key = name.split("+")
-    chord = key_named(key).value
-    for modifier in modifiers:
-        chord |= imgui.Key[f"mod_{modifier}"].value
-    return int(chord)

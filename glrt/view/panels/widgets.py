@@ -1,8 +1,8 @@
 """Widgets for controls, with what an edit costs beside them: a value in, the edited one out."""
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
 
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
@@ -10,20 +10,18 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from glrt.settings import Cost
 from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.slider_text import Slider, beside_grip, share_of
+from glrt.view.panels.tags import tag, tags, tags_start
 from glrt.view.state.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
 
-# Hue tells the classes apart in both themes; the word stands beside it.
-COLORS = {
-    Cost.FREE: (0.30, 0.66, 0.36, 1.0),
-    Cost.RELIGHT: (0.30, 0.58, 0.90, 1.0),
-    Cost.RESTART: (0.85, 0.58, 0.13, 1.0),
-    Cost.RECOMPILE: (0.88, 0.36, 0.36, 1.0),
-}
+Drawn = TypeVar("Drawn")
+
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
 LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
+WORDS = 7.0  # the same of one that shows a word or a name
 _MOST_ROWS = 14  # of a list that need no scrolling
 _TIP = 28.0  # letters' heights across, of a tooltip
+_TOLD = 8.0  # letters' heights from the left edge of a list to what its words are
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
 
@@ -34,9 +32,8 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     `name` distinguishes controls of one label: those of two lamps, say.
     """
     label = f"{control.label}##{name}" if name else control.label
-    is_narrow = control.kind != "switch" and _room_beside(control.label) < hello_imgui.em_size(
-        LEAST
-    )
+    least = hello_imgui.em_size(WORDS if control.kind == "choice" else LEAST)
+    is_narrow = control.kind != "switch" and _room_beside(control.label) < least
     changed, new = (_drawn_below if is_narrow else _drawn_beside)(control, label, value)
     return _clamped(control, new) if changed else None
 
@@ -45,20 +42,26 @@ def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.set_next_item_width(_width_beside(control.label))
     drawn = _draw(control, label, value)
     tooltip(control)
-    _tags(control)
+    tags(control)
     return drawn
 
 
 def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     """Below its label, which the widget has too, so that its name is the same, but cut off."""
     imgui.text(control.label)
-    _tags(control)
+    tags(control)
+    drawn = _clipped(lambda: _draw(control, label, value))
+    tooltip(control)
+    return drawn
+
+
+def _clipped(draw: Callable[[], Drawn]) -> Drawn:
+    """A widget as wide as the panel, whose own label is cut off."""
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
     imgui.set_next_item_width(room)
-    drawn = _draw(control, label, value)
+    drawn = draw()
     imgui.pop_clip_rect()
-    tooltip(control)
     return drawn
 
 
@@ -73,12 +76,22 @@ def button(label: str, is_enabled: bool = True) -> bool:
 
 def named(label: str, value: str, name: str) -> str:
     """A box for a name; the new one once it is typed to its end, else ""."""
-    imgui.set_next_item_width(_width_beside(label))
     flags = imgui.InputTextFlags_.auto_select_all.value
-    _, text = imgui.input_text(f"{label}##{name}", value, flags)
-    is_done = imgui.is_item_deactivated_after_edit()
-    ANCHOR.note()
-    tag(Cost.FREE)
+
+    def draw() -> tuple[str, bool]:
+        _, text = imgui.input_text(f"{label}##{name}", value, flags)
+        return text, imgui.is_item_deactivated_after_edit()
+
+    if _room_beside(label) < hello_imgui.em_size(WORDS):
+        imgui.text(label)
+        tag(Cost.FREE)
+        text, is_done = _clipped(draw)
+        ANCHOR.note()
+    else:
+        imgui.set_next_item_width(_width_beside(label))
+        text, is_done = draw()
+        ANCHOR.note()
+        tag(Cost.FREE)
     return text.strip() if is_done and text.strip() != value else ""
 
 
@@ -88,6 +101,12 @@ def beside(text: str) -> None:
     width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
     if imgui.get_content_region_avail().x < width:
         imgui.new_line()
+
+
+def room_for(label: str, usual: float) -> float:
+    """The width of a widget that leaves room for a label beside it, in pixels."""
+    beside = imgui.calc_text_size(label).x + imgui.get_style().item_inner_spacing.x
+    return max(hello_imgui.em_size(3.5), min(usual, imgui.get_content_region_avail().x - beside))
 
 
 def tip(text: str) -> None:
@@ -111,44 +130,6 @@ def tooltip(control: Control) -> None:
     tip("\n".join([f"{help_text}{unit}", *costs, *(["", why] if why else [])]))
 
 
-def legend() -> None:
-    """What the classes of cost mean."""
-    for cost, meaning in MEANING.items():
-        imgui.text_colored(COLORS[cost], cost.value)
-        imgui.same_line(hello_imgui.em_size(5.5))
-        imgui.text_wrapped(meaning)
-
-
-def tag(cost: Cost) -> None:
-    """What an edit costs, at the right edge; where the label reaches that far, behind it."""
-    end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
-    imgui.same_line(max(end, _tags_start()))
-    imgui.text_colored(COLORS[cost], cost.value)
-
-
-def _tags(control: Control) -> None:
-    if len(control.costs) == 1:
-        return tag(control.cost)
-    return _tags_below(control)
-
-
-def _tags_below(control: Control) -> None:
-    """A line for a cost that depends on the value."""
-    imgui.indent()
-    for number, (cost, where) in enumerate(control.costs):
-        if number:
-            imgui.same_line()
-        imgui.text_colored(COLORS[cost], f"{cost.value} {where}")
-    imgui.unindent()
-
-
-def _tags_start() -> float:
-    """Where the widest tag still ends before the scroll bar, from the window's left edge."""
-    style = imgui.get_style()
-    widest = max(imgui.calc_text_size(cost.value).x for cost in Cost)
-    return imgui.get_window_width() - style.scrollbar_size - style.window_padding.x - widest
-
-
 def _width_beside(label: str) -> float:
     """The width of a widget that leaves room for its label and its tag."""
     usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
@@ -158,13 +139,15 @@ def _width_beside(label: str) -> float:
 def _room_beside(label: str) -> float:
     """The width that a label and a tag leave in a line."""
     beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
-    return _tags_start() - imgui.get_cursor_pos_x() - beside
+    return tags_start() - imgui.get_cursor_pos_x() - beside
 
 
 def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     if control.kind == "switch":
         return imgui.checkbox(label, value)
     if control.kind == "choice":
+        if control.told:
+            return _told_choice(control, label, value)
         names = list(control.choices)
         changed, index = imgui.combo(label, names.index(value), names, min(len(names), _MOST_ROWS))
         return changed, control.choices[index]
@@ -174,6 +157,24 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
         changed, parts = imgui.drag_float3(label, list(value), 0.01, format="%.3f")
         return changed, tuple(parts)
     return _number(control, label, value)
+
+
+def _told_choice(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """A list that tells beside each word what it is."""
+    chosen = value
+    if not imgui.begin_combo(label, str(value), imgui.ComboFlags_.height_large.value):
+        return False, value
+    for word, told in zip(control.choices, control.told, strict=True):
+        imgui.push_id(word)
+        if imgui.selectable(word, word == value)[0]:
+            chosen = word
+        if word == value and imgui.is_window_appearing():
+            imgui.set_item_default_focus()
+        imgui.same_line(max(0.0, hello_imgui.em_size(_TOLD)))
+        imgui.text_disabled(told)
+        imgui.pop_id()
+    imgui.end_combo()
+    return chosen != value, chosen
 
 
 def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - folders: what a folder holds
 - recent: what was opened last
 - edited: what undo brings back
+- changes: what parts two states, in words
 - history: undo and redo
 - preview_size: how coarsely edits in a row are shown
 - grain: whether a coarse picture can be read

@@ -39,6 +39,7 @@ class Control:
     high: float | None = None
     slider: tuple[float, float] | None = None
     choices: tuple[str, ...] = ()
+    told: tuple[str, ...] = ()  # of each choice, what it is, where its word does not say it
     reach: tuple[float, Cost] | None = None  # up to which an edit has this cost; and that beyond
 
     @property

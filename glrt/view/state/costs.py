@@ -45,6 +45,18 @@ def reach_of_bounces(session: Session) -> Reach | None:
     return traced if traced < MOST_LAYERS else MOST_LAYERS - 2, beyond
 
 
+def traced_bounces(session: Session) -> int:
+    """The limit that the paths of the film were traced to: the picture may show fewer."""
+    renderer = None if session.is_behind else session.renderer
+    return renderer.plan.settings.bounces if renderer else session.settings.bounces
+
+
+def limit_beyond(session: Session) -> int | None:
+    """That limit, where the picture shows fewer."""
+    traced = traced_bounces(session)
+    return None if traced == session.settings.bounces else traced
+
+
 def reach_of_size(session: Session, side: Literal["width", "height"]) -> Reach | None:
     """Up to which size there is room for layers; beyond is another kernel. None without layers."""
     layers = session.room.layers(session.scene, session.settings, session.layering)

@@ -26,6 +26,16 @@ class History(Generic[State]):
         """Whether there is a state that was undone."""
         return bool(self._future)
 
+    @property
+    def before(self) -> State | None:
+        """What undo would bring back."""
+        return self._past[-1] if self._past else None
+
+    @property
+    def undone(self) -> State | None:
+        """What redo would bring back."""
+        return self._future[-1] if self._future else None
+
     def record(self, before: State, gesture: str = "") -> None:
         """Remember the state that an edit leaves.
 

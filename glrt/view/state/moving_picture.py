@@ -81,6 +81,11 @@ class MovingPicture:
         self._temporal.end = float(min(END, wanted))
         return renderer is not None and self._temporal.is_shown(renderer)
 
+    @property
+    def end(self) -> int:
+        """The samples of the film from which on it is shown alone."""
+        return int(self._temporal.end)
+
     def texture(self, renderer: Renderer, weights: Weights) -> moderngl.Texture | None:
         """Film and history, valid until the next call; None: the film alone is to be shown."""
         return self._temporal.show(renderer, weights)

@@ -35,9 +35,9 @@ def with_added(scene: Scene, shape: Shape, material: Material | None = None) -> 
     return replaced(scene, objects=(*scene.objects, shape), materials={**scene.materials, **new})
 
 
-def with_duplicate(scene: Scene, index: int) -> Scene:
-    """A copy of an object behind all others, in the same place, under a name of its own."""
-    shape = scene.objects[index]
+def with_duplicate(scene: Scene, index: int, moved: Shape | None = None) -> Scene:
+    """A copy of an object behind all others, under a name of its own: `moved` is it elsewhere."""
+    shape = moved or scene.objects[index]
     if shape.name:
         shape = replaced(shape, name=free_name(shape.name, _names(scene)))
     return with_added(scene, shape)

@@ -8,6 +8,7 @@ from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors, Scale
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED, SurfaceView
+from glrt.view.state.costs import traced_bounces
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.difference import GROWTH, Difference, difference_of
@@ -16,7 +17,7 @@ from glrt.view.viewport.views import View, aov_of, scale_of
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
-HISTORY = "with light of earlier views, until there are samples enough"
+HISTORY = "with light of earlier views, until there are {} samples"
 
 
 @dataclass
@@ -29,7 +30,7 @@ class PictureView:
     surface: SurfaceView
     view: View = "picture"  # as wanted; see `drawn`
     most: float = 0.5  # relative difference that has the strongest colour
-    bounces: int = 10  # the limit of the paths
+    bounces: int = 10  # the limit that the paths were traced to; the picture may show fewer
     wipe: float = 0.5  # share of the picture's width that shows the kept one
     kept: ReferenceImage | None = None
     holds: bool = False  # the picture gets no samples: the frame is another one's
@@ -55,7 +56,7 @@ class PictureView:
         if session.refused == self.view:
             self.view = "picture"
         session.aov, session.refused = aov_of(self.view), None
-        self.bounces = session.settings.bounces
+        self.bounces = traced_bounces(session)
         renderer = session.renderer
         kept = self._compared(session)
         is_ahead = kept and renderer and kept.samples(renderer) < session.samples
@@ -128,12 +129,14 @@ class PictureView:
             return session.busy
         if self.is_surface:
             return SURFACE
-        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
-            return HISTORY
-        if self.view == "picture":
-            return ""
         if self.view == "error" and not self._knows_error(session):
             return f"The error is known after {2 * renderer.film.extent.block} samples"
+        if aov_of(self.view) and self.drawn != self.view:
+            return f"The view {self.view} comes with its first sample"
+        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
+            return HISTORY.format(session.moving.end)
+        if self.view == "picture":
+            return ""
         if self.view != "difference":
             return ""
         if not kept:

@@ -15,6 +15,7 @@ from glrt.view.state.controls import replaced
 from glrt.view.viewport.orbit import axes
 
 Matrix = list[float]
+_CLEAR = 1.02  # heights of an object from its middle to that of its copy
 
 
 def view_matrix(camera: Camera) -> Matrix:
@@ -49,6 +50,21 @@ def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
     return replaced(
         shape, **{name: _short(np.add(getattr(shape, name), step)) for name in _points(shape)}
     )
+
+
+def clear_of(shape: Shape, pivot: Vector, least: float) -> Shape:
+    """The shape above where it is, or below if that is above the pivot: by its own height.
+
+    Two surfaces in one place shade each other at random. What is flat or endless moves by `least`,
+    a plane along its normal; lengths are in scene units.
+    """
+    low, high = type(shape).bounds(np.array([shape.row], np.float64))
+    height, normal = float(high[0][1] - low[0][1]), getattr(shape, "normal", None)
+    if not math.isfinite(shape.reach) and normal is not None:
+        along = np.array(normal, np.float64)
+        return shifted(shape, least * along / float(np.linalg.norm(along)))
+    step = max(_CLEAR * height, least)
+    return shifted(shape, np.array([0.0, -step if shape.middle[1] > pivot[1] else step, 0.0]))
 
 
 def scaled(shape: Shape, factor: float) -> Shape:

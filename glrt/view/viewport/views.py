@@ -34,10 +34,19 @@ TITLES: dict[View, str] = {
 }
 
 
-def title_of(view: View, camera: Camera) -> str:
-    """What a view shows; lengths are in scene units."""
+def title_of(view: View, camera: Camera, limit: int | None = None) -> str:
+    """What a view shows; lengths are in scene units.
+
+    `limit`: the bounces that its paths were traced to, where the picture shows fewer of them.
+    """
     focus, cell = camera.resolved_focus_distance, cell_of(camera)
-    return TITLES[view].format(focus=focus, cell=cell)
+    of_others = told_limit(limit) if view == "bounces" else ""
+    return TITLES[view].format(focus=focus, cell=cell) + of_others
+
+
+def told_limit(limit: int | None) -> str:
+    """That counts of bounces are not those of the picture, which shows fewer; "" where they are."""
+    return "" if limit is None else f", of paths of up to {limit}"
 
 
 def aov_of(view: View) -> Aov | None:

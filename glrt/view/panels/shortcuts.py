@@ -1,0 +1,108 @@
+"""Commands and steps by keys, in frames that may be slower than the hand."""
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from glrt.view.app import App
+from glrt.view.panels.key_table import is_choosing, key_named
+from glrt.view.panels.navigation import leaves, navigate
+from glrt.view.state.keys import Action, Move
+
+_AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
+    "forward": (0, 0, 1),
+    "back": (0, 0, -1),
+    "left": (-1, 0, 0),
+    "right": (1, 0, 0),
+    "up": (0, 1, 0),
+    "down": (0, -1, 0),
+}
+_COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key does
+    "home": lambda app: app.home(),
+    "frame": lambda app: app.frame_selected(),
+    "pause": lambda app: app.pause(),
+    "fit": lambda app: app.zoom_to(None),
+    "one_to_one": lambda app: app.zoom_to(1.0),
+    "inspect": lambda app: app.inspect(),
+    "paths": lambda app: app.choose_paths(),
+    "panel": lambda app: navigate(app, not app.navigates),
+    "undo": lambda app: app.undo(),
+    "redo": lambda app: app.redo(),
+    "duplicate": lambda app: app.duplicate(),
+    "delete": lambda app: app.delete(),
+    "open": lambda app: app.files.browse_open(),
+    "save_scene": lambda app: app.files.save_again(),
+    "save_scene_as": lambda app: app.files.browse_scene(),
+    "save": lambda app: app.files.save_picture(),
+    "quit": lambda app: app.files.close(app.leave),
+}
+_LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
+_ANY_POPUP = int(imgui.PopupFlags_.any_popup)
+_MODIFIERS = {
+    "ctrl": (imgui.Key.left_ctrl, imgui.Key.right_ctrl),
+    "shift": (imgui.Key.left_shift, imgui.Key.right_shift),
+    "alt": (imgui.Key.left_alt, imgui.Key.right_alt),
+}
+
+
+def draw_keys(app: App) -> None:
+    """Act on the keys; not while a text is typed, a list is open, or a key is chosen.
+
+    Those that move the camera do not while keys move in the panel.
+    """
+    io = imgui.get_io()
+    is_open = imgui.is_popup_open("", _ANY_POPUP)
+    if is_open and imgui.is_key_pressed(imgui.Key.escape):
+        imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+    is_free = not app.was_busy  # Dear ImGui has had Escape before
+    is_left = leaves(app)
+    if io.want_text_input or is_open or is_choosing(app):
+        return
+    if is_left:
+        navigate(app, False)
+    elif is_free and imgui.is_key_pressed(imgui.Key.escape, False):
+        app.end_paths()
+    seconds = min(io.delta_time, _LONGEST_STEP)
+    moves = {} if app.navigates else _AXES
+    held = [axis for action, axis in moves.items() if _is_held(app, action)]
+    if held:
+        right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
+        app.walk(right, up, forward, seconds)
+    for action, act in _COMMANDS.items():
+        if _is_pressed(app, action):
+            act(app)
+            app.is_deaf = "ctrl" in modifiers()  # what is let go after Ctrl makes no step
+    if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
+        app.session.history.settle()
+
+
+def modifiers() -> list[str]:
+    """Those that are held, or were let go in this frame: in a slow one a chord comes and goes."""
+    io = imgui.get_io()
+    down = {"ctrl": io.key_ctrl, "shift": io.key_shift, "alt": io.key_alt}
+    return [
+        name
+        for name, keys in _MODIFIERS.items()
+        if down[name] or any(imgui.is_key_released(key) for key in keys)
+    ]
+
+
+def _is_held(app: App, action: Action) -> bool:
+    """Whether a key without modifiers is down."""
+    if "ctrl" in modifiers():
+        return False
+    return any(imgui.is_key_down(key_named(name)) for name in app.preferences.bindings[action])
+
+
+def _is_pressed(app: App, action: Action) -> bool:
+    """In the panel, keys without Ctrl are those of its widgets."""
+    chords = app.preferences.bindings[action]
+    if app.navigates and action != "panel":
+        chords = tuple(name for name in chords if name.startswith("ctrl+"))
+    return any(_comes(name) for name in chords)
+
+
+def _comes(text: str) -> bool:
+    """Whether the last key of "ctrl+shift+z" was pressed in this frame, with the others."""
+    *wanted, key = text.split("+")
+    return modifiers() == wanted and imgui.is_key_pressed(key_named(key), repeat=False)

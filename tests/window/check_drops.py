@@ -1,0 +1,49 @@
+"""Files dropped by another program, as the X server brings them."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import glfw
+
+from glrt.scene.toml import read_scene
+from tests.window.gestures import answer, reopen
+from tests.window.hand import Hand, check
+
+
+def dropped(hand: Hand, file: Path) -> int:
+    """Drop it by the protocol XDND, from a process of its own; its exit code."""
+    library: Any = glfw
+    window = hand.there(lambda: library.get_x11_window(glfw.get_current_context()))
+    command = [sys.executable, "-m", "tests.window.xdnd", str(window), str(file)]
+    with subprocess.Popen(command) as source:
+        hand.until(lambda: source.poll() is not None)
+    return int(source.returncode)
+
+
+@check
+def a_scene_dropped_by_another_program_is_opened(hand: Hand) -> None:
+    """Its name has what a URI writes otherwise."""
+    file = Path.cwd() / "dropped, 50 % blå.toml"
+    file.write_text((Path.cwd() / "scenes" / "lamps.toml").read_text())
+    assert dropped(hand, file) == 0
+    hand.until(lambda: hand.window.app.files.source == str(file))
+    hand.settle()
+    assert hand.session.scene.objects == read_scene(file).objects
+    reopen(hand)
+
+
+@check
+def a_scene_dropped_on_edits_is_opened_when_that_is_agreed(hand: Hand) -> None:
+    file = Path.cwd() / "later.toml"
+    file.write_text((Path.cwd() / "scenes" / "lamps.toml").read_text())
+    hand.there(lambda: hand.window.app.add("box"))
+    edited = hand.session.scene
+    assert dropped(hand, file) == 0
+    answer(hand, "cancel")
+    assert hand.session.scene is edited
+    assert dropped(hand, file) == 0
+    answer(hand, "do not save")
+    hand.until(lambda: hand.window.app.files.source == str(file))
+    reopen(hand)

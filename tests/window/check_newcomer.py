@@ -1,0 +1,182 @@
+"""Where newcomers stumbled in trials of the window: what is told, and what lies in sight."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from imgui_bundle import imgui
+
+from glrt.view import file_dialogs
+from glrt.view.panels import widgets
+from tests.window.check_layout import resized
+from tests.window.gestures import add, ball, click, lines_told, press
+from tests.window.hand import Hand, check
+
+CTRL, SHIFT = imgui.Key.mod_ctrl.value, imgui.Key.mod_shift.value
+SMALLEST = (640, 400)
+
+
+@check
+def undo_and_redo_tell_what_they_change(hand: Hand) -> None:
+    app, (number, shape) = hand.window.app, ball(hand)
+    app.selected = number
+    hand.ctx.yield_(3)
+    hand.ctx.item_click(f"//Controls/hidden##shape {number}")
+    hand.settle()
+    with lines_told() as lines:
+        press(hand, imgui.Key.z, CTRL)
+        assert f"Undo: hidden of {shape.name}" in lines
+        press(hand, imgui.Key.y, CTRL)
+        assert f"Redo: hidden of {shape.name}" in lines
+    hand.there(app.undo)
+    app.selected = None
+
+
+@check
+def the_button_that_undoes_tells_what(hand: Hand) -> None:
+    hand.there(lambda: hand.session.edit(seed=hand.session.settings.seed + 1))
+    tips: list[str] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("glrt.view.panels.panel.tip", tips.append)
+        hand.ctx.mouse_move("//Controls/undo")
+        hand.until(lambda: bool(tips))
+    assert tips[0] == "Undo: seed (Ctrl+Z)"
+
+
+@check
+def a_copy_is_seen_beside_its_original(hand: Hand) -> None:
+    app, (number, shape) = hand.window.app, ball(hand)
+    click(hand, shape.center)
+    press(hand, imgui.Key.d, CTRL)
+    hand.settle()
+    copy: Any = hand.session.scene.objects[-1]
+    assert np.linalg.norm(np.subtract(copy.center, shape.center)) > 2 * shape.radius
+    assert app.selected == len(hand.session.scene.objects) - 1
+    click(hand, copy.center + np.array([0.0, 0.5 * copy.radius, 0.0]))
+    assert app.selected != number
+    app.selected = None
+
+
+@check
+def a_part_that_is_unfolded_is_scrolled_into_sight(hand: Hand) -> None:
+    ctx = hand.ctx
+    panel: Any = ctx.window_info("//Controls").window
+    for title in ("Window", "Mouse and keys"):
+        ctx.item_close(f"//Controls/{title}")
+    ctx.scroll_to_bottom("//Controls")
+    ctx.yield_(3)
+    ctx.item_open("//Controls/Window")
+    ctx.yield_(4)
+    bottom = panel.pos.y + panel.size.y
+    info = ctx.item_info("//Controls/tour##preference")
+    assert info.rect_full.max.y < bottom, "its end, since it is short"
+    ctx.item_close("//Controls/Window")
+    ctx.yield_(3)
+    ctx.item_open("//Controls/Mouse and keys")
+    ctx.yield_(4)
+    info = ctx.item_info("//Controls/Mouse and keys")
+    assert panel.pos.y <= info.rect_full.min.y < panel.pos.y + 0.25 * panel.size.y, "its title"
+    ctx.item_close("//Controls/Mouse and keys")
+
+
+@check
+def a_name_is_typed_at_once_where_a_file_is_saved(hand: Hand) -> None:
+    files, before = hand.window.app.files, file_dialogs.PROGRAMS
+    file_dialogs.PROGRAMS = ()  # type: ignore[assignment]
+    try:
+        press(hand, imgui.Key.s, CTRL | SHIFT)
+        hand.ctx.yield_(4)
+        hand.ctx.key_chars("typed at once")
+        hand.ctx.key_press(imgui.Key.enter.value)
+        hand.until(lambda: not files.dialogs.is_open)
+    finally:
+        file_dialogs.PROGRAMS = before
+    assert files.source == str(Path.cwd() / "typed at once.toml")
+
+
+@check
+def a_list_tells_what_its_words_mean(hand: Hand) -> None:
+    app, (number, shape) = hand.window.app, ball(hand)
+    app.selected = number
+    hand.ctx.yield_(3)
+    told: list[str] = []
+    written = imgui.text_disabled
+
+    def heard(text: str) -> None:
+        told.append(text)
+        written(text)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(widgets.imgui, "text_disabled", heard)  # type: ignore[attr-defined]
+        hand.ctx.item_click(f"//Controls/type##material {shape.material}")
+        hand.ctx.yield_(3)
+        assert {"matte", "glass, water", "a lamp"} <= set(told)
+        press(hand, imgui.Key.escape)
+        hand.ctx.item_click("//Controls/material")
+        hand.ctx.yield_(3)
+        assert {"lambertian", "dielectric", "light"} <= set(told)
+        press(hand, imgui.Key.escape)
+    app.selected = None
+
+
+@check
+def buttons_of_a_material_stay_where_they_are(hand: Hand) -> None:
+    app, (number, _) = hand.window.app, ball(hand)
+    app.selected = number
+    hand.ctx.yield_(3)
+    before = hand.ctx.item_info("//Controls/make unique").rect_full.min
+    hand.ctx.item_click("//Controls/make unique")
+    hand.ctx.yield_(3)
+    after = hand.ctx.item_info("//Controls/make unique").rect_full.min
+    assert after.x == before.x
+    hand.there(app.undo)
+    app.selected = None
+
+
+@check
+def a_lamp_is_dimmed_where_it_is_edited(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    add(hand, "lamp")
+    hand.settle()
+    shape = app.selected_shape
+    assert shape
+    group = session.scene.finish(shape).group
+    samples, restarts = session.samples, session.restarts
+    hand.ctx.set_ref("Controls")
+    hand.ctx.item_input_value(f"intensity##{group} of object", 0.25)
+    hand.settle()
+    assert session.scene.light_groups[str(group)] == 0.25
+    assert session.samples >= samples
+    assert session.restarts == restarts, "it is relit"
+    app.selected = None
+
+
+@check
+def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
+    """In a window of 640 x 400: lists, buttons and names end inside of the panel."""
+    app, (number, shape) = hand.window.app, ball(hand)
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    app.select(number)
+    resized(hand, SMALLEST)
+    hand.ctx.yield_(3)
+    panel: Any = hand.ctx.window_info("//Controls").window
+    right = panel.inner_clip_rect.max.x
+    try:
+        for row in (
+            "object",
+            "delete",
+            "focus here",
+            f"name##shape {number}",
+            f"type##material {shape.material}",
+            "make unique",
+            "forget it",
+        ):
+            info = hand.ctx.item_info(f"//Controls/{row}")
+            box = info.rect_clipped if "##" in row else info.rect_full
+            assert box.max.x <= right + 1, row
+            if "##" in row:
+                assert box.max.x - box.min.x > 7 * imgui.get_font_size(), row
+    finally:
+        resized(hand, (usual[0], usual[1]))
+        app.selected = None
