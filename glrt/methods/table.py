@@ -20,6 +20,7 @@ class Traits:
     follows: bool = True  # mirrors and glass
     has_lens: bool = True
     has_rough: bool = True  # metal and glass; else they are smooth
+    has_probes: bool = False  # indirect light from a grid of them
 
     @property
     def uses_lamps(self) -> bool:
@@ -35,6 +36,7 @@ METHODS: dict[str, Traits] = {
     "blinn": Traits(model=2, follows=False, has_lens=False),
     "whitted": Traits(model=3, has_lens=False, has_rough=False),
     "cook": Traits(model=4, chooses_lights=True),
+    "ddgi": Traits(samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing
 

@@ -20,6 +20,7 @@ from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
 from glrt.rendering.particle_tracer import Losses, ParticleTracer
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
+from glrt.rendering.probe_supply import ProbeSupply
 from glrt.rendering.schedule import (
     HEADLESS,
     DispatchPolicy,
@@ -52,12 +53,16 @@ class Tracer:
                 context, plan, options, before.device_scene if before else None
             )
             refused.callback(self.device_scene.release)
+            is_same = before and self.device_scene.has_kernel_of(before.device_scene)
+            known_probes = before.probes if before and is_same else None
+            self.probes = ProbeSupply(context, plan, self.device_scene, known_probes)
+            refused.callback(self.probes.release, known_probes)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if before and self.device_scene.has_kernel_of(before.device_scene):
+            if before and is_same:
                 self.switch: KernelSwitch = before.switch
             else:
                 if before:
@@ -81,6 +86,7 @@ class Tracer:
         """
         after = Tracer(self._context, plan, self._options, self)
         self.device_scene.release()
+        self.probes.release(after.probes)
         if self.particles:
             self.particles.release(after.particles)
         if after.film is not self.film:
@@ -203,7 +209,10 @@ class Tracer:
         self.switch.schedule.drop()
         target = self.film.samples + samples
         while self.film.samples < target:
-            self._at_once(min(self.most_samples, target - self.film.samples))
+            first = self.film.next_sample
+            self.probes.work_on(first)
+            wanted = self.probes.together(first, target - self.film.samples)
+            self._at_once(min(self.most_samples, wanted))
         self._catch_up_particles()
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
@@ -213,7 +222,10 @@ class Tracer:
         """
         if self.is_behind:
             self._work_behind(policy, seconds)
+        elif self.probes.lack(self.film.next_sample):
+            self.probes.work_on(self.film.next_sample, min(seconds, policy.limit / 2))
         else:
+            remaining = self.probes.together(self.film.next_sample, remaining)
             self._work_on_picture(remaining, policy, seconds)
 
     def _work_on_picture(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
@@ -228,7 +240,8 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for part in (self.film, self.particles, self.aovs, self.switch, self.device_scene):
+        films = self.film, self.particles, self.aovs, self.probes
+        for part in (*films, self.switch, self.device_scene):
             if part:
                 part.release()
 
@@ -290,4 +303,5 @@ class Tracer:
         return False
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles)
+        own = self.probes.resources
+        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
