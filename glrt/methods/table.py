@@ -39,6 +39,8 @@ METHODS: dict[str, Traits] = {
     "ddgi": Traits(samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing
+# Those whose picture, however many samples it has, is not the light of the scene.
+BIASED = [name for name, traits in METHODS.items() if traits.model or traits.has_probes]
 
 if list(METHODS) != list(get_args(Method)):
     raise TypeError(f"methods have rows {list(METHODS)}, and settings {get_args(Method)}")

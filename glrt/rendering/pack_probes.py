@@ -69,7 +69,7 @@ def turn(numbers: NDArray[np.uint32]) -> Array:
 
 def seeds(*numbers: int) -> NDArray[np.uint32]:
     """Four random numbers that hang on these alone."""
-    return np.random.SeedSequence(numbers).generate_state(4)
+    return np.asarray(np.random.SeedSequence(numbers).generate_state(4), np.uint32)
 
 
 def update_block(

@@ -143,14 +143,15 @@ class ProbeTracer:
 
     def release(self, after: "ProbeTracer | None" = None) -> None:
         """Free what the driver holds, but for kernels that another one has taken over."""
-        for resource in (*self.maps.values(), self._rays, self._block):
-            resource.release()
+        self._block.release()
+        for texture in (*self.maps.values(), self._rays):
+            texture.release()
         if not after or after._kernels is not self._kernels:
             for kernel in self._kernels.values():
                 kernel.release()
 
     def _look(self) -> None:
-        """Move probes out of solids, and find what they see: by the same rays, whatever the seed."""
+        """Move probes out of solids, and find what they see: the same for every seed."""
         for name in ("probe_places", "probe_distances"):
             _clear(self.maps[name])
         for step in range(PUSHED + 1):

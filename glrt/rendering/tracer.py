@@ -17,7 +17,7 @@ from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
-from glrt.rendering.particle_tracer import Losses, ParticleTracer
+from glrt.rendering.particle_tracer import Losses, ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.probe_supply import ProbeSupply
@@ -53,26 +53,27 @@ class Tracer:
                 context, plan, options, before.device_scene if before else None
             )
             refused.callback(self.device_scene.release)
-            is_same = before and self.device_scene.has_kernel_of(before.device_scene)
-            known_probes = before.probes if before and is_same else None
-            self.probes = ProbeSupply(context, plan, self.device_scene, known_probes)
-            refused.callback(self.probes.release, known_probes)
+            has_kernel = self.device_scene.has_kernel_of
+            known = before if before and has_kernel(before.device_scene) else None
+            probes = known.probes if known else None
+            self.probes: ProbeSupply = ProbeSupply(context, plan, self.device_scene, probes)
+            refused.callback(self.probes.release, probes)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if before and is_same:
-                self.switch: KernelSwitch = before.switch
+            if known:
+                self.switch: KernelSwitch = known.switch
             else:
                 if before:
                     before.switch.schedule.drop()  # the first dispatch writes to its frame
                 self.switch = self._compiled()
                 refused.callback(self.switch.release)
-            self.particles = self._particles_for(before)
+            particles, scene = known.particles if known else None, self.device_scene
+            self.particles: ParticleTracer | None = particles_for(context, plan, scene, particles)
             if self.particles:
-                known = before.particles if before else None
-                refused.callback(self.particles.release, known)
+                refused.callback(self.particles.release, particles)
             self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
         if not before:
@@ -209,9 +210,8 @@ class Tracer:
         self.switch.schedule.drop()
         target = self.film.samples + samples
         while self.film.samples < target:
-            first = self.film.next_sample
-            self.probes.work_on(first)
-            wanted = self.probes.together(first, target - self.film.samples)
+            self.probes.work_on(self.film.next_sample)
+            wanted = self.probes.together(self.film.next_sample, target - self.film.samples)
             self._at_once(min(self.most_samples, wanted))
         self._catch_up_particles()
 
@@ -240,8 +240,8 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        films = self.film, self.particles, self.aovs, self.probes
-        for part in (*films, self.switch, self.device_scene):
+        own = self.film, self.particles, self.probes, self.aovs, self.switch, self.device_scene
+        for part in own:
             if part:
                 part.release()
 
@@ -255,14 +255,6 @@ class Tracer:
             return before.aovs
         known = before.aovs if before else None
         return AovTracer(self._context, plan, self.device_scene, known)
-
-    def _particles_for(self, before: "Tracer | None") -> ParticleTracer | None:
-        """What gathers particles, if there are any: by the kernels of `before` where they fit."""
-        if self._plan.settings.caustics == "off":
-            return None
-        is_same = before and self.device_scene.has_kernel_of(before.device_scene)
-        known = before.particles if before and is_same else None
-        return ParticleTracer(self._context, self._plan, self.device_scene, known)
 
     @property
     def _lacks_particles(self) -> bool:

@@ -16,8 +16,8 @@ from glrt.scene.camera import Camera
 from glrt.scene.cone import Cone
 from glrt.scene.contents import Contents
 from glrt.scene.materials import TYPES
-from glrt.scene.shapes import KINDS
 from glrt.scene.probes import Probes
+from glrt.scene.shapes import KINDS
 from glrt.scene.sun import Sun
 from glrt.scene.textures import NormalTexture, Texture
 from glrt.scene.values import SMALLEST, plain

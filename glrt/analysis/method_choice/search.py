@@ -9,7 +9,7 @@ from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sam
 from glrt.analysis.reference import Reference, reference_for, unlimited
 from glrt.analysis.variants import METHODS, variants_of
 from glrt.gpu.context import Context
-from glrt.methods.table import CLASSIC
+from glrt.methods.table import BIASED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
@@ -100,7 +100,7 @@ def what_suffices(
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))
     variants = variants_of(scene, small, METHODS, leads=False)
     found = trial.methods(variants, leader)
-    order = [*CLASSIC, *METHODS]
+    order = [*BIASED, *METHODS]
     ranked = sorted(found, key=lambda c: order.index(c.settings.method))
     untried = {variant.name for variant in variants} - {candidate.name for candidate in found}
     return Verdict(error, reference, tuple(ranked), beyond, tuple(sorted(untried)))
