@@ -15,7 +15,7 @@ layout(std140) uniform ProbeBlock {
     vec4 directions[MOST_PROBE_RAYS];
 };
 uniform sampler2D probe_rays;
-layout(rgba32f) uniform image2D probe_distances;
+layout(rgba32f) uniform image2D updated_map;
 
 const int TEXELS = (DISTANCE_SIDE + 2) * (DISTANCE_SIDE + 2);  // of a map
 
@@ -29,8 +29,8 @@ void blend_distances(int probe, ivec2 texel) {
         if (distance > 0.0) add_ray(blend, vec3(distance, distance * distance, 0.0), sharpened(cosine));
     }
     ivec2 at = corner_of_map(probe, DISTANCE_SIDE) + texel;
-    precise vec3 before = imageLoad(probe_distances, at).rgb;
-    imageStore(probe_distances, at, vec4(blended(blend, before, update.kept), 1.0));
+    precise vec3 before = imageLoad(updated_map, at).rgb;
+    imageStore(updated_map, at, vec4(blended(blend, before, update.kept), 1.0));
 }
 
 void main() {

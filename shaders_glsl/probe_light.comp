@@ -15,7 +15,7 @@ layout(std140) uniform ProbeBlock {
     vec4 directions[MOST_PROBE_RAYS];
 };
 uniform sampler2D probe_rays;
-layout(rgba32f) uniform image2D probe_light;
+layout(rgba32f) uniform image2D updated_map;
 
 const int TEXELS = (LIGHT_SIDE + 2) * (LIGHT_SIDE + 2);  // of a map
 
@@ -28,8 +28,8 @@ void blend_light(int probe, ivec2 texel) {
         if (found.a > 0.0) add_ray(blend, PI * found.rgb, dot(directions[i].xyz, normal));
     }
     ivec2 at = corner_of_map(probe, LIGHT_SIDE) + texel;
-    precise vec3 before = imageLoad(probe_light, at).rgb;
-    imageStore(probe_light, at, vec4(blended(blend, before, update.kept), 1.0));
+    precise vec3 before = imageLoad(updated_map, at).rgb;
+    imageStore(updated_map, at, vec4(blended(blend, before, update.kept), 1.0));
 }
 
 void main() {

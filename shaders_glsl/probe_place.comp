@@ -16,7 +16,7 @@ layout(std140) uniform ProbeBlock {
     vec4 directions[MOST_PROBE_RAYS];
 };
 uniform sampler2D probe_rays;
-layout(rgba32f) uniform image2D probe_places;
+layout(rgba32f) uniform image2D updated_map;
 
 void main() {
     int probe = 64 * (frame.first_tile + int(gl_WorkGroupID.x)) + int(gl_LocalInvocationIndex);
@@ -26,7 +26,7 @@ void main() {
         look(around, directions[i].xyz, texelFetch(probe_rays, ivec2(i, probe), 0).a);
     }
     ivec2 at = ivec2(probe % PROBES_IN_ROW, probe / PROBES_IN_ROW);
-    precise vec3 offset = imageLoad(probe_places, at).xyz;
+    precise vec3 offset = imageLoad(updated_map, at).xyz;
     precise vec3 next = update.purpose == FOR_PUSHES ? pushed(around, offset) : offset;
-    imageStore(probe_places, at, vec4(next, is_in_solid(around) ? 0.0 : 1.0));
+    imageStore(updated_map, at, vec4(next, is_in_solid(around) ? 0.0 : 1.0));
 }

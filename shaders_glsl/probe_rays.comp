@@ -18,7 +18,10 @@ layout(rgba32f) uniform writeonly image2D target_rays;  // a row a probe; a: dis
 vec4 light_along(Ray ray, precise inout Sampler rng) {
     precise Path path = start_path(ray);
     bool goes = extend_path(path, rng);
-    if (has_met && is_inner_face(met_object, met_normal, ray.direction)) return vec4(vec3(0.0), INNER_FACE * met_distance);
+    if (has_met && is_inner_face(met_object, met_normal, ray.direction)) {
+        precise vec4 inner = vec4(vec3(0.0), INNER_FACE * met_distance);
+        return inner;
+    }
     while (goes && update.purpose == FOR_LIGHT) goes = extend_path(path, rng);
     if (loop_was_cut || !is_finite(path.radiance)) return vec4(0.0);
     return vec4(path.radiance, has_met ? met_distance : FAR);

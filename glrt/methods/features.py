@@ -133,8 +133,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
-    is_weighed = traits.weights_both and not traits.has_probes
-    follows_particles = settings.caustics == "on" and sends_particles and is_weighed
+    follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
     metals = [m for m in found.materials.values() if m.type == "metal"]
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),

@@ -27,6 +27,11 @@ class Traits:
         """Whether it finds lamps otherwise than by scattering."""
         return self.samples_lights or self.model > 0
 
+    @property
+    def weighs_particles(self) -> bool:
+        """Whether paths from lamps can be weighed with its own."""
+        return self.weights_both and not self.has_probes
+
 
 METHODS: dict[str, Traits] = {
     "naive": Traits(),

@@ -177,7 +177,7 @@ class ProbeTracer:
     def _dispatch(self, name: str, kernel: AnyKernel, part: DispatchRange) -> None:
         """A part of the pass that writes what has this name."""
         writes_rays = name == "target_rays"
-        images = {name: self._rays if writes_rays else self.maps[name]}
+        images = {name: self._rays} if writes_rays else {"updated_map": self.maps[name]}
         maps = self.maps if writes_rays else {"probe_rays": self._rays}
         own: dict[str, Resource] = {"ProbeBlock": self._block, **maps}
         self._scene.dispatch(kernel, _Update(images), self._plan, part, 1, own)

@@ -49,14 +49,13 @@ class Tracer:
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
-            self.device_scene: DeviceScene = DeviceScene(
-                context, plan, options, before.device_scene if before else None
-            )
-            refused.callback(self.device_scene.release)
-            has_kernel = self.device_scene.has_kernel_of
-            known = before if before and has_kernel(before.device_scene) else None
-            probes = known.probes if known else None
-            self.probes: ProbeSupply = ProbeSupply(context, plan, self.device_scene, probes)
+            earlier: DeviceScene | None = before.device_scene if before else None
+            scene = DeviceScene(context, plan, options, earlier)
+            self.device_scene: DeviceScene = scene
+            refused.callback(scene.release)
+            known = before if before and scene.has_kernel_of(before.device_scene) else None
+            probes, particles = (known.probes, known.particles) if known else (None, None)
+            self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes)
             refused.callback(self.probes.release, probes)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
@@ -70,7 +69,6 @@ class Tracer:
                     before.switch.schedule.drop()  # the first dispatch writes to its frame
                 self.switch = self._compiled()
                 refused.callback(self.switch.release)
-            particles, scene = known.particles if known else None, self.device_scene
             self.particles: ParticleTracer | None = particles_for(context, plan, scene, particles)
             if self.particles:
                 refused.callback(self.particles.release, particles)

@@ -1,8 +1,8 @@
 // What probes hold: maps of directions, read between their texels.
-
-uniform sampler2D probe_light;      // irradiance by the normal of what is lit, less what is seen directly
-uniform sampler2D probe_distances;  // mean distance and mean squared distance by direction
-uniform sampler2D probe_places;     // how far it stands from the middle of its cell; a: 1, 0 where it is of no use
+//
+// probe_light_at: irradiance by the normal of what is lit, less what shines on it directly. probe_distances_at: mean
+// distance and mean squared distance by direction. probe_place_at: how far a probe stands from the middle of its cell;
+// a: 1, or 0 where it is of no use.
 
 struct MapPlace {
     ivec2 texel;  // the first of four
@@ -25,22 +25,23 @@ vec4 between_texels(vec4 a, vec4 b, vec4 c, vec4 d, vec2 beyond) {
 
 vec3 light_at_probe(int probe, vec3 normal) {
     precise MapPlace at = place_in_map(probe, LIGHT_SIDE, normal);
-    precise vec4 a = texelFetch(probe_light, at.texel, 0);
-    precise vec4 b = texelFetch(probe_light, at.texel + ivec2(1, 0), 0);
-    precise vec4 c = texelFetch(probe_light, at.texel + ivec2(0, 1), 0);
-    precise vec4 d = texelFetch(probe_light, at.texel + ivec2(1, 1), 0);
+    precise vec4 a = probe_light_at(at.texel);
+    precise vec4 b = probe_light_at(at.texel + ivec2(1, 0));
+    precise vec4 c = probe_light_at(at.texel + ivec2(0, 1));
+    precise vec4 d = probe_light_at(at.texel + ivec2(1, 1));
     return between_texels(a, b, c, d, at.beyond).rgb;
 }
 
 vec2 distances_at_probe(int probe, vec3 direction) {
     precise MapPlace at = place_in_map(probe, DISTANCE_SIDE, direction);
-    precise vec4 a = texelFetch(probe_distances, at.texel, 0);
-    precise vec4 b = texelFetch(probe_distances, at.texel + ivec2(1, 0), 0);
-    precise vec4 c = texelFetch(probe_distances, at.texel + ivec2(0, 1), 0);
-    precise vec4 d = texelFetch(probe_distances, at.texel + ivec2(1, 1), 0);
+    precise vec4 a = probe_distances_at(at.texel);
+    precise vec4 b = probe_distances_at(at.texel + ivec2(1, 0));
+    precise vec4 c = probe_distances_at(at.texel + ivec2(0, 1));
+    precise vec4 d = probe_distances_at(at.texel + ivec2(1, 1));
     return between_texels(a, b, c, d, at.beyond).rg;
 }
 
 vec4 place_of_probe(int probe) {
-    return texelFetch(probe_places, ivec2(probe % PROBES_IN_ROW, probe / PROBES_IN_ROW), 0);
+    ivec2 texel = ivec2(probe % PROBES_IN_ROW, probe / PROBES_IN_ROW);
+    return probe_place_at(texel);
 }

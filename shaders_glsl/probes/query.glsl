@@ -68,8 +68,8 @@ float weight_of_probe(int probe, vec3 position, vec3 place, vec3 normal) {
 
 // By how far along each axis a point has come from the first of eight probes to the last.
 float nearness(ivec3 corner, vec3 beyond) {
-    precise vec3 shares = mix(1.0 - beyond, beyond, vec3(corner));
-    shares = max(shares, vec3(LEAST_NEARNESS));
+    precise vec3 shares = vec3(0.0);
+    for (int i = 0; i < 3; i += 1) shares[i] = max(corner[i] == 1 ? beyond[i] : 1.0 - beyond[i], LEAST_NEARNESS);
     precise float product = shares.x * shares.y * shares.z;
     return product;
 }
