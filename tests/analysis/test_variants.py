@@ -46,6 +46,15 @@ def test_particles_are_left_out_where_nothing_bends_light() -> None:
     assert found(MATTE) == {}
 
 
+def test_probes_are_charted_by_the_sampler_that_they_need() -> None:
+    scene = load("methods/diffuse")
+    for sampler, name in (("independent", "ddgi, sobol"), ("sobol", "ddgi")):
+        settings = settings_for(scene.render, sampler=sampler)
+        found = {it.name: it.settings for it in variants_of(scene, settings)}
+        assert found[name].sampler == "sobol"
+        assert found[name].method == "ddgi"
+
+
 def test_every_variant_of_the_scene_with_most_has_a_marker_of_its_own() -> None:
     scene = load("methods/gap")
     assert len(variants_of(scene, settings_for(scene.render))) <= len(MARKERS) == len({*MARKERS})

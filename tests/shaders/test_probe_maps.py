@@ -1,4 +1,4 @@
-"""Directions on a square, visibility by moments, and the weights of probes: against closed forms."""
+"""Directions on a square, visibility by moments and the weights of probes, by closed forms."""
 
 from typing import Any
 

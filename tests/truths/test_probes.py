@@ -173,7 +173,7 @@ def test_distances_in_a_ball_are_those_of_its_chords(context: Context) -> None:
         along = rays @ place
         chord = np.minimum(-along + np.sqrt(1 - place @ place + along**2), longest)
         means = np.stack([weights @ chord, weights @ chord**2], axis=1)
-        np.testing.assert_allclose(found[..., :2].reshape(-1, 2), means, atol=0.04)
+        np.testing.assert_allclose(found[..., :2].reshape(-1, 2), means, rtol=0.1, atol=0.03)
         assert (found[..., 1] >= found[..., 0] ** 2 * (1 - 1e-5)).all()
     np.testing.assert_allclose(maps[13][..., :2], 1, rtol=1e-5)  # in the middle of the ball
 
