@@ -30,6 +30,7 @@ Modules, each importing only what stands above it:
 - film: running mean and variance in textures
 - aov_tracer: gathers AOVs as the picture grows
 - particle_tracer: gathers what particles from lamps bring
+- probe_weights: how much of an update probes take
 - probe_tracer: gathers what probes hold
 - probe_supply: the probes that a picture needs next
 - tracer: adds samples to a film, a dispatch at a time

@@ -38,12 +38,12 @@ from glrt.rendering.passes import (
     PROBE_RAYS,
     RenderPass,
 )
+from glrt.rendering.probe_weights import WEIGHTS
 from glrt.rendering.schedule import DispatchRange
 
 RAYS = 64  # of each probe in an update
-LENGTHENING = 8  # updates that each begin anew with light that has scattered once more
-AVERAGED = 24  # updates after these, of which the mean is taken
-UPDATES = LENGTHENING + AVERAGED
+AVERAGED = 16  # updates at the end of a warm-up, of which the mean is taken
+UPDATES = len(WEIGHTS) + AVERAGED
 LOOKS = 24  # updates by which distances are found
 PUSHED = 4  # times that probes are moved before these
 GROUP = 64  # lanes of a work group
@@ -60,8 +60,8 @@ _PASSES = {  # by what they write
 
 def kept_light(update: int) -> float:
     """The share of a map of irradiance that an update keeps while a set warms up."""
-    averaged = max(update - LENGTHENING, 0)
-    return averaged / (averaged + 1)
+    averaged = update - len(WEIGHTS)
+    return 1 - WEIGHTS[update] if averaged < 0 else averaged / (averaged + 1)
 
 
 class _Update:
