@@ -38,7 +38,8 @@ Eye sample_eye(precise inout Sampler rng) {
 float weight_of_link(Particle self, float rho, float turn) {
     if (!HAS_SHADING) return particle_weight(rho, self.kappa);
     precise float kappa = self.path.depth == 0 ? self.kappa / turn : self.kappa;
-    return particle_weight(rho * self.turn * turn, kappa);
+    precise float turned = rho * self.turn * turn;
+    return particle_weight(turned, kappa);
 }
 
 // Brings the eye what a particle scatters straight to it; `ray` leaves the vertex.

@@ -125,8 +125,9 @@ float pdf_from_sun(vec3 p, vec3 direction, int certain) {
 
 // Of directions towards the sky that particles come from, per solid angle.
 float pdf_sky_direction(vec3 towards) {
-    if (HAS_ENVIRONMENT) return pdf_sky(towards);
-    return 0.25 / PI;
+    precise float density = 0.25 / PI;
+    if (HAS_ENVIRONMENT) density = pdf_sky(towards);
+    return density;
 }
 
 // As pdf_from_sun; `direction` is that of the particles, and the sky lies behind them.

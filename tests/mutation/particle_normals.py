@@ -40,7 +40,7 @@ PARTICLE_NORMALS = [
     ),
     Mutant(
         "particles are weighed without shading normals",
-        edit(_LINKS, "rho * self.turn * turn, kappa", "rho, kappa"),
+        edit(_LINKS, "turned = rho * self.turn * turn;", "turned = rho;"),
         _SHARES,
     ),
     Mutant(

@@ -29,7 +29,7 @@ PARTICLE_SKY = [
         "particles come evenly from an image of the sky, by their density alone",
         edit(
             "lights/particle_emission.glsl",
-            "if (HAS_ENVIRONMENT) return pdf_sky(towards);",
+            "if (HAS_ENVIRONMENT) density = pdf_sky(towards);",
             "",
         ),
         _LIGHT,

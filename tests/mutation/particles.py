@@ -64,7 +64,7 @@ PARTICLES = [
     ),
     Mutant(
         "a path that particles bring is counted by the camera, too",
-        edit(_PATH, "if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface);", ""),
+        edit(_PATH, "if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface, facing);", ""),
         _LIGHT,
     ),
     Mutant(

@@ -48,7 +48,7 @@ SPHERE_LINKS = [
         "light seen through a sphere is counted by both sides",
         edit(
             _PATH,
-            "return rho_of_link(path.chain, surface.position, vertex.wo.z);",
+            "return rho_of_link(path.chain, surface.position, cosine);",
             "return 0.0;",
         ),
         _LIGHT,
