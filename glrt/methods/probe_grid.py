@@ -21,7 +21,7 @@ Counts = tuple[int, int, int]
 SIDE = 5  # probes along each edge, where neither scene nor settings say
 SCOUTS = 128  # paths that look for the extent of a scene
 STEPS = 4  # of each
-COMMON = (4, 96)  # percentiles: what lies beyond is reached seldom
+COMMON = (10, 90)  # percentiles of what they reach: as far again beyond them all of it counts
 BACK = 1e-6  # of a step: how far before what it has met a path goes on
 LEAST_EDGE = 1e-3  # of the longest edge of the box: flat scenes have probes over them, too
 
@@ -64,7 +64,9 @@ def extent_of(scene: Scene) -> tuple[Array, Array]:
     has_planes = any(isinstance(thing, Plane) for thing in scene.visible)
     corners = [corner for box in boxes for corner in box]
     if has_planes and len(points := _reached(scene)):
-        corners += [*np.percentile(points, COMMON, axis=0)]
+        low, high = np.percentile(points, COMMON, axis=0)
+        far = np.clip(points, 2 * low - high, 2 * high - low)
+        corners += [far.min(axis=0), far.max(axis=0)]
     if not corners:
         corners = [np.array(scene.camera.position) + side for side in (-1.0, 1.0)]
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)

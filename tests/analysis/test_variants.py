@@ -6,6 +6,7 @@ import pytest
 
 from glrt.analysis.chart.drawing import MARKERS
 from glrt.analysis.variants import variants_of
+from glrt.denoise import oidn
 from glrt.image.sources import load
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
@@ -53,6 +54,17 @@ def test_probes_are_charted_by_the_sampler_that_they_need() -> None:
         found = {it.name: it.settings for it in variants_of(scene, settings)}
         assert found[name].sampler == "sobol"
         assert found[name].method == "ddgi"
+
+
+@pytest.mark.parametrize(("has_oidn", "filters"), [(True, ["nlm", "oidn"]), (False, ["nlm"])])
+def test_the_denoisers_that_are_installed_are_charted(
+    has_oidn: bool, filters: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(oidn, "is_installed", lambda: has_oidn)
+    scene = load("methods/white")
+    variants = variants_of(scene, settings_for(scene.render), ["mis"])
+    denoised = {v.name: v.settings.denoise for v in variants if v.settings.denoise != "none"}
+    assert denoised == {f"mis, denoised by {name}": name for name in filters}
 
 
 def test_every_variant_of_the_scene_with_most_has_a_marker_of_its_own() -> None:
