@@ -22,7 +22,7 @@ SIDE = 5  # probes along each edge, where neither scene nor settings say
 SCOUTS = 128  # paths that look for the extent of a scene
 STEPS = 4  # of each
 COMMON = (10, 90)  # percentiles of what they reach: as far again beyond them all of it counts
-BACK = 1e-6  # of a step: how far before what it has met a path goes on
+BACK = 1e-3  # of a step: how far before what it has met a path goes on
 LEAST_EDGE = 1e-3  # of the longest edge of the box: flat scenes have probes over them, too
 
 

@@ -4,7 +4,7 @@ The light E that probes hold is the solution of E = D + T E, D the light that co
 lamps and T one more bounce. To take each update whole brings one bounce more: after n of them the
 share a^n is missing, for an albedo a. With weights w that follow from the roots of a Chebyshev
 polynomial, E + w (D + T E - E), what is missing after all of them is as small as can be, for every
-T whose eigenvalues lie between -a and a (Golub and Varga, "Chebyshev Semi-iterative Methods", 1961).
+T whose eigenvalues lie between -a and a (Golub and Varga, Chebyshev semi-iterative methods, 1961).
 """
 
 import math

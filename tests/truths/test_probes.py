@@ -148,7 +148,7 @@ def test_irradiance_over_a_floor_is_a_half_space(context: Context) -> None:
     with probes_of(scene, context, bounces=2) as (_, tracer):
         sets = []
         for number in range(64):
-            tracer.update(number)
+            tracer.update(number, kept=0.0)
             sets.append(inner(tracer, "probe_light").mean(axis=0))
     truth = np.pi * 0.5 * (1 - directions(LIGHT_MAP - 2)[..., 1:2]) / 2 * np.ones(3)
     found = np.array(sets, np.float64)
