@@ -12,7 +12,7 @@ import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Mode, Temporal
+from glrt.rendering.temporal import WAYS, Temporal, Way
 from glrt.settings import settings_for
 
 FRAMES, DEGREES = 48, 0.5
@@ -34,15 +34,15 @@ SWING = 12  # frames of the film
 REFERENCE = 128  # samples of each half
 FILM, SCENES = (176, 132), ("cornell", "lamps")
 MOST_BYTES = 300_000
-Modes = tuple[Mode, ...]
-MODES: Modes = ("reset", "reproject")
+MODES = ("reset", "reproject")
+Ways = tuple[Way, ...]
 STILL_VIEWS, STILL_SAMPLES = 40, (1, 4, 16)
 
 
 class Played(NamedTuple):
     """An orbit by one mode."""
 
-    mode: Mode
+    mode: str  # and predictor
     errors: list[float]  # relative RMS, at LOOKS
     seconds: float  # of the process, a frame
 
@@ -59,24 +59,22 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
     parser.add_argument("--scene", nargs="+", default=SCENES)
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
-    parser.add_argument("--mode", nargs="+", default=MODES, choices=get_args(Mode))
+    parser.add_argument("--mode", nargs="+", default=MODES, choices=WAYS)
     parsed = parser.parse_args(arguments)
-    context, modes = open_context(), tuple(parsed.mode)
+    context, ways = open_context(), tuple(WAYS[mode] for mode in parsed.mode)
     if parsed.task == "film":
-        make_film(parsed.file, context, modes)
+        make_film(parsed.file, context, ways)
         return 0
     size = parsed.size[0], parsed.size[1]
     for scene in parsed.scene:
         if parsed.task == "bias":
-            print("\n".join(biases(scene, context, modes)))
+            print("\n".join(biases(scene, context, ways)))
         else:
-            print("\n".join(told(scene, measure(scene, size, context, modes))))
+            print("\n".join(told(scene, measure(scene, size, context, ways))))
     return 0
 
 
-def measure(
-    scene: str, size: tuple[int, int], context: Context, modes: Modes = MODES
-) -> list[Played]:
+def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> list[Played]:
     """Each mode, one sample a frame."""
     opened = load(scene)
     settings = settings_for(opened.render, width=size[0], height=size[1])
@@ -86,15 +84,16 @@ def measure(
         for n in LOOKS
     }
     found = []
-    for mode in modes:
+    for way in ways:
+        played = play(frames, settings, context, way.mode, predictor=way.predictor)
         errors, start = [], time.process_time()
         looked = 0.0
-        for number, picture in enumerate(play(frames, settings, context, mode)):
+        for number, picture in enumerate(played):
             if number in truth:
                 begun = time.process_time()
                 errors.append(math.sqrt(max(truth[number].squared_error(picture), 0.0)))
                 looked += time.process_time() - begun
-        found.append(Played(mode, errors, (time.process_time() - start - looked) / FRAMES))
+        found.append(Played(way.name, errors, (time.process_time() - start - looked) / FRAMES))
     return found
 
 
@@ -112,15 +111,15 @@ def told(scene: str, found: list[Played]) -> Iterator[str]:
         yield f"| {one.mode} | {one.mean:.3f} | {one.seconds:.3f} | {gain:.2f} times lower |"
 
 
-def biases(scene: str, context: Context, modes: Modes = MODES) -> Iterator[str]:
+def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
     """By how much the mean of what is shown of views of a still camera differs from that of films.
 
     Modes by samples of a view; the same random numbers in each mode.
     """
     opened = load(scene)
     settings = settings_for(opened.render, width=64, height=48)
-    for mode, samples in itertools.product(modes, STILL_SAMPLES):
-        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, mode)
+    for way, samples in itertools.product(ways, STILL_SAMPLES):
+        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, *way)
         shown, films = [], []
         for seed in range(STILL_VIEWS):
             temporal.leave(renderer)
@@ -132,12 +131,12 @@ def biases(scene: str, context: Context, modes: Modes = MODES) -> Iterator[str]:
         temporal.release()
         renderer.release()
         bias = float(np.mean(shown[10:]) / np.mean(films) - 1)
-        yield f"{scene}, {mode}, {samples} samples a view: {bias:+.2%}"
+        yield f"{scene}, {way.name}, {samples} samples a view: {bias:+.2%}"
 
 
-def make_film(file: Path, context: Context, modes: Modes = MODES) -> None:
+def make_film(file: Path, context: Context, ways: Ways) -> None:
     """Modes side by side, a scene below the other; RuntimeError if the file is too large."""
-    rows = [_frames_of(scene, context, modes) for scene in SCENES]
+    rows = [_frames_of(scene, context, ways) for scene in SCENES]
     frames = [Image.fromarray(np.vstack(parts)) for parts in zip(*rows, strict=True)]
     options: dict[str, Any] = {"duration": 120, "loop": 0, "quality": 30, "method": 6}
     frames[0].save(file, save_all=True, append_images=frames[1:], **options)
@@ -145,11 +144,11 @@ def make_film(file: Path, context: Context, modes: Modes = MODES) -> None:
         raise RuntimeError(f"{file} has more than {MOST_BYTES} bytes")
 
 
-def _frames_of(scene: str, context: Context, modes: Modes) -> list[NDArray[np.uint8]]:
+def _frames_of(scene: str, context: Context, ways: Ways) -> list[NDArray[np.uint8]]:
     opened = load(scene)
     settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
     swing: Sequence = orbit(opened, SWING, 1.5)
-    played = [play(swing, settings, context, mode) for mode in modes]
+    played = [play(swing, settings, context, way.mode, predictor=way.predictor) for way in ways]
     return [
         np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in row])
         for row in zip(*played, strict=True)

@@ -33,8 +33,11 @@ float sample_weight(vec3 radiance, vec3 feature) {
     return max(weight, LEAST_WEIGHT);
 }
 
-Prediction first_prediction(vec3 radiance) {
-    return Prediction(Model(radiance, 1.0, new_fit(radiance)), radiance, 1.0);
+// Of the mean of so many frames: those after the first tell that the mean is right, and nothing of slopes.
+Prediction first_prediction(vec3 radiance, float frames) {
+    precise Fit fit = new_fit(radiance);
+    if (frames > 1.0) fit = corrected(fit, vec4(1.0, radiance), radiance, frames - 1.0);
+    return Prediction(Model(radiance, 1.0, fit), radiance, 1.0);
 }
 
 // The model after the mean `radiance` of so many `frames` of a view, whose neighbourhood holds values
@@ -49,6 +52,6 @@ Prediction predicted(Model before, vec3 radiance, vec3 lowest, vec3 highest, flo
     precise Fit fit = corrected(before.fit, p, radiance, weight * frames);
     precise vec3 prediction = fit.slopes * p;
     bool is_known = is_finite(prediction) && is_finite(feature) && is_finite_fit(fit);
-    if (!is_known) return first_prediction(radiance);
+    if (!is_known) return first_prediction(radiance, frames);
     return Prediction(Model(feature, before.views + 1.0, fit), prediction, weight);
 }

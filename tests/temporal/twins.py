@@ -28,6 +28,7 @@ class Wrls:
     width: float = WIDTH
     forgetting: float = FORGETTING
     is_constant: bool = False
+    frames: float = 1  # that the first sample is the mean of
     dtype: Any = np.float64
     feature: Array = field(init=False)
     slopes: Array = field(init=False)  # (n, 4, 3)
@@ -42,6 +43,10 @@ class Wrls:
         self.slopes = np.zeros((len(first), 4, 3), self.dtype)
         self.slopes[:, 0] = first
         self._begin(len(first))
+        if self.frames > 1:
+            self.p = np.concatenate([np.ones((len(first), 1), self.dtype), first], axis=1)
+            self.weight = np.full(len(first), self.frames - 1, self.dtype)
+            self._gain()
 
     def add(
         self, radiance: Array, lowest: Any = -np.inf, highest: Any = np.inf, frames: float = 1
