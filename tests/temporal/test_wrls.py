@@ -166,7 +166,7 @@ def test_between_pixels_the_nearest_model_is_taken_as_it_is(context: Context) ->
 def test_what_was_hidden_has_no_model_in_a_band_as_wide_as_the_parallax(context: Context) -> None:
     """A quad goes left by 4 pixels, the wall behind it by 2; edges give theirs to edges alone."""
     _, brought = moved([two_walls(0.0), two_walls(2 * PIXEL)], context)
-    is_known = (brought[0, ..., 3] > 0).all(axis=0)
+    is_known: Array = np.all(brought[0, ..., 3] > 0, axis=0)
     edge = SIZE[0] // 2 - 4
     assert not is_known[edge : edge + 2].any()
     assert is_known[: edge - 1].all()
