@@ -1,8 +1,9 @@
-"""How much clearer the picture is while the camera moves: `python -m bench.redraw orbit|film|bias`.
+"""How much clearer the picture is while the camera moves: `python -m bench.redraw TASK`.
 
 `orbit` plays the same orbit by several modes and tells the error of what is on the screen, and the
 processor seconds of a frame; `film FILE.webp` shows modes side by side; `bias` tells how much
-darker or brighter they show a still camera. There is no window. Seconds are the process's own:
+darker or brighter they show a still camera, `psnr` how much nearer they are to a reference than the
+film of two samples. There is no window. Seconds are the process's own:
 beside other work they tell ratios alone.
 """
 
@@ -26,7 +27,8 @@ from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import WAYS, Temporal, Way
-from glrt.settings import settings_for
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
 
 FRAMES, DEGREES = 48, 0.5
 LOOKS = (0, 1, 2, 4, 8, 16, 24, 32, 40, 47)  # frames; errors of others are interpolated
@@ -36,6 +38,8 @@ FILM, SCENES = (176, 132), ("cornell", "lamps")
 MOST_BYTES = 300_000
 MODES = ("reset", "reproject")
 Ways = tuple[Way, ...]
+MOST_SEED = 0xFFFFFFFF
+FRAME: dict[str, Any] = {"width": 128, "height": 96, "sampler": "independent"}
 STILL_VIEWS, STILL_SAMPLES = 40, (1, 4, 16)
 
 
@@ -55,7 +59,7 @@ class Played(NamedTuple):
 def main(arguments: list[str] | None = None) -> int:
     """Measure orbits, or make the film; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m bench.redraw", description=__doc__)
-    parser.add_argument("task", choices=["orbit", "film", "bias"])
+    parser.add_argument("task", choices=["orbit", "film", "bias", "psnr"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
     parser.add_argument("--scene", nargs="+", default=SCENES)
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
@@ -69,6 +73,8 @@ def main(arguments: list[str] | None = None) -> int:
     for scene in parsed.scene:
         if parsed.task == "bias":
             print("\n".join(biases(scene, context, ways)))
+        elif parsed.task == "psnr":
+            print("\n".join(ratios(scene, context, ways)))
         else:
             print("\n".join(told(scene, measure(scene, size, context, ways))))
     return 0
@@ -132,6 +138,39 @@ def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
         renderer.release()
         bias = float(np.mean(shown[10:]) / np.mean(films) - 1)
         yield f"{scene}, {way.name}, {samples} samples a view: {bias:+.2%}"
+
+
+def ratios(scene: str, context: Context, ways: Ways) -> Iterator[str]:
+    """Peak signal-to-noise ratios of the last frame, still and on an orbit, as a Markdown table."""
+    opened = load(scene)
+    settings = settings_for(opened.render, **FRAME)
+    yield f"| {scene} | PSNR, still | gain | PSNR, orbit | gain |"
+    yield "|---|---|---|---|---|"
+    found = [
+        [_ratios(orbit(opened, 24, degrees).scenes[:18], settings, context, way) for way in ways]
+        for degrees in (0.0, 1.0)
+    ]
+    for way, still, moving in zip(ways, *found, strict=True):
+        gains = still - found[0][0], moving - found[1][0]
+        yield f"| {way.name} | {still:.1f} | {gains[0]:+.1f} | {moving:.1f} | {gains[1]:+.1f} |"
+
+
+def _ratios(scenes: tuple[Scene, ...], settings: Settings, context: Context, way: Way) -> float:
+    """In dB, of the picture on a screen; views of a still camera differ by their numbers."""
+    renderer = Renderer(scenes[-1], settings, context, seed=MOST_SEED)
+    truth = expose_and_encode(renderer.render(1024).image().radiance, 0.0, "none")
+    renderer.update(scenes[0])
+    temporal = Temporal(context.gl, *way)
+    for number, scene in enumerate(scenes):
+        temporal.leave(renderer)
+        renderer.update(scene, seed=number)
+        temporal.arrive(renderer)
+        renderer.render(2)
+    shown = expose_and_encode(screen_of(renderer, temporal), 0.0, "none")
+    temporal.release()
+    renderer.release()
+    off = (shown.astype(float) - truth) / 255
+    return -10 * math.log10(float(np.square(off).mean()))
 
 
 def make_film(file: Path, context: Context, ways: Ways) -> None:

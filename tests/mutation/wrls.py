@@ -95,8 +95,8 @@ WRLS = [
         WHOLE,
     ),
     Mutant(
-        "the filter is as wide at the edge as within",
-        edit(SHOWN, "if (near != clamp(near, ivec2(0), last)) continue;", ""),
+        "near and far neighbours count the same",
+        edit(SHOWN, "(away + unlike * unlike)", "(unlike * unlike)"),
         WHOLE,
     ),
     Mutant(
