@@ -24,6 +24,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
 - denoised: what a denoiser gains, and whether it knows its error
 - denoised_sheet: the picture of docs/explanation/denoising.md
+- particle_checks: pictures with particles against those without, and their errors
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - methods_compared: its false alarms between different methods

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, get_args
 
+from glrt.denoise import oidn
 from glrt.methods.features import needs_of
 from glrt.methods.particles import caster_bits, link_bits, refusal
 from glrt.scene.scene import Scene
@@ -28,17 +29,19 @@ def variants_of(
 ) -> list[Variant]:
     """Return a variant for every method; with `leads`, also variants of the method LEAD.
 
-    Those have few or many bounces, no roulette, or another sampler. Variants that the same kernel
-    renders, such as all methods in a scene without lamps, are merged into one, "a = b = c".
+    Those have few or many bounces, no roulette, another sampler, particles, or a denoiser. Variants
+    that the same kernel renders, such as all methods in a scene without lamps, are merged into one,
+    "a = b = c".
     """
     named = [(method, {"method": method}) for method in methods]
     if leads:
         named += _variants_of_lead(settings)
         named += _with_particles(scene, settings)
+        named += _denoised()
     found: dict[Any, Variant] = {}
     for name, changes in named:
         wanted = settings_for(settings, **changes)
-        key = (needs_of(scene, wanted), wanted.bounces, wanted.sampler)
+        key = (needs_of(scene, wanted), wanted.bounces, wanted.sampler, wanted.denoise)
         known = found.get(key)
         found[key] = (
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
@@ -57,6 +60,13 @@ def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dic
     yield f"{LEAD}, particles", changes
     if link_bits(scene):
         yield f"{LEAD}, particles linked", {**changes, **LINKED}
+
+
+def _denoised() -> Iterator[tuple[str, dict[str, Any]]]:
+    """A variant for each denoiser that is installed."""
+    yield f"{LEAD}, denoised by nlm", {"method": LEAD, "denoise": "nlm"}
+    if oidn.is_installed():
+        yield f"{LEAD}, denoised by oidn", {"method": LEAD, "denoise": "oidn"}
 
 
 def _variants_of_lead(settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -34,7 +34,7 @@ STEPS = 24  # rays along each side of the part of a pixel that may show a lamp
 MORE_STEPS = 96  # where few of them meet it
 CLEAR = 4.0  # times as bright as a pixel, that a lamp beside it is
 ALIKE = 0.25  # of a lamp's light in a pixel, by which other light about it may differ
-MOST_OFF = 3.0  # standard errors by which a sure pixel may be brighter than what is known
+UNLIKELY = 1e-3  # chance: a pixel that is brighter than what is known by less has other light
 LEAST_HITS = 40  # of a lamp by rays through a pixel: fewer do not tell its share
 SURE = 100  # hits: with more a pixel is known
 PLAIN = (Lambertian, Light)  # materials behind which no lamp is seen
@@ -98,16 +98,29 @@ def _beside(
     """With what lamps leave of each pixel filled by what is darkest around it.
 
     Nothing is known where that differs much beside what the lamps bring, and where the picture is
-    sure to be brighter: by other light.
+    too bright for that to be luck: there is other light.
     """
     about = [_around(radiance, y, x) for y, x in zip(rows, columns, strict=True)]
     darkest, usual = (np.array(part) for part in zip(*about, strict=True))
     is_clear = (usual - darkest <= ALIKE * light).all(axis=1)
     truth = light + (1 - share[:, None]) * darkest
     value, error = (part[rows, columns].astype(np.float64) for part in (radiance, stderr))
-    is_sure = np.square(value) >= SURE * np.square(error)
-    is_clear &= ~(is_sure & (value - truth > MOST_OFF * error)).any(axis=1)
+    is_clear &= (_log_chance(value, error, truth) >= math.log(UNLIKELY)).all(axis=1)
     return Seen(rows[is_clear], columns[is_clear], truth[is_clear])
+
+
+def _log_chance(value: Array, error: Array, truth: Array) -> Array:
+    """Of a pixel to be as bright by luck; -inf without noise, 0 where it is not brighter.
+
+    As if h = (value / error)^2 equal samples had lit it, where l = h truth / value were expected:
+    that a Poisson number of mean l is h or more has a chance of exp(h - l) (l / h)^h at most
+    (Chernoff's bound).
+    """
+    share = np.divide(truth, value, out=np.ones_like(value), where=value > truth)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        hits = np.square(value / error)
+        chance = hits * (1 - share + np.log(share))
+    return np.where(share < 1, chance, 0.0)
 
 
 def _around(radiance: Pixels, row: int, column: int) -> tuple[Array, Array]:

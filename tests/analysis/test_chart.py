@@ -18,10 +18,11 @@ from glrt.analysis.chart.experiment import Plan, measure_scene
 from glrt.analysis.chart.measure import Bench, of_variant
 from glrt.analysis.chart.rays import rays_per_sample
 from glrt.analysis.reference import Reference
-from glrt.analysis.variants import variants_of
+from glrt.analysis.variants import Variant, variants_of
 from glrt.cli.main import main
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for
 from tests.support.builders import box_of_quads, lamp, scene_of, sphere
 from tests.support.processes import glrt, start
@@ -231,6 +232,29 @@ def test_order_changes_from_round_to_round_and_seeds_too(context: Context) -> No
     assert orders == {("naive", "nee"), ("nee", "naive")}
     firsts = [of_variant([runs], "nee")[0].looks[0].squared_error for runs in rounds]
     assert len(set(firsts)) == 4
+
+
+def test_a_denoised_variant_is_judged_by_what_it_shows(context: Context) -> None:
+    """From 4 samples on, two observations a half; its error at the end is not that of its noise."""
+    scene = load("cornell")
+    settings = settings_for(scene.render, width=16, height=16, sampler="independent")
+    named = {name: settings_for(settings, denoise=name) for name in ("none", "nlm")}
+    grey = np.full((16, 16, 3), 0.5)
+    bench = Bench(
+        scene, [Variant(*it) for it in named.items()], Reference(grey, grey, 1, 1), context
+    )
+    runs = {run.variant: run for run in list(bench.round(0, 0.01))[-1]}
+    bench.release()
+    plain, denoised = runs["none"], runs["nlm"]
+    assert [look.samples for look in denoised.looks] == [4, 8, 16, 32]
+    renderer = Renderer(scene, named["nlm"], context, tier="baked", seed=1)
+    shown = renderer.render(32).image().denoised()
+    renderer.release()
+    assert shown.noise is not None
+    squared = Reference(grey, grey, 1, 1).squared_error(shown.radiance)
+    assert denoised.looks[-1].squared_error == squared != plain.looks[-1].squared_error
+    noise = Reference(grey, grey, 1, 1).relative(np.square(shown.noise, dtype=np.float64))
+    assert denoised.squared_bias == squared - noise
 
 
 # --- refusals ------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ import pytest
 
 from glrt.analysis.chart.drawing import MARKERS
 from glrt.analysis.variants import variants_of
+from glrt.denoise import oidn
 from glrt.image.sources import load
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
@@ -44,6 +45,17 @@ def test_links_are_left_out_where_no_sphere_has_them(
 
 def test_particles_are_left_out_where_nothing_bends_light() -> None:
     assert found(MATTE) == {}
+
+
+@pytest.mark.parametrize(("has_oidn", "filters"), [(True, ["nlm", "oidn"]), (False, ["nlm"])])
+def test_the_denoisers_that_are_installed_are_charted(
+    has_oidn: bool, filters: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(oidn, "is_installed", lambda: has_oidn)
+    scene = load("methods/white")
+    variants = variants_of(scene, settings_for(scene.render), ["mis"])
+    denoised = {v.name: v.settings.denoise for v in variants if v.settings.denoise != "none"}
+    assert denoised == {f"mis, denoised by {name}": name for name in filters}
 
 
 def test_every_variant_of_the_scene_with_most_has_a_marker_of_its_own() -> None:

@@ -6,8 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from glrt.denoise import denoising
 from glrt.denoise.blend import blended
-from glrt.denoise.filters import FILTERS
+from glrt.denoise.filters import FILTERS, Filtered
 from glrt.denoise.half import Half
 from glrt.denoise.risk import error_map, relative_error, squared_error, summed
 from glrt.denoise.windows import window_mean
@@ -15,6 +16,7 @@ from tests.denoise.noisy_halves import Floats, drawn, truth_with_an_edge
 
 SIGMAS = 4.9  # a false alarm in a million for each mean that is compared
 DRAWS = 200
+ONE = np.ones(1, np.float32)
 Filter = Callable[[Half], Floats]
 
 
@@ -53,6 +55,25 @@ def assert_zero_on_average(values: Floats) -> None:
 def test_without_a_filter_it_is_the_variance_of_the_plain_picture(counts: tuple[int, int]) -> None:
     a, b = (count / sum(counts) for count in counts)
     assert_zero_on_average(differences(plain, lambda _, u, v: a**2 * u + b**2 * v, counts))
+
+
+def test_the_noise_that_is_left_is_the_variance_of_what_is_shown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of a mean over 3 x 3 pixels, whose halves have the same bias, and are not blended back."""
+    filters = {"box": lambda half: Filtered(np.asarray(box(half), np.float32), ONE)}
+    monkeypatch.setattr(denoising, "FILTERS", filters)
+    monkeypatch.setattr(denoising, "blended", lambda half, found: found.radiance)
+    rng, truth = np.random.default_rng(8), truth_with_an_edge()
+    shown, told = [], []
+    for _ in range(DRAWS):
+        halves, *_ = drawn(rng, truth, (4, 4))
+        found = denoising.denoise(halves, "box")
+        assert found.noise is not None
+        shown.append(found.radiance)
+        told.append(np.square(found.noise, dtype=np.float64).mean())
+    expected = np.var(shown, axis=0, ddof=1, dtype=np.float64).mean()
+    assert np.mean(told) == pytest.approx(expected, rel=0.05)
 
 
 @pytest.mark.parametrize("counts", [(4, 4), (3, 9)])

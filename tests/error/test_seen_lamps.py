@@ -141,3 +141,26 @@ def test_rims_are_as_many_samples_see_them(context: Context, seed: int) -> None:
     apart = np.abs(image.radiance[seen.rows, seen.columns] - seen.radiance)
     error = image.stderr[seen.rows, seen.columns] + 0.02 * seen.radiance
     assert (apart < 5 * error).all()
+
+
+@pytest.mark.parametrize(
+    ("hits", "times", "is_known"),
+    [
+        (1.0, 100.0, True),  # a single bright sample: its chance is 1 in 100
+        (1.0, 1e5, False),  # so bright a one is not of what is known
+        (25.0, 1.5, True),  # 25 samples where 17 were expected: about 2 standard errors
+        (64.0, 2.0, False),  # 64 where 32 were: 1 in 10^6
+    ],
+)
+def test_a_pixel_that_is_too_bright_to_be_so_by_luck_has_other_light(
+    hits: float, times: float, is_known: bool
+) -> None:
+    """The pixel of a small lamp is `times` as bright as that makes it, by so many samples."""
+    made, wanted = scene(BALL), Settings(width=SIZE, height=SIZE)
+    picture = np.full((SIZE, SIZE, 3), SKY, np.float32)
+    noise = picture.copy()
+    (told,) = seen_lamps(made, wanted, picture, noise).radiance
+    middle = SIZE // 2, SIZE // 2
+    picture[middle] = times * told
+    noise[middle] = picture[middle] / math.sqrt(hits)
+    assert (seen_lamps(made, wanted, picture, noise).rows.size == 1) is is_known

@@ -33,6 +33,13 @@ JUDGING = [
         "test_seen_lamps.py::test_a_crop_is_a_part_of_the_picture",
     ),
     mutant(
+        "a pixel that other light made bright is taken for a lucky one",
+        SEEN,
+        "hits * (1 - share + np.log(share))",
+        "0 * hits * (1 - share + np.log(share))",
+        "test_seen_lamps.py::test_a_pixel_that_is_too_bright_to_be_so_by_luck_has_other_light",
+    ),
+    mutant(
         "pixels that are known still count as lit by luck",
         RULE,
         "errors[seen.rows, seen.columns] = 0",

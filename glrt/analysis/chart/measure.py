@@ -10,24 +10,26 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.analysis.chart.flip import flip, is_installed
 from glrt.analysis.reference import Reference
 from glrt.analysis.variants import Variant
 from glrt.gpu.context import Context
+from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES
 
 WARM_UP = 3  # dispatches before the first that is timed
-LEAST_LOOKS = 6  # up to 32 samples: two observations of any sampler, which give a standard error
+LEAST_SAMPLES = 32  # two observations of any sampler, which give a standard error
 
 
 class Look(NamedTuple):
-    """A picture at one number of samples: its squared relative error and the time spent so far."""
+    """A picture at one number of samples: its squared relative error, and the time that it took."""
 
     samples: int  # per pixel
-    seconds: float
+    seconds: float  # to render it, and to denoise it once
     squared_error: float
     flip: float | None = None  # None where it was not computed
 
@@ -84,23 +86,38 @@ class Bench:
 def _run(
     name: str, renderer: Renderer, reference: Reference, seconds: float, with_flip: bool
 ) -> Run:
-    """Double the samples until the next doubling would exceed `seconds`; time rendering alone."""
+    """Double the samples until the next doubling would exceed `seconds`.
+
+    Rendering and denoising are timed alone. Pictures that have too few samples to be denoised are
+    left out where that is asked for.
+    """
+    is_denoised = renderer.settings.denoise != "none"
     looks: list[Look] = []
     spent = 0.0
     samples = 1
     while True:
         start = time.perf_counter()
         renderer.render(samples)
-        spent += time.perf_counter() - start
+        middle = time.perf_counter()
         image = renderer.image()
-        squared = reference.squared_error(image.radiance)
-        look = flip(image.radiance, reference.radiance) if with_flip else None
-        looks.append(Look(samples, spent, squared, look))
-        is_over = 2 * spent > seconds and len(looks) >= LEAST_LOOKS
+        filtering = time.perf_counter() - middle if is_denoised else 0.0
+        spent += middle - start
+        if bool(image.denoising) == is_denoised:
+            squared = reference.squared_error(image.shown)
+            look = flip(image.shown, reference.radiance) if with_flip else None
+            looks.append(Look(samples, spent + filtering, squared, look))
+        is_over = bool(looks) and 2 * spent > seconds and samples >= LEAST_SAMPLES
         if is_over or samples == MAX_SAMPLES:
-            noise = reference.relative(np.square(image.stderr, dtype=np.float64))
-            return Run(name, looks, squared - noise)
+            noise = reference.relative(_variance(image))
+            return Run(name, looks, looks[-1].squared_error - noise)
         samples *= 2
+
+
+def _variance(image: Image) -> NDArray[np.float64]:
+    """Of what the picture shows, (H, W, 3), as it tells by itself."""
+    noise = image.denoising.noise if image.denoising else image.stderr
+    assert noise is not None  # it was denoised here
+    return np.square(noise, dtype=np.float64)
 
 
 def of_variant(rounds: Sequence[Round], name: str) -> list[Run]:
