@@ -42,11 +42,15 @@ Prediction first_prediction(vec3 radiance, float frames) {
 
 // The model after the mean `radiance` of so many `frames` of a view, whose neighbourhood holds values
 // from `lowest` to `highest`. The published predictor is the feature of this view, which holds the
-// sample itself; the delayed one is the feature before.
+// sample itself; the delayed one is the feature of the frame before.
 Prediction predicted(Model before, vec3 radiance, vec3 lowest, vec3 highest, float frames, bool is_delayed) {
-    precise float kept = exp(log(FEATURE_SHARE) * frames);
-    precise vec3 feature = radiance + kept * (clamp(before.feature, lowest, highest) - radiance);
-    precise vec3 predictor = is_delayed ? before.feature : feature;
+    precise vec3 off = clamp(before.feature, lowest, highest) - radiance;
+    precise vec3 feature = radiance + exp(log(FEATURE_SHARE) * frames) * off;
+    precise vec3 predictor = feature;
+    if (is_delayed) {
+        if (frames > 1.0) predictor = radiance + exp(log(FEATURE_SHARE) * (frames - 1.0)) * off;
+        else predictor = before.feature;
+    }
     precise vec4 p = vec4(1.0, predictor);
     precise float weight = sample_weight(radiance, predictor);
     precise Fit fit = corrected(before.fit, p, radiance, weight * frames);

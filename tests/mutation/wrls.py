@@ -47,7 +47,12 @@ WRLS = [
     ),
     Mutant(
         "the delayed predictor is the published one",
-        edit(CORE, "is_delayed ? before.feature : feature", "feature"),
+        edit(CORE, "if (is_delayed) {", "if (false) {"),
+        TWIN,
+    ),
+    Mutant(
+        "the delayed predictor stays that of the view before, however many samples follow",
+        edit(CORE, "if (frames > 1.0) predictor", "if (false) predictor"),
         TWIN,
     ),
     Mutant(
@@ -62,7 +67,7 @@ WRLS = [
     ),
     Mutant(
         "a mean of many samples begins a model as one does",
-        edit(CORE, "if (frames > 1.0)", "if (false)"),
+        edit(CORE, "if (frames > 1.0) fit", "if (false) fit"),
         f"{SQUARES}::test_a_model_that_begins_with_a_mean_of_samples_holds_on_to_it",
     ),
     Mutant(

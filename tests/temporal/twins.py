@@ -55,9 +55,11 @@ class Wrls:
         t = self.dtype
         y = np.asarray(radiance, t)
         before = self.feature
-        kept = t(FEATURE_SHARE**frames)
-        self.feature = y + kept * (np.clip(before, lowest, highest).astype(t) - y)
-        z = before if self.is_delayed else self.feature
+        off = np.clip(before, lowest, highest).astype(t) - y
+        self.feature = y + t(FEATURE_SHARE**frames) * off
+        z = self.feature
+        if self.is_delayed:
+            z = before if frames == 1 else y + t(FEATURE_SHARE ** (frames - 1)) * off
         ones = np.ones((len(y), 1), t)
         self.p = np.concatenate([ones, np.zeros_like(z) if self.is_constant else z], axis=1)
         self.weight = self.weight_of(y, z) * t(frames)
