@@ -9,7 +9,8 @@
 uniform sampler2D light;         // the film as reconstruct.frag has it
 uniform sampler2D known_row[7];  // of the models that were brought to this view
 uniform bool has_history;
-uniform bool is_delayed;         // the predictor is the feature of the view before
+uniform float frame;             // samples of a frame: as many as the view before had
+uniform bool is_delayed;         // the predictor is the feature of the frame before
 
 layout(location = 0) out vec4 prediction;  // radiance, and the weight of the film
 layout(location = 1) out vec4 new_row[7];
@@ -18,6 +19,10 @@ Model model_at(ivec2 texel) {
     precise Rows known;
     for (int j = 0; j < 7; j += 1) known.row[j] = texelFetch(known_row[j], texel, 0);
     return model_of(known);
+}
+
+float frames_of(float count) {
+    return max(count / frame, 1.0);
 }
 
 Prediction of_no_sample(Model model) {
@@ -36,7 +41,7 @@ Prediction with_film(Model model, vec3 fresh, float count, ivec2 texel) {
         lowest = min(lowest, around);
         highest = max(highest, around);
     }
-    return predicted(model, fresh, lowest, highest, count, is_delayed);
+    return predicted(model, fresh, lowest, highest, frames_of(count), is_delayed);
 }
 
 void main() {
@@ -44,7 +49,7 @@ void main() {
     precise vec4 film = texelFetch(light, texel, 0);
     precise vec3 fresh = film.rgb;
     precise float count = film.a;
-    precise Prediction made = first_prediction(fresh, count);
+    precise Prediction made = first_prediction(fresh, frames_of(count));
     precise Model model = model_at(texel);
     if (has_history && model.views > 0.0) {
         if (count > 0.0) made = with_film(model, fresh, count, texel);

@@ -3,11 +3,13 @@
 
 uniform sampler2D light;     // the film under its weights
 uniform sampler2D mean;      // of the film; a: finite samples
+uniform float samples;       // of the film
 uniform sampler2D position;  // w: 1 + the number of the object behind the middle of the pixel
 
 out vec4 reconstructed;      // radiance, and finite samples of the pixel
 
 const float PIXELS = 0.5;    // standard deviation
+const float FEW = 2.0;       // samples as in the paper; of more, neighbours count for less: there is less noise
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
@@ -21,6 +23,7 @@ void main() {
         if (near != clamp(near, ivec2(0), last) || texelFetch(position, near, 0).w != object) continue;
         if (texelFetch(mean, near, 0).a <= 0.0) continue;
         precise float weight = exp(-0.5 * dot(vec2(off), vec2(off)) / (PIXELS * PIXELS));
+        if (off != ivec2(0)) weight *= min(FEW / samples, 1.0);
         sum += weight * texelFetch(light, near, 0).rgb;
         total += weight;
     }

@@ -21,7 +21,7 @@ TEXTURES = 8  # of a view: predictions, and seven rows of models (temporal/wrls_
 
 
 class Wrls:
-    """The film as models of the views before predict it: each sample is a frame."""
+    """The film as models of the views before predict it."""
 
     def __init__(self, gl: moderngl.Context, predictor: Predictor = "published") -> None:
         """Nothing is compiled or allocated before it is needed."""
@@ -34,11 +34,19 @@ class Wrls:
         self._brought, self._made = (Canvas(gl, "f4", TEXTURES) for _ in range(2))
         self._shown = Canvas(gl, "f4")
         self._has_brought = self._has_made = False  # whether this view has such models
+        self._frame = self._samples = 1.0  # samples of a frame, and of this view
 
     def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Bring the newest models, whatever the light: they follow it."""
-        del is_same_light
+        """Bring the newest models, whatever the light: they follow it.
+
+        While something moves a view is a frame, however many samples it has, as in the paper. Under
+        other light a sample is one, so that what is old goes soon.
+        """
         is_usable = before is not None and (self._has_made or self._has_brought)
+        if self._has_made:
+            self._frame = self._samples
+        if not is_usable or not is_same_light:
+            self._frame = 1.0
         if self._has_brought and not self._has_made:  # the view before had no sample
             self._brought, self._made = self._made, self._brought
         self._has_brought, self._has_made = is_usable, False
@@ -54,16 +62,17 @@ class Wrls:
         has_history = self._has_brought and fresh.samples < fresh.end
         made, shown = self._sized(self._made, size), self._sized(self._shown, size)
         film = {"light": fresh.light, "mean": fresh.mean}
-        self._reconstruct.draw(shown, {**film, "position": now.position}, {})
+        numbers = {"samples": float(fresh.samples), "end": fresh.end}
+        self._reconstruct.draw(shown, {**film, "position": now.position}, numbers)
         assert self._shown.texture
         rows = self._brought.textures[1:] if has_history else [fresh.mean] * (TEXTURES - 1)
-        values = {"has_history": has_history, "is_delayed": self._predictor == "delayed"}
+        is_delayed = self._predictor == "delayed"
+        values = {"has_history": has_history, "is_delayed": is_delayed, "frame": self._frame}
         self._predict.draw(made, {"light": self._shown.texture, "known_row": rows}, values)
         prediction, feature, *_ = self._made.textures
         textures = {**film, "prediction": prediction, "feature": feature}
-        numbers = {"samples": float(fresh.samples), "end": fresh.end}
         self._smooth.draw(shown, textures, numbers)  # in place of what it was predicted from
-        self._has_made = True
+        self._has_made, self._samples = True, float(fresh.samples)
         return self._shown.texture
 
     def release(self) -> None:

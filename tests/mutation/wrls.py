@@ -91,6 +91,21 @@ WRLS = [
         f"{PASSES}::test_the_film_is_reconstructed_within_objects_alone",
     ),
     Mutant(
+        "the film of many samples is reconstructed as widely",
+        edit("reconstruct.frag", "weight *= min(FEW / samples, 1.0)", "weight *= 1.0"),
+        f"{PASSES}::test_the_film_is_reconstructed_within_objects_alone",
+    ),
+    Mutant(
+        "each sample of a view is a frame",
+        edit(PREDICT, "max(count / frame, 1.0)", "max(count, 1.0)"),
+        WHOLE,
+    ),
+    Mutant(
+        "models follow other light as slowly as any",
+        (Edit(HOST, "if not is_usable or not is_same_light:", "if not is_usable:"),),
+        f"{PASSES}::test_a_view_under_other_light_is_right_once_it_has_samples",
+    ),
+    Mutant(
         "neighbours are alike by their predictions",
         edit(
             SHOWN,

@@ -63,14 +63,16 @@ def models(wrls: Wrls, context: Context, is_brought: bool = False) -> Array:
 # --- a still picture ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("samples", [1.0, 4.0])
+@pytest.mark.parametrize("samples", [(1, 1, 1, 1, 1, 1), (2, 6, 6, 1, 4, 4)])
 @pytest.mark.parametrize("predictor", PREDICTORS)
 def test_the_passes_do_what_the_twin_does(
-    context: Context, predictor: Predictor, samples: float
+    context: Context, predictor: Predictor, samples: tuple[int, ...]
 ) -> None:
+    """A view is a frame; one of more samples than that before it is several."""
     wrls, twin = Wrls(context.gl, predictor), StillWrls(predictor == "delayed")
     with view(wall(), context, SIZE) as here:
-        for number, film in enumerate(films(8, samples)):
+        for number, count in enumerate(samples):
+            (film,) = films(1, count, number)
             shown = shown_of(wrls, here, here if number else None, film, context)
             truth = twin.show(film, END)
             np.testing.assert_allclose(shown[..., :3], truth, rtol=5e-3, atol=1e-3)
@@ -78,14 +80,15 @@ def test_the_passes_do_what_the_twin_does(
     wrls.release()
 
 
-def test_the_film_is_reconstructed_within_objects_alone(context: Context) -> None:
-    """Pixels without a sample count for nothing."""
+@pytest.mark.parametrize("samples", [1.0, 8.0])
+def test_the_film_is_reconstructed_within_objects_alone(context: Context, samples: float) -> None:
+    """Pixels without a sample count for nothing; of more samples neighbours count for less."""
     film, position = noise(SIZE, 1), np.zeros((SIZE[1], SIZE[0], 4), np.float32)
     film[2:4, 5, 3], film[2:4, 5, :3] = 0, 99
     position[:, 7:, 3], position[6:, :, 3] = 1, 2
     arrays = {"light": film, "mean": film, "position": position}
-    found = drawn("reconstruct.frag", arrays, {}, SIZE, context)
-    truth = reconstructed(film[..., :3], film[..., 3], position[..., 3])
+    found = drawn("reconstruct.frag", arrays, {"samples": samples}, SIZE, context)
+    truth = reconstructed(film[..., :3], film[..., 3], position[..., 3], samples)
     np.testing.assert_allclose(found[..., :3], truth, rtol=1e-5)
     assert np.array_equal(found[..., 3], film[..., 3])
 
@@ -114,13 +117,13 @@ def test_the_film_takes_the_place_of_predictions(context: Context) -> None:
             shown_of(wrls, here, here if number else None, film, context)
         wrls.arrive(here, here, True)
         with context.gl, textured(context, last) as light:
-            shown = {}
-            for samples, end in ((1, 1e9), (16, 64.0), (64, 64.0)):
+            shown = []
+            for samples, end in ((16, 1e9), (16, 64.0), (64, 64.0)):
                 fresh = Fresh(light, light, samples, end)
-                shown[samples] = np.array(read_texture(wrls.show(here, fresh))[..., :3])
+                shown.append(np.array(read_texture(wrls.show(here, fresh))[..., :3]))
     film = last[..., :3]
-    np.testing.assert_allclose(shown[16], film + 0.75 * (shown[1] - film), rtol=1e-5)
-    assert np.array_equal(shown[64], film)
+    np.testing.assert_allclose(shown[1], film + 0.75 * (shown[0] - film), rtol=1e-5)
+    assert np.array_equal(shown[2], film)
     wrls.release()
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from tests.temporal.twins import LEAST, Array, FactoredWrls, _windows
 
 
-def reconstructed(light: Array, counts: Array, objects: Array) -> Array:
+def reconstructed(light: Array, counts: Array, objects: Array, samples: float) -> Array:
     """Radiance (H, W, 3) under a Gaussian of half a pixel, of the same object alone."""
     height, width, _ = light.shape
     total, weights = np.zeros((height, width, 3)), np.zeros((height, width, 1))
@@ -17,7 +17,8 @@ def reconstructed(light: Array, counts: Array, objects: Array) -> Array:
             columns = slice(max(0, -i), width - max(0, i))
             there = slice(max(0, j), height + min(0, j)), slice(max(0, i), width + min(0, i))
             is_alike = (objects[rows, columns] == objects[there]) & (counts[there] > 0)
-            weight = np.where(is_alike, np.exp(-2 * (i * i + j * j)), 0)[..., None]
+            usual = np.exp(-2 * (i * i + j * j)) * (min(2 / samples, 1) if i or j else 1)
+            weight = np.where(is_alike, usual, 0)[..., None]
             total[rows, columns] += weight * light[there]
             weights[rows, columns] += weight
     return total / np.where(weights > 0, weights, 1)
@@ -49,13 +50,15 @@ class StillWrls:
         """Before the first view."""
         self._is_delayed = is_delayed
         self._model: FactoredWrls | None = None
+        self._frame = 1.0  # samples
 
     def show(self, film: Array, end: float) -> Array:
         """Of the next view, all of whose pixels have as many samples; radiance (H, W, 3)."""
         height, width, _ = film.shape
-        frames = float(film[0, 0, 3])
+        samples = float(film[0, 0, 3])
+        frames, self._frame = max(samples / self._frame, 1), samples
         light = np.asarray(film[..., :3], float)
-        y = reconstructed(light, film[..., 3], np.ones((height, width)))
+        y = reconstructed(light, film[..., 3], np.ones((height, width)), samples)
         flat = y.reshape(-1, 3)
         if self._model is None:
             self._model = FactoredWrls(flat, self._is_delayed, frames=frames)
@@ -66,5 +69,5 @@ class StillWrls:
             predictions = self._model.add(flat, *limits, frames)
         shape = height, width, 3
         smooth = smoothed(predictions.reshape(shape), self._model.feature.reshape(shape))
-        left = max(1 - frames / max(end, frames), 0)
+        left = max(1 - samples / max(end, samples), 0)
         return np.asarray(light + left * (smooth - light))
