@@ -27,6 +27,7 @@ from glrt.view.state.scene_edits import found_again, with_duplicate, without_obj
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT, Rectangle, Zoom
 from glrt.view.viewport import orbit
+from glrt.view.viewport.black import Blackness
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
@@ -59,10 +60,11 @@ class App(CameraMoves):
     inspects: bool = False  # the pixel under the mouse
     paths: PathExplorer = field(init=False)
     tour_step: int | None = 0  # that is shown; None: closed until the next start
+    tour_beside: tuple[float, float] = (0.0, 0.0)  # size of the window that its box was put in
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
     frame_seconds: float = 0.0
     progress: Progress = field(default_factory=Progress)
-    shown_problem: str = ""  # what went wrong, as the panel told it last
+    blackness: Blackness = field(default_factory=Blackness)
     unsaved: bool = False  # preferences
     awaited: tuple[Action, int] | None = None  # the key that is to be chosen: which of an action
     is_deaf: bool = False  # to keys, until they are let go
@@ -229,6 +231,8 @@ class App(CameraMoves):
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)
             self.show.draw(self.session)
+            if self.show.drawn == "picture":
+                self.blackness.look(self.session, self.picture)
             self.paths.advance()
         except GlrtError as error:  # no room for a second film, or a shader that somebody edits
             self.show.view = "picture"

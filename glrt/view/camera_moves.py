@@ -69,9 +69,13 @@ class CameraMoves:
         self._move(orbit.moved, -across * self.reach, down * self.reach, 0)
 
     def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
-        """Step along the camera's axes, at the speed that is preferred."""
-        step = seconds * self.preferences.walk_speed * self.reach
+        """Step along the camera's axes, at the speed that is preferred.
+
+        The pivot goes along: else steps towards it would get ever shorter, and those away longer.
+        """
+        step, before = seconds * self.preferences.walk_speed * self.reach, self.camera
         self._move(orbit.moved, right * step, up * step, forward * step)
+        self.pivot = orbit.carried(self.pivot, before, self.camera)
 
     def wheel(self, clicks: float) -> None:
         """Towards the pivot; in fly mode straight on."""

@@ -8,6 +8,9 @@ _EDITS = "view/state/scene_edits.py"
 _LISTS = "scene/toml_lists.py"
 _NAMES = "scene/names.py"
 _VIEW = "view/viewport/picture_view.py"
+_BAR, _BAR_TEST = "view/panels/bar.py", "view/test_bar.py"
+_ANCHOR = "view/panels/anchor.py"
+_BLACK, _BLACK_TEST = "view/viewport/black.py", "view/test_black.py"
 _REFUSED = "view/test_refused_views.py"
 
 EDITOR: list[Mutant] = [
@@ -178,5 +181,83 @@ EDITOR: list[Mutant] = [
         "return renderer.plan.settings.bounces if renderer else session.settings.bounces",
         "return session.settings.bounces",
         "view/test_costs.py::test_the_limit_that_was_traced_is_told_while_fewer_bounces_are_shown",
+    ),
+    bug(
+        "undo and pause scroll away with the rows",
+        _BAR,
+        "imgui.set_cursor_pos_y(start.y + imgui.get_scroll_y())",
+        "imgui.set_cursor_pos_y(start.y)",
+        f"{_BAR_TEST}::test_commands_stay_where_they_are_and_rows_end_below_them",
+    ),
+    bug(
+        "rows are clicked through the bar above them",
+        _BAR,
+        "panel.pos.y + end), clip.max",
+        "panel.pos.y), clip.max",
+        f"{_BAR_TEST}::test_commands_stay_where_they_are_and_rows_end_below_them",
+    ),
+    bug(
+        "keys that move in the panel go to rows under the bar",
+        _BAR,
+        "panel.deco_inner_size_y1 = end - panel.deco_outer_size_y1",
+        "panel.deco_inner_size_y1 = 0.0",
+        f"{_BAR_TEST}::test_keys_and_scrolls_know_where_the_bar_ends",
+    ),
+    bug(
+        "a row at the top of the panel jumps when others above it go",
+        _ANCHOR,
+        "room = -wanted if wanted < 0 else",
+        "room = 0.0 if wanted < 0 else",
+        f"{_BAR_TEST}::"
+        "test_a_row_stays_where_nothing_is_left_to_scroll_until_the_mouse_is_elsewhere",
+    ),
+    bug(
+        "the row in use is kept under a bar that has grown",
+        _ANCHOR,
+        "return min(moved, below) if below >= 0 else moved",
+        "return moved",
+        f"{_BAR_TEST}::test_a_row_is_not_kept_under_a_bar_that_grows",
+    ),
+    bug(
+        "a button of the bar is held as a row",
+        _ANCHOR,
+        "        if not self._has_rows:\n            return\n",
+        "",
+        f"{_BAR_TEST}::test_widgets_of_other_parts_are_not_held",
+    ),
+    bug(
+        "a camera on one side of an object is taken for one inside",
+        _BLACK,
+        "for sign in (1.0, -1.0)]",
+        "for sign in (1.0,)]",
+        f"{_BLACK_TEST}::test_an_object_around_the_camera_is_known",
+    ),
+    bug(
+        "a material of no object counts as light",
+        _BLACK,
+        "if group in groups)",
+        "if group or groups)",
+        f"{_BLACK_TEST}::test_the_reason_is_told",
+    ),
+    bug(
+        "a picture that is dim is said to have no light",
+        _BLACK,
+        "if renderer.picture(session.weights)[0].any():",
+        "if False:",
+        f"{_BLACK_TEST}::test_the_reason_is_told",
+    ),
+    bug(
+        "a picture of few samples is not looked at when it is complete",
+        _BLACK,
+        "session.is_done and session.samples != self._seen",
+        "False",
+        f"{_BLACK_TEST}::test_the_reason_is_told",
+    ),
+    bug(
+        "a walk comes to a halt before the pivot",
+        "view/camera_moves.py",
+        "self.pivot = orbit.carried(self.pivot, before, self.camera)",
+        "orbit.carried(self.pivot, before, self.camera)",
+        "view/test_walking.py::test_a_walk_keeps_its_speed_and_the_distance_to_the_pivot",
     ),
 ]

@@ -20,6 +20,7 @@ from tests.window.gestures import ball, drag, reopen
 from tests.window.hand import Hand, check
 
 MOST_EVENTS = 1000  # of a wheel that spins freely
+LONG = LARGEST / 100  # seconds of a walk
 
 
 def goes_on(hand: Hand) -> None:
@@ -65,7 +66,7 @@ def a_wheel_that_spins_freely_stops_at_the_limits(hand: Hand) -> None:
 def a_walk_without_end_stops_at_the_limits(hand: Hand) -> None:
     app = hand.window.app
     for right, up, forward in ((0.0, 0.0, -1.0), (1.0, -1.0, 0.0)):
-        moved_on(hand, partial(app.walk, right, up, forward, 5.0))
+        moved_on(hand, partial(app.walk, right, up, forward, LONG))
         drag(hand, 60, 20)
         drag(hand, 20, -30, button=1)
         drag(hand, -20, -30, button=2)

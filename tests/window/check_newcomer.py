@@ -38,7 +38,7 @@ def the_button_that_undoes_tells_what(hand: Hand) -> None:
     hand.there(lambda: hand.session.edit(seed=hand.session.settings.seed + 1))
     tips: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("glrt.view.panels.panel.tip", tips.append)
+        patch.setattr("glrt.view.panels.bar.tip", tips.append)
         hand.ctx.mouse_move("//Controls/undo")
         hand.until(lambda: bool(tips))
     assert tips[0] == "Undo: seed (Ctrl+Z)"

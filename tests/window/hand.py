@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.navigation import navigate
 from glrt.view.state.controls import replaced
 from glrt.view.state.preferences import Preferences
@@ -105,6 +106,7 @@ class Hand:
             app.pivot, app.selected = app.camera.look_at, None
             app.zoom, app.inspects = FIT, False
             navigate(app, False)
+            ANCHOR.forget()
             app.pair.go_on(False)
             app.pair.is_beside, app.pair.pairing = False, "equal time"
             app.show.forget()

@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - anchor: the widget that stays where it is
 - tags: what an edit costs, beside its control
 - widgets: a widget for each kind of control
+- bar: commands that do not scroll
 - questions: what the window asks
 - tour: five steps for a newcomer
 - legend: what false colours mean

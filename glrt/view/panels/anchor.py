@@ -12,10 +12,23 @@ class Anchor:
         self._before: float | None = None
         self._now: float | None = None
         self._height = 0.0  # of the window
+        self._lead = 0.0  # empty room above the rows: pixels that could not be scrolled up
+        self._start = 0.0  # of the rows, below what does not scroll
+        self._has_rows = False  # whether rows are drawn now: other parts have widgets, too
 
-    def note(self) -> None:
-        """Look at the item drawn last; it is held once it is used."""
-        widget = imgui.get_item_id()
+    def begin(self, start: float) -> None:
+        """The rows begin, so many pixels below the upper edge of the panel."""
+        self._start, self._has_rows = start, True
+        imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() + self._lead)
+
+    def note(self, widget: int = 0) -> None:
+        """Look at the item drawn last; it is held once it is used.
+
+        A group of items has no id but for the one in it that is used: it takes that of `widget`.
+        """
+        if not self._has_rows:
+            return
+        widget = widget or imgui.get_item_id()
         if imgui.is_item_activated() and widget != self._widget:
             self._widget, self._before = widget, None
         if widget and widget == self._widget:
@@ -23,31 +36,52 @@ class Anchor:
 
     def forget(self) -> None:
         """Hold nothing: the panel is to go elsewhere."""
-        self._widget, self._before, self._now = 0, None, None
+        self._widget, self._before, self._now, self._lead = 0, None, None, 0.0
 
     def keep(self) -> None:
         """At the end of the panel: scroll by as much as the widget moved.
 
         Where rows have gone the panel keeps its length until it is scrolled up, since a shorter one
-        could not be scrolled as far.
+        could not be scrolled as far; and where there is too little above to be scrolled down, room
+        is left there until it is out of sight, or the mouse has left the panel.
         """
         scroll, height = imgui.get_scroll_y(), imgui.get_window_height()
-        if self._now is not None and self._before is not None and self._now != self._before:
-            scroll += self._now - self._before
-            imgui.set_scroll_y(max(scroll, 0.0))
+        wanted = scroll + self._moved(scroll)
+        is_over = wanted >= self._lead or _is_mouse_away()
+        room = -wanted if wanted < 0 else -self._lead if is_over else 0.0
+        if wanted != scroll or room:
+            scroll = max(wanted + room, 0.0)
+            imgui.set_scroll_y(scroll)
         if self._now is not None:
-            self._before = self._now
-        self._now = None
+            self._before = self._now + room
+        self._lead += room
+        self._now, self._has_rows = None, False
         end = scroll + height - imgui.get_style().window_padding.y
         missing = end - imgui.get_cursor_pos_y()
         if scroll > 0 and missing > 0 and height == self._height:
             imgui.dummy(ImVec2(0.0, missing))
         self._height = height
 
+    def _moved(self, scroll: float) -> float:
+        """How far down rows moved the widget; not so far that it would be kept under the bar."""
+        if self._now is None or self._before is None:
+            return 0.0
+        below = self._now - self._start - scroll  # the bar, as the widget is on the screen now
+        moved = self._now - self._before
+        return min(moved, below) if below >= 0 else moved
+
 
 def _place() -> float:
     top: float = imgui.get_item_rect_min().y - imgui.get_window_pos().y + imgui.get_scroll_y()
     return top
+
+
+def _is_mouse_away() -> bool:
+    """Whether the mouse is neither over the panel nor over a list that it has opened."""
+    flags = imgui.HoveredFlags_.root_and_child_windows
+    flags |= imgui.HoveredFlags_.allow_when_blocked_by_popup
+    flags |= imgui.HoveredFlags_.allow_when_blocked_by_active_item
+    return not imgui.is_window_hovered(int(flags)) and not imgui.is_any_item_active()
 
 
 ANCHOR = Anchor()  # of the panel: there is one in a window

@@ -7,6 +7,7 @@ from imgui_bundle import hello_imgui, imgui
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.pair import Pairing
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.widgets import beside, button, edited, room_for, tip
 from glrt.view.state.controls import Control, choice, switch
 from glrt.view.viewport.views import HELP, VIEWS
@@ -68,6 +69,7 @@ def draw_compare(app: App) -> None:
     _slot(app)
     imgui.set_next_item_width(room_for("wipe", hello_imgui.em_size(9.5)))
     _, show.wipe = imgui.slider_float("wipe", show.wipe, 0.0, 1.0, "%.2f")
+    ANCHOR.note()
     _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
     tip(
         "What the edits since change, pixel by pixel. A is rendered again at the seeds and samples "

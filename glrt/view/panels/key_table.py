@@ -54,7 +54,7 @@ def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
             beside(text)
         if app.awaited == (action, index):
             _waiting(app, action, chords)
-        elif imgui.button(f"{text}##{action} {index}"):
+        elif button(f"{text}##{action} {index}"):
             app.awaited = (action, index)
         tip("Click, then press a key" if chord else "Add a key")
 
@@ -62,11 +62,11 @@ def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
 def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
     assert app.awaited
     index = app.awaited[1]
-    if imgui.button("press a key##awaited"):
+    if button("press a key##awaited"):
         app.awaited = None
     if index < len(chords):
         beside("remove")
-        if imgui.button("remove##awaited"):
+        if button("remove##awaited"):
             _bind(app, action, (*chords[:index], *chords[index + 1 :]))
 
 

@@ -110,7 +110,7 @@ def _removes(unused: list[str]) -> bool:
     """Whether materials that no object has are to go."""
     label = f"remove {len(unused)} unused"
     beside(label)
-    is_pressed = imgui.button(f"{label}###remove unused")
+    is_pressed = button(f"{label}###remove unused")
     tip(f"Materials that no object has: {', '.join(unused[:10])}")
     return is_pressed
 

@@ -12,6 +12,8 @@ from glrt.settings import Cost
 from glrt.view import file_dialogs
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
+from glrt.view.panels.anchor import ANCHOR
+from glrt.view.panels.bar import bar_end
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.tags import tag
 from glrt.view.panels.widgets import beside, button, edited_fields, named, room_for, tip
@@ -25,7 +27,7 @@ _NONE = "nothing"
 def draw_object(app: App) -> None:
     """Which object is selected, its shape and its material."""
     if app.is_to_be_seen:
-        imgui.set_scroll_here_y(0.0)
+        imgui.set_scroll_y(imgui.get_cursor_pos_y() - bar_end())
         app.is_to_be_seen = False
     _chooser(app)
     _commands(app)
@@ -45,7 +47,9 @@ def _chooser(app: App) -> None:
     objects, index = app.session.scene.objects, app.selected
     row = 0 if app.selected_shape is None or index is None else index + 1
     imgui.set_next_item_width(room_for("object", hello_imgui.em_size(12)))
-    if not imgui.begin_combo("object", _row(objects, row)):
+    is_open = imgui.begin_combo("object", _row(objects, row))
+    if not is_open:
+        ANCHOR.note()
         return
     clipper = imgui.ListClipper()
     clipper.begin(len(objects) + 1)
@@ -73,7 +77,7 @@ def _name(index: int, shape: Shape) -> str:
 def _commands(app: App) -> None:
     """Add an object; copy or remove the selected one."""
     has_one = app.selected_shape is not None
-    if imgui.button("add"):
+    if button("add"):
         imgui.open_popup("what to add")
     tip("Adds an object at the pivot, with a material of its own")
     _menu(app)
@@ -99,10 +103,10 @@ def _menu(app: App) -> None:
 
 
 def _buttons(app: App, shape: Shape) -> None:
-    if imgui.button("frame"):
+    if button("frame"):
         app.frame_selected()
     beside("focus here")
-    if imgui.button("focus here"):
+    if button("focus here"):
         app.focus_on(shape.middle)
     beside("handles; Shift scales")
     imgui.text_disabled("handles; Shift scales")

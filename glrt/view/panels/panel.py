@@ -15,6 +15,7 @@ from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.background import draw_background
+from glrt.view.panels.bar import bar_end, below_bar
 from glrt.view.panels.compare import draw_compare, draw_view
 from glrt.view.panels.files import draw_files
 from glrt.view.panels.inspector import draw_inspector
@@ -23,11 +24,10 @@ from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
 from glrt.view.panels.pixel_paths import draw_pixel_paths
 from glrt.view.panels.sun import draw_sun
-from glrt.view.panels.tags import COLORS, legend
-from glrt.view.panels.widgets import beside, button, edited, edited_fields, tip
+from glrt.view.panels.tags import COLORS, legend, tag
+from glrt.view.panels.widgets import button, edited, edited_fields, tip
 from glrt.view.state.controls import Control, controls_of, replaced, switch
 from glrt.view.state.costs import reach_of_bounces, reach_of_size
-from glrt.view.state.keys import Action, label
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 
@@ -50,13 +50,17 @@ _LIVE = (
 LIVE = switch("bounces_live", _LIVE, Cost.RECOMPILE)
 _SHOWN = "the light of all paths, or of those of one length alone"
 SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGHT)
-_RED = (0.95, 0.35, 0.35, 1.0)
 
 
 def draw_panel(app: App) -> None:
     """The content of the window that holds the controls."""
-    _problem(app)
-    _commands(app)
+    with below_bar(app):
+        _rows(app)
+    ANCHOR.keep()
+
+
+def _rows(app: App) -> None:
+    """What the panel scrolls."""
     _cautions(app)
     for title, section, flags in _SECTIONS:
         if (section is draw_object and app.is_to_be_seen) or (
@@ -71,30 +75,15 @@ def draw_panel(app: App) -> None:
             section(app)
         if is_new:
             _bring_to_sight(top)
-    ANCHOR.keep()
 
 
 def _bring_to_sight(top: float) -> None:
     """Scroll down to the end of a part that was unfolded, but not past its title."""
     corner, height = imgui.get_window_pos().y, imgui.get_window_height()
     hidden = imgui.get_cursor_screen_pos().y - corner - height
-    room = top - corner - imgui.get_style().window_padding.y - imgui.get_frame_height()
+    room = top - corner - bar_end()
     if hidden > 0 and room > 0:
         imgui.set_scroll_y(imgui.get_scroll_y() + min(hidden, room))
-
-
-def _problem(app: App) -> None:
-    """What went wrong, above everything else: the panel goes up to it when it comes."""
-    is_new = app.session.problem != app.shown_problem
-    app.shown_problem = app.session.problem
-    if not app.session.problem:
-        return
-    if is_new:
-        imgui.set_scroll_y(0.0)
-        ANCHOR.forget()
-    _colored(_RED, app.session.problem)
-    if imgui.button("dismiss"):
-        app.session.problem = ""
 
 
 def _cautions(app: App) -> None:
@@ -110,32 +99,6 @@ def _colored(color: tuple[float, float, float, float], text: str) -> None:
     imgui.push_style_color(imgui.Col_.text, color)
     imgui.text_wrapped(text)
     imgui.pop_style_color()
-
-
-def _commands(app: App) -> None:
-    session = app.session
-    if imgui.button("go on" if session.paused else "pause"):
-        app.pause()
-    beside("restart")
-    if imgui.button("restart"):
-        app.restart()
-    beside("undo")
-    if button("undo", session.history.can_undo):
-        app.undo()
-    _told_step(app, "undo")
-    beside("redo")
-    if button("redo", session.history.can_redo):
-        app.redo()
-    _told_step(app, "redo")
-
-
-def _told_step(app: App, action: Action) -> None:
-    """The edit that a button would take back or do again, and its keys."""
-    is_hovered = imgui.is_item_hovered()
-    what = (app.undoes if action == "undo" else app.redoes) if is_hovered else ""
-    keys = " or ".join(label(chord) for chord in app.preferences.bindings[action])
-    if what:
-        tip(f"{what} ({keys})" if keys else what)
 
 
 def _with_camera(scene: Scene, **changes: Any) -> Scene:
@@ -171,6 +134,10 @@ def _lengths(session: Session) -> None:
 def _samples(app: App) -> None:
     _settings(app, ("samples",))
     _preferences(app, [c for c in PREFERENCES if c.name in FREE_SAMPLES])
+    if button("restart"):
+        app.restart()
+    tip("Begins to gather samples anew, and the figures of the picture")
+    tag(Cost.RESTART)
 
 
 def _camera(app: App) -> None:
@@ -180,9 +147,9 @@ def _camera(app: App) -> None:
     changes = edited_fields(tuple(CAMERA[name] for name in names), values)
     if changes:
         app.edit_scene(f"camera {list(changes)}", partial(_with_camera, **changes))
-    if camera.focus_distance is not None and imgui.button("focus on look at"):
+    if camera.focus_distance is not None and button("focus on look at"):
         app.edit_scene("", partial(_with_camera, focus_distance=None))
-    if imgui.button("home"):
+    if button("home"):
         app.home()
     _preferences(app, [c for c in PREFERENCES if c.name in MOVING])
 

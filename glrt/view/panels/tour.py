@@ -47,7 +47,10 @@ def draw_tour(app: App) -> None:
         return
     area = imgui.get_main_viewport()
     place = area.pos + ImVec2(area.size.x - hello_imgui.em_size(1), hello_imgui.em_size(3))
-    imgui.set_next_window_pos(place, imgui.Cond_.appearing.value, ImVec2(1.0, 0.0))
+    size = area.size.x, area.size.y
+    when = imgui.Cond_.appearing if size == app.tour_beside else imgui.Cond_.always
+    app.tour_beside = size
+    imgui.set_next_window_pos(place, when.value, ImVec2(1.0, 0.0))
     imgui.set_next_window_size(ImVec2(hello_imgui.em_size(_WIDTH), 0.0))
     flags = imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking
     flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_focus_on_appearing

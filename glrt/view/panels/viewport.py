@@ -87,11 +87,22 @@ def _notices(app: App) -> tuple[str, ...]:
         app.show.notice(app.session),
         told_paths(app),
         "old picture, until the new one has a sample" if _is_old(app) else "",
+        _told_black(app),
         "paused" if app.session.paused else "",
         NOTICE if app.navigates else "",
         _told_zoom(app),
         app.messages.recent(time.perf_counter()),
     )
+
+
+def _told_black(app: App) -> str:
+    """Why nothing is seen, and the key that leads back; "" where something is."""
+    reason, keys = app.blackness.reason, app.preferences.bindings["home"]
+    if app.show.drawn != "picture" or not reason:
+        return ""
+    is_elsewhere = app.camera != app.session.opened.scene.camera
+    back = f". {label(keys[0])} goes back to the first view" if keys and is_elsewhere else ""
+    return reason + back
 
 
 def _told_zoom(app: App) -> str:

@@ -41,7 +41,7 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
 def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.set_next_item_width(_width_beside(control.label))
     drawn = _draw(control, label, value)
-    tooltip(control)
+    tooltip(control, label)
     tags(control)
     return drawn
 
@@ -51,7 +51,7 @@ def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     imgui.text(control.label)
     tags(control)
     drawn = _clipped(lambda: _draw(control, label, value))
-    tooltip(control)
+    tooltip(control, label)
     return drawn
 
 
@@ -109,9 +109,12 @@ def room_for(label: str, usual: float) -> float:
     return max(hello_imgui.em_size(3.5), min(usual, imgui.get_content_region_avail().x - beside))
 
 
-def tip(text: str) -> None:
-    """Explain the item drawn last, when the mouse rests on it: in lines that are easily read."""
-    ANCHOR.note()
+def tip(text: str, widget: int = 0) -> None:
+    """Explain the item drawn last, when the mouse rests on it: in lines that are easily read.
+
+    `widget`: see `Anchor.note`.
+    """
+    ANCHOR.note(widget)
     if imgui.begin_item_tooltip():
         imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
         imgui.text_unformatted(text)
@@ -119,15 +122,16 @@ def tip(text: str) -> None:
         imgui.end_tooltip()
 
 
-def tooltip(control: Control) -> None:
-    """Tell what the item drawn last does, and what it costs."""
+def tooltip(control: Control, label: str) -> None:
+    """Tell what the item drawn last, of this label, does, and what it costs."""
     help_text = control.help[:1].upper() + control.help[1:]
     unit = f" [{control.unit}]" if control.unit else ""
     costs = (
         f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
     )
     why = explanation_of(control)
-    tip("\n".join([f"{help_text}{unit}", *costs, *(["", why] if why else [])]))
+    told = "\n".join([f"{help_text}{unit}", *costs, *(["", why] if why else [])])
+    tip(told, imgui.get_id(label))
 
 
 def _width_beside(label: str) -> float:

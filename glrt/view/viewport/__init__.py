@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - difference: how far the picture is from the kept one
 - orbit: moves of the camera
 - pick: what lies under a point
+- black: why nothing but black is seen
 - outline: where an object ends in the picture
 - path_lines: paths as lines, and a camera outside
 - transform: moves of shapes

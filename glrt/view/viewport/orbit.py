@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from glrt.errors import UsageError
 from glrt.scene.camera import Camera
-from glrt.scene.values import SMALLEST, Vector
+from glrt.scene.values import LARGEST, SMALLEST, Vector
 from glrt.view.state.controls import replaced
 
 Array = NDArray[np.float64]
@@ -67,6 +67,13 @@ def dollied(camera: Camera, pivot: Vector, clicks: float) -> Camera:
         center + share * (_array(camera.position) - center),
         center + share * (_array(camera.look_at) - center),
     )
+
+
+def carried(point: Vector, before: Camera, after: Camera) -> Vector:
+    """A point that goes along with the camera; it stays where it would be beyond all lengths."""
+    x, y, z = _array(point) + (_array(after.position) - _array(before.position))
+    there = float(x), float(y), float(z)
+    return there if all(abs(part) <= LARGEST for part in there) else point
 
 
 def framed(camera: Camera, center: Vector, radius: float) -> Camera:

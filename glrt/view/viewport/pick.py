@@ -40,6 +40,16 @@ def ray_through(camera: Camera, aspect: float, x: float, y: float) -> tuple[Arra
 def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
     """The nearest object under a point of the picture; None where there is nothing but sky."""
     origin, direction = ray_through(scene.camera, aspect, x, y)
+    met = first_along(scene, origin, direction)
+    if met is None:
+        return None
+    index, distance = met
+    point = origin + distance * direction
+    return Picked(index, (float(point[0]), float(point[1]), float(point[2])))
+
+
+def first_along(scene: Scene, origin: Array, direction: Array) -> tuple[int, float] | None:
+    """The number of the object that a ray meets first, and how far away; None for none."""
     with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
         distances = _distances(_tables(scene.objects), len(scene.objects), origin, direction)
         for number, shape in enumerate(scene.objects):
@@ -48,8 +58,7 @@ def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
     if not len(distances) or distances.min() == math.inf:
         return None
     index = int(np.argmin(distances))
-    point = origin + distances[index] * direction
-    return Picked(index, (float(point[0]), float(point[1]), float(point[2])))
+    return index, float(distances[index])
 
 
 class _Table(NamedTuple):

@@ -1,0 +1,80 @@
+"""Commands above the rows of the panel: they stay in sight, and the rows scroll below them."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from imgui_bundle import ImVec2, imgui
+
+from glrt.view.app import App
+from glrt.view.panels.anchor import ANCHOR
+from glrt.view.panels.widgets import beside, button, tip
+from glrt.view.state.keys import Action, label
+
+_MOST = 0.3  # of the panel's height, that is told at once of what went wrong
+_RED = (0.95, 0.35, 0.35, 1.0)
+
+
+@contextmanager
+def below_bar(app: App) -> Iterator[None]:
+    """The bar, at the top of the panel however it is scrolled; then rows, cut off where it ends."""
+    panel, start = imgui.internal.get_current_window(), imgui.get_cursor_pos()
+    imgui.set_cursor_pos_y(start.y + imgui.get_scroll_y())
+    _commands(app)
+    _problem(app)
+    imgui.separator()
+    end = imgui.get_cursor_pos_y() - imgui.get_scroll_y()  # from the panel's corner
+    panel.deco_inner_size_y1 = end - panel.deco_outer_size_y1  # what keys move to is not under it
+    imgui.set_cursor_pos(ImVec2(start.x, end))
+    ANCHOR.begin(end)
+    clip = panel.inner_clip_rect
+    imgui.push_clip_rect(ImVec2(clip.min.x, panel.pos.y + end), clip.max, True)
+    yield
+    imgui.pop_clip_rect()
+
+
+def bar_end() -> float:
+    """Where the rows begin, in pixels from the panel's upper edge."""
+    panel = imgui.internal.get_current_window()
+    return float(panel.deco_outer_size_y1 + panel.deco_inner_size_y1)
+
+
+def _commands(app: App) -> None:
+    session = app.session
+    if imgui.button("go on" if session.paused else "pause"):
+        app.pause()
+    beside("undo")
+    if button("undo", session.history.can_undo):
+        app.undo()
+    _told_step(app, "undo")
+    beside("redo")
+    if button("redo", session.history.can_redo):
+        app.redo()
+    _told_step(app, "redo")
+
+
+def _told_step(app: App, action: Action) -> None:
+    """The edit that a button would take back or do again, and its keys."""
+    is_hovered = imgui.is_item_hovered()
+    what = (app.undoes if action == "undo" else app.redoes) if is_hovered else ""
+    keys = " or ".join(label(chord) for chord in app.preferences.bindings[action])
+    if what:
+        tip(f"{what} ({keys})" if keys else what)
+
+
+def _problem(app: App) -> None:
+    """What went wrong, in sight wherever the panel is; what is long is scrolled."""
+    if not app.session.problem:
+        return
+    room = imgui.get_content_region_avail().x
+    height = imgui.calc_text_size(app.session.problem, wrap_width=room).y
+    most = max(_MOST * imgui.get_window_height(), 2 * imgui.get_text_line_height())
+    is_long = height > most
+    if is_long:
+        imgui.begin_child("problem", ImVec2(0.0, most))
+    imgui.push_style_color(imgui.Col_.text, _RED)
+    imgui.text_wrapped(app.session.problem)
+    imgui.pop_style_color()
+    if is_long:
+        imgui.end_child()
+    if imgui.button("dismiss"):
+        app.session.problem = ""

@@ -1,0 +1,182 @@
+"""The panel while it scrolls: what stays in sight, and where rows stay; no window is opened."""
+
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from imgui_bundle import ImVec2, imgui
+
+from glrt.view.panels.anchor import ANCHOR
+from glrt.view.panels.bar import below_bar
+from glrt.view.panels.widgets import button
+from glrt.view.state.preferences import Preferences
+
+SIZE = ImVec2(300.0, 200.0)
+
+
+class Panel:
+    """A panel of 40 buttons, of which "used" stands behind some that come and go."""
+
+    def __init__(self) -> None:
+        context = imgui.create_context()
+        self.io = imgui.get_io()
+        self.io.display_size = ImVec2(600.0, 200.0)
+        self.io.delta_time = 0.1
+        self.io.backend_flags |= imgui.BackendFlags_.renderer_has_textures.value
+        self.io.set_ini_filename("")
+        self._context = context
+        history = SimpleNamespace(can_undo=True, can_redo=True)
+        session = SimpleNamespace(paused=False, history=history, problem="")
+        self.undone = 0
+        self.app: Any = SimpleNamespace(
+            session=session, preferences=Preferences(), undo=self._undo, undoes="Undo: all"
+        )
+        self.above, self.below = 10, 30
+        self.places: dict[str, ImVec2] = {}  # of the upper left corners, on the screen
+        self.pressed: list[str] = []
+        self.scroll = 0.0
+        ANCHOR.forget()
+        self.frame(2)
+
+    def _undo(self) -> None:
+        self.undone += 1
+
+    def frame(self, count: int = 1, scroll: float | None = None) -> None:
+        for _ in range(count):
+            imgui.new_frame()
+            imgui.set_next_window_pos(ImVec2(0.0, 0.0))
+            imgui.set_next_window_size(SIZE)
+            imgui.begin("Controls")
+            if scroll is not None:
+                imgui.set_scroll_y(scroll)
+            with below_bar(self.app):
+                for number in range(self.above):
+                    self._row(f"above {number}")
+                self._row("used")
+                for number in range(self.below):
+                    self._row(f"below {number}")
+            ANCHOR.keep()
+            self.scroll = imgui.get_scroll_y()
+            imgui.end()
+            imgui.render()
+
+    def _row(self, name: str) -> None:
+        if button(f"{name}: as wide as the panel, more or less"):
+            self.pressed.append(name)
+        self.places[name] = imgui.get_item_rect_min()
+
+    def click(self, x: float, y: float) -> None:
+        self.io.add_mouse_pos_event(x, y)
+        self.frame(2)
+        for is_down in (True, False):
+            self.io.add_mouse_button_event(0, is_down)
+            self.frame(2)
+
+    def use(self) -> float:
+        """Click the button "used"; where it is."""
+        at = self.places["used"]
+        self.click(at.x + 5, at.y + 5)
+        assert self.pressed == ["used"]
+        return float(at.y)
+
+    def end(self) -> None:
+        ANCHOR.forget()
+        imgui.destroy_context(self._context)
+
+
+@pytest.fixture
+def panel() -> Iterator[Panel]:
+    panel = Panel()
+    yield panel
+    panel.end()
+
+
+@pytest.mark.parametrize("scroll", [0.0, 100.0, 1e6])
+def test_commands_stay_where_they_are_and_rows_end_below_them(panel: Panel, scroll: float) -> None:
+    """A click where undo stands undoes, though a row lies there, too."""
+    top = panel.places["above 0"].y
+    panel.frame(3, scroll)
+    panel.frame(2)
+    assert (panel.scroll > 0) == (scroll > 0)
+    panel.click(70.0, top - 22)
+    assert panel.undone == 1
+    for place in list(panel.places.values()):
+        if 0 < place.y < top - 12:
+            panel.click(200.0, place.y + 8)
+    assert panel.pressed == []
+    panel.click(200.0, top + 30)
+    assert len(panel.pressed) == 1, "but rows below it are"
+
+
+def test_keys_and_scrolls_know_where_the_bar_ends(panel: Panel) -> None:
+    window = imgui.internal.find_window_by_name("Controls")
+    end = window.deco_outer_size_y1 + window.deco_inner_size_y1
+    assert abs(panel.places["above 0"].y - end) < 1
+
+
+@pytest.mark.parametrize("above", [14, 7])
+def test_the_row_that_is_used_stays_when_others_come_and_go(panel: Panel, above: int) -> None:
+    panel.frame(3, 150.0)
+    panel.frame(2)
+    before = panel.use()
+    panel.above = above
+    panel.frame(3)
+    assert panel.places["used"].y == before
+
+
+def test_a_row_stays_where_nothing_is_left_to_scroll_until_the_mouse_is_elsewhere(
+    panel: Panel,
+) -> None:
+    panel.above = 3
+    panel.frame(2)
+    first, before = panel.places["above 0"].y, panel.use()
+    panel.above = 1
+    panel.frame(3)
+    assert panel.places["used"].y == before
+    panel.io.add_mouse_pos_event(500.0, 100.0)
+    panel.frame(3)
+    assert panel.places["above 0"].y == first
+
+
+def test_room_above_goes_once_it_is_scrolled_out_of_sight(panel: Panel) -> None:
+    panel.above = 3
+    panel.frame(2)
+    first = panel.places["above 0"].y
+    panel.use()
+    panel.above = 1
+    panel.frame(3)
+    assert panel.places["above 0"].y > first
+    panel.frame(2, 90.0)
+    before = panel.places["below 3"].y
+    panel.frame(3)
+    assert panel.places["below 3"].y == before
+    panel.frame(3, 0.0)
+    panel.frame(2)
+    assert panel.places["above 0"].y == first
+
+
+def test_a_row_is_not_kept_under_a_bar_that_grows(panel: Panel) -> None:
+    """What went wrong is told there; a row in use that is lower stays."""
+    panel.frame(3, 150.0)
+    panel.frame(2)
+    before = panel.use()
+    panel.app.session.problem = "wrong"
+    panel.frame(4)
+    assert panel.places["used"].y == before
+    panel.app.session.problem = "wrong\n" * 5
+    panel.frame(4)
+    window = imgui.internal.find_window_by_name("Controls")
+    end = window.deco_outer_size_y1 + window.deco_inner_size_y1
+    assert panel.places["used"].y >= end
+
+
+def test_widgets_of_other_parts_are_not_held(panel: Panel) -> None:
+    """The bar's own neither: it has no place among the rows."""
+    panel.frame(3, 150.0)
+    panel.frame(2)
+    before = panel.use()
+    panel.click(60.0, 40.0)
+    panel.above = 14
+    panel.frame(3)
+    assert panel.places["used"].y == before

@@ -1,0 +1,163 @@
+"""What stays in sight while the panel scrolls, and where rows stay that are used."""
+
+from typing import Any
+
+from imgui_bundle import imgui
+
+from tests.window.gestures import ball, press, retype
+from tests.window.hand import Hand, check
+
+PANEL = "//Controls"
+ROW = "intensity##lamp"  # the first
+
+
+def panel_of(hand: Hand) -> Any:
+    return hand.ctx.window_info(PANEL).window
+
+
+def place_of(hand: Hand, row: str) -> float:
+    """The upper edge of a row, in pixels from that of the window."""
+    return float(hand.ctx.item_info(f"{PANEL}/{row}").rect_full.min.y)
+
+
+def scrolled_down(hand: Hand) -> float:
+    """To the end of the panel; how far."""
+    hand.ctx.scroll_to_bottom(PANEL)
+    hand.ctx.yield_(3)
+    return float(panel_of(hand).scroll.y)
+
+
+def refuse(hand: Hand, problem: str) -> None:
+    """Tell what went wrong."""
+    hand.there(lambda: setattr(hand.session, "problem", problem))
+    hand.ctx.yield_(4)
+
+
+@check
+def commands_stay_in_sight_while_the_panel_scrolls(hand: Hand) -> None:
+    session, before = hand.session, hand.session.settings
+    hand.there(lambda: session.edit(seed=before.seed + 1))
+    hand.ctx.yield_(2)
+    place = place_of(hand, "undo")
+    scroll = scrolled_down(hand)
+    assert scroll > 0
+    assert place_of(hand, "undo") == place
+    hand.ctx.item_click(f"{PANEL}/undo")
+    assert session.settings == before
+    hand.ctx.item_click(f"{PANEL}/pause")
+    assert session.paused
+    hand.ctx.item_click(f"{PANEL}/go on")
+    assert panel_of(hand).scroll.y == scroll
+
+
+@check
+def rows_end_below_the_bar(hand: Hand) -> None:
+    """What is scrolled away is neither seen nor clicked through it."""
+    ctx, panel = hand.ctx, panel_of(hand)
+    ctx.scroll_to_top(PANEL)
+    ctx.yield_(2)
+    on = place_of(hand, ROW) - place_of(hand, "undo")
+    hand.there(lambda: imgui.internal.set_scroll_y(panel, on))
+    ctx.yield_(3)
+    row, button = (ctx.item_info(f"{PANEL}/{name}") for name in (ROW, "undo"))
+    assert abs(row.rect_full.min.y - button.rect_full.min.y) < 2, "it lies where the button is"
+    before = hand.session.scene
+    ctx.mouse_move_to_pos((row.rect_full.max.x - 8, row.rect_full.get_center().y))
+    ctx.mouse_click(0)
+    ctx.yield_(3)
+    assert hand.session.scene == before
+    ctx.scroll_to_top(PANEL)
+    ctx.yield_(2)
+
+
+@check
+def keys_that_move_in_the_panel_go_to_no_row_under_the_bar(hand: Hand) -> None:
+    ctx = hand.ctx
+    ctx.scroll_to_top(PANEL)
+    ctx.yield_(2)
+    end = place_of(hand, "Light")
+    scrolled_down(hand)
+    ctx.item_click(f"{PANEL}/keep this picture")
+    press(hand, imgui.Key.f6)
+    for _ in range(25):
+        press(hand, imgui.Key.up_arrow)
+        here = hand.there(lambda: imgui.get_current_context().nav_id)
+        row = ctx.item_info(imgui.test_engine.TestRef(here))
+        assert row.rect_full.min.y >= end - 8
+    press(hand, imgui.Key.escape)
+
+
+@check
+def a_problem_is_told_wherever_the_panel_is(hand: Hand) -> None:
+    """It pushes the rows down; the one in use stays, and so does the panel's place."""
+    ctx = hand.ctx
+    ctx.scroll_to_item_y(f"{PANEL}/tonemap")
+    ctx.yield_(3)
+    ctx.item_click(f"{PANEL}/tonemap")
+    ctx.yield_(2)
+    press(hand, imgui.Key.escape)
+    before = place_of(hand, "tonemap")
+    refuse(hand, "Something went wrong. " * 3)
+    assert abs(place_of(hand, "tonemap") - before) < 2
+    assert place_of(hand, "dismiss") < before
+    ctx.item_click(f"{PANEL}/dismiss")
+    ctx.yield_(4)
+    assert not hand.session.problem
+    assert abs(place_of(hand, "tonemap") - before) < 2
+
+
+@check
+def a_long_problem_leaves_room_for_the_rows(hand: Hand) -> None:
+    panel = panel_of(hand)
+    refuse(hand, "Something went wrong, and much is to be said about it. " * 60)
+    assert place_of(hand, "dismiss") < panel.pos.y + 0.5 * panel.size.y
+    hand.ctx.item_click(f"{PANEL}/dismiss")
+    hand.ctx.yield_(3)
+
+
+@check
+def a_row_stays_where_it_is_though_there_is_nothing_to_scroll(hand: Hand) -> None:
+    """A lamp becomes matte: the rows under Light go, and the panel is at its top."""
+    app, ctx = hand.window.app, hand.ctx
+    closed = ("Paths", "Samples", "Display", "Camera")
+    number, shape = ball(hand)
+    app.selected = number
+    ctx.yield_(2)
+    retype(hand, shape.material, "light")
+    hand.settle()
+    for title in closed:
+        ctx.item_close(f"{PANEL}/{title}")
+    ctx.scroll_to_top(PANEL)
+    ctx.yield_(3)
+    first = place_of(hand, "Light")
+    row = f"type##material {shape.material}"
+    before = place_of(hand, row)
+    retype(hand, shape.material, "lambertian")
+    ctx.yield_(4)
+    assert abs(place_of(hand, row) - before) < 2
+    assert place_of(hand, "Light") > first + 10, "room is left above"
+    ctx.mouse_move("//Picture/picture")
+    ctx.yield_(4)
+    assert abs(place_of(hand, "Light") - first) < 2, "until the mouse is elsewhere"
+    for title in closed:
+        ctx.item_open(f"{PANEL}/{title}")
+    app.selected = None
+
+
+@check
+def a_colour_stays_where_it_is_after_it_was_edited(hand: Hand) -> None:
+    """Three numbers and a patch are one row to the hand."""
+    app, ctx, session = hand.window.app, hand.ctx, hand.session
+    number, shape = ball(hand)
+    app.selected = number
+    ctx.yield_(2)
+    part = f"color##material {shape.material}/##X"
+    ctx.set_ref("Controls")
+    ctx.item_input_value(part, 0.25)
+    ctx.yield_(3)
+    before = place_of(hand, part)
+    refuse(hand, "Something went wrong.")
+    assert abs(place_of(hand, part) - before) < 2
+    ctx.item_click(f"{PANEL}/dismiss")
+    hand.there(session.undo)
+    app.selected = None
