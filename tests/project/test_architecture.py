@@ -33,6 +33,7 @@ ENTRIES = {
 ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
     *("evidence.frag", "taa.frag"),
     *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
+    *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
 }
 NOT_OF_A_PATH = {
     *ENTRIES,

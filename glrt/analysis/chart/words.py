@@ -95,8 +95,9 @@ def _introduction(experiment: Experiment) -> Iterator[str]:
     yield ""
     yield (
         f"Measured with {experiment.place}. The error is the relative RMS error over pixels and "
-        "channels against a reference; the time is that of all dispatches of a picture, without "
-        "compilation. Every round runs each variant once, in another order and with other seeds. "
+        "channels against a reference; the time is that of all dispatches of a picture, and of the "
+        "filter where it is denoised, without compilation. Every round runs each variant once, in "
+        "another order and with other seeds. "
         "Times are medians; errors and slopes have 95 % confidence intervals over the rounds. A "
         "time after `~` is extrapolated. Points drawn in black are on the Pareto front: no other "
         "point has both less time and less error. At the line of an error, the chart compares "
