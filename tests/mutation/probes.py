@@ -62,7 +62,7 @@ PROBES = [
     ),
     Mutant(
         "outer faces are taken for inner ones",
-        edit("probes/solids.glsl", "dot(direction, normal) <= 0.0", "dot(direction, normal) > 0.0"),
+        edit("probes/solids.glsl", "dot(direction, normal) > 0.0", "dot(direction, normal) < 0.0"),
         f"{TRUTHS}::test_a_probe_deep_in_a_solid_is_of_no_use",
     ),
     Mutant(
