@@ -5,10 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from glrt.view import file_dialogs
-from glrt.view.panels import widgets
+from glrt.view.panels import viewport, widgets
+from glrt.view.panels.pair_images import draw_notice
+from glrt.view.panels.path_overlay import place_of_outside
+from glrt.view.state.controls import replaced
 from tests.window.check_layout import resized
 from tests.window.gestures import add, ball, click, lines_told, press
 from tests.window.hand import Hand, check
@@ -180,3 +183,49 @@ def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
     finally:
         resized(hand, (usual[0], usual[1]))
         app.selected = None
+
+
+@check
+def lines_of_text_lie_beside_the_view_from_outside(hand: Hand) -> None:
+    """In a small window, where that view takes much of the picture's width."""
+    app = hand.window.app
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    resized(hand, SMALLEST)
+    try:
+        press(hand, imgui.Key.p)
+        click(hand, (0.4, -1.0, 0.16))  # on the floor, in the lower half
+        hand.until(lambda: app.paths.found is not None)
+        places: list[tuple[float, float]] = []
+
+        def written(text: str, corner: ImVec2, width: float = 0.0) -> float:
+            places.append((corner.x, width))
+            return draw_notice(text, corner, width)
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(viewport, "draw_notice", written)
+            hand.until(lambda: bool(places))
+        box = place_of_outside(app, app.rectangle)
+        assert box
+        assert box[0] > app.rectangle[0], "it is to the right, where no pixel is"
+        assert all(left + width <= box[0] + 1 for left, width in places), (places, box)
+    finally:
+        resized(hand, (usual[0], usual[1]))
+
+
+@check
+def the_box_of_the_tour_stays_in_a_window_that_gets_another_size(hand: Hand) -> None:
+    app = hand.window.app
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    app.preferences = replaced(app.preferences, tour=True)
+    app.tour_step = 0
+    hand.ctx.yield_(4)
+    try:
+        for size in (SMALLEST, (usual[0], usual[1])):
+            resized(hand, size)
+            box = hand.there(lambda: imgui.internal.find_window_by_name("###tour"))
+            assert box.pos.x >= 0
+            assert box.pos.x + box.size.x <= size[0]
+            assert box.pos.x + box.size.x > size[0] - 40, "in the upper right"
+    finally:
+        resized(hand, (usual[0], usual[1]))
+        app.tour_step = None
