@@ -256,9 +256,16 @@ EDITOR: list[Mutant] = [
     bug(
         "a picture that is dim is said to have no light",
         _BLACK,
-        "if renderer.picture(session.weights)[0].any():",
+        "if renderer.picture(session.weights)[0].max() > FAINT:",
         "if False:",
         f"{_BLACK_TEST}::test_the_reason_is_told",
+    ),
+    bug(
+        "rounding at the rim of two walls is said to be light",
+        _BLACK,
+        "FAINT = 1e-7",
+        "FAINT = 0.0",
+        f"{_BLACK_TEST}::test_light_that_no_exposure_shows_is_none",
     ),
     bug(
         "a picture of few samples is not looked at when it is complete",

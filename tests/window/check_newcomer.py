@@ -18,6 +18,15 @@ from tests.window.hand import Hand, check
 
 CTRL, SHIFT = imgui.Key.mod_ctrl.value, imgui.Key.mod_shift.value
 SMALLEST = (640, 400)
+CLOSED = ("Inspect", "Background", "Sun", "Frame", "Files", "Mouse and keys")  # parts, at the start
+ROWS = (
+    *("pause", "undo", "redo", "restart", "home", "fit", "16:1"),
+    *("object", "add", "delete", "focus here", "make unique", "new##material"),
+    *("keep this picture", "forget it", "swap A and B", "side by side", "wipe"),
+    *("show the difference", "scene", "recent", "##open", "##save", "##scene file"),
+    *("open", "...##open", "save picture", "...##save", "save scene", "...##scene file"),
+    *("copy recipe", "paste recipe", "reset keys"),
+)
 
 
 @check
@@ -157,30 +166,29 @@ def a_lamp_is_dimmed_where_it_is_edited(hand: Hand) -> None:
 
 @check
 def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
-    """In a window of 640 x 400: lists, buttons and names end inside of the panel."""
-    app, (number, shape) = hand.window.app, ball(hand)
+    """In a window of 640 x 400: buttons of all parts, lists and names end inside of the panel."""
+    app, (number, shape), ctx = hand.window.app, ball(hand), hand.ctx
     usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    hand.there(app.keep)
     app.select(number)
     resized(hand, SMALLEST)
-    hand.ctx.yield_(3)
-    panel: Any = hand.ctx.window_info("//Controls").window
+    ctx.yield_(3)
+    for title in CLOSED:
+        ctx.item_open(f"//Controls/{title}")
+        ctx.yield_(3)
+    panel: Any = ctx.window_info("//Controls").window
     right = panel.inner_clip_rect.max.x
     try:
-        for row in (
-            "object",
-            "delete",
-            "focus here",
-            f"name##shape {number}",
-            f"type##material {shape.material}",
-            "make unique",
-            "forget it",
-        ):
-            info = hand.ctx.item_info(f"//Controls/{row}")
-            box = info.rect_clipped if "##" in row else info.rect_full
+        for row in (*ROWS, f"name##shape {number}", f"type##material {shape.material}"):
+            info = ctx.item_info(f"//Controls/{row}")
+            is_typed = row.startswith(("name##", "type##", "##"))
+            box = info.rect_clipped if is_typed else info.rect_full
             assert box.max.x <= right + 1, row
-            if "##" in row:
-                assert box.max.x - box.min.x > 7 * imgui.get_font_size(), row
+            if is_typed:
+                assert box.max.x - box.min.x > 5 * imgui.get_font_size(), row
     finally:
+        for title in CLOSED:
+            ctx.item_close(f"//Controls/{title}")
         resized(hand, (usual[0], usual[1]))
         app.selected = None
 
