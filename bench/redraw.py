@@ -1,8 +1,9 @@
-"""How much clearer the picture is while the camera moves: `python -m bench.redraw orbit|film|bias`.
+"""How much clearer the picture is while the camera moves: `python -m bench.redraw TASK`.
 
 `orbit` plays the same orbit by several modes and tells the error of what is on the screen, and the
 processor seconds of a frame; `film FILE.webp` shows modes side by side; `bias` tells how much
-darker or brighter they show a still camera. There is no window. Seconds are the process's own:
+darker or brighter they show a still camera, `psnr` how much nearer they are to a reference than the
+film of two samples. There is no window. Seconds are the process's own:
 beside other work they tell ratios alone.
 """
 
@@ -12,7 +13,7 @@ import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,24 +26,27 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Mode, Temporal
-from glrt.settings import settings_for
+from glrt.rendering.temporal import WAYS, Temporal, Way
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
 
 FRAMES, DEGREES = 48, 0.5
 LOOKS = (0, 1, 2, 4, 8, 16, 24, 32, 40, 47)  # frames; errors of others are interpolated
 SWING = 12  # frames of the film
 REFERENCE = 128  # samples of each half
 FILM, SCENES = (176, 132), ("cornell", "lamps")
-MOST_BYTES = 300_000
-Modes = tuple[Mode, ...]
-MODES: Modes = ("reset", "reproject")
+MOST_BYTES, QUALITIES = 300_000, (30, 20, 14, 8)
+MODES = ("reset", "reproject")
+Ways = tuple[Way, ...]
+MOST_SEED = 0xFFFFFFFF
+FRAME: dict[str, Any] = {"width": 128, "height": 96, "sampler": "independent"}
 STILL_VIEWS, STILL_SAMPLES = 40, (1, 4, 16)
 
 
 class Played(NamedTuple):
     """An orbit by one mode."""
 
-    mode: Mode
+    mode: str  # and predictor
     errors: list[float]  # relative RMS, at LOOKS
     seconds: float  # of the process, a frame
 
@@ -55,28 +59,28 @@ class Played(NamedTuple):
 def main(arguments: list[str] | None = None) -> int:
     """Measure orbits, or make the film; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m bench.redraw", description=__doc__)
-    parser.add_argument("task", choices=["orbit", "film", "bias"])
+    parser.add_argument("task", choices=["orbit", "film", "bias", "psnr"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
     parser.add_argument("--scene", nargs="+", default=SCENES)
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
-    parser.add_argument("--mode", nargs="+", default=MODES, choices=get_args(Mode))
+    parser.add_argument("--mode", nargs="+", default=MODES, choices=WAYS)
     parsed = parser.parse_args(arguments)
-    context, modes = open_context(), tuple(parsed.mode)
+    context, ways = open_context(), tuple(WAYS[mode] for mode in parsed.mode)
     if parsed.task == "film":
-        make_film(parsed.file, context, modes)
+        make_film(parsed.file, context, ways)
         return 0
     size = parsed.size[0], parsed.size[1]
     for scene in parsed.scene:
         if parsed.task == "bias":
-            print("\n".join(biases(scene, context, modes)))
+            print("\n".join(biases(scene, context, ways)))
+        elif parsed.task == "psnr":
+            print("\n".join(ratios(scene, context, ways)))
         else:
-            print("\n".join(told(scene, measure(scene, size, context, modes))))
+            print("\n".join(told(scene, measure(scene, size, context, ways))))
     return 0
 
 
-def measure(
-    scene: str, size: tuple[int, int], context: Context, modes: Modes = MODES
-) -> list[Played]:
+def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> list[Played]:
     """Each mode, one sample a frame."""
     opened = load(scene)
     settings = settings_for(opened.render, width=size[0], height=size[1])
@@ -86,15 +90,16 @@ def measure(
         for n in LOOKS
     }
     found = []
-    for mode in modes:
+    for way in ways:
+        played = play(frames, settings, context, way.mode, predictor=way.predictor)
         errors, start = [], time.process_time()
         looked = 0.0
-        for number, picture in enumerate(play(frames, settings, context, mode)):
+        for number, picture in enumerate(played):
             if number in truth:
                 begun = time.process_time()
                 errors.append(math.sqrt(max(truth[number].squared_error(picture), 0.0)))
                 looked += time.process_time() - begun
-        found.append(Played(mode, errors, (time.process_time() - start - looked) / FRAMES))
+        found.append(Played(way.name, errors, (time.process_time() - start - looked) / FRAMES))
     return found
 
 
@@ -112,15 +117,15 @@ def told(scene: str, found: list[Played]) -> Iterator[str]:
         yield f"| {one.mode} | {one.mean:.3f} | {one.seconds:.3f} | {gain:.2f} times lower |"
 
 
-def biases(scene: str, context: Context, modes: Modes = MODES) -> Iterator[str]:
+def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
     """By how much the mean of what is shown of views of a still camera differs from that of films.
 
     Modes by samples of a view; the same random numbers in each mode.
     """
     opened = load(scene)
     settings = settings_for(opened.render, width=64, height=48)
-    for mode, samples in itertools.product(modes, STILL_SAMPLES):
-        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, mode)
+    for way, samples in itertools.product(ways, STILL_SAMPLES):
+        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, *way)
         shown, films = [], []
         for seed in range(STILL_VIEWS):
             temporal.leave(renderer)
@@ -132,24 +137,59 @@ def biases(scene: str, context: Context, modes: Modes = MODES) -> Iterator[str]:
         temporal.release()
         renderer.release()
         bias = float(np.mean(shown[10:]) / np.mean(films) - 1)
-        yield f"{scene}, {mode}, {samples} samples a view: {bias:+.2%}"
+        yield f"{scene}, {way.name}, {samples} samples a view: {bias:+.2%}"
 
 
-def make_film(file: Path, context: Context, modes: Modes = MODES) -> None:
+def ratios(scene: str, context: Context, ways: Ways) -> Iterator[str]:
+    """Peak signal-to-noise ratios of the last frame, still and on an orbit, as a Markdown table."""
+    opened = load(scene)
+    settings = settings_for(opened.render, **FRAME)
+    yield f"| {scene} | PSNR, still | gain | PSNR, orbit | gain |"
+    yield "|---|---|---|---|---|"
+    found = [
+        [_ratios(orbit(opened, 24, degrees).scenes[:18], settings, context, way) for way in ways]
+        for degrees in (0.0, 1.0)
+    ]
+    for way, still, moving in zip(ways, *found, strict=True):
+        gains = still - found[0][0], moving - found[1][0]
+        yield f"| {way.name} | {still:.1f} | {gains[0]:+.1f} | {moving:.1f} | {gains[1]:+.1f} |"
+
+
+def _ratios(scenes: tuple[Scene, ...], settings: Settings, context: Context, way: Way) -> float:
+    """In dB, of the picture on a screen; views of a still camera differ by their numbers."""
+    renderer = Renderer(scenes[-1], settings, context, seed=MOST_SEED)
+    truth = expose_and_encode(renderer.render(1024).image().radiance, 0.0, "none")
+    renderer.update(scenes[0])
+    temporal = Temporal(context.gl, *way)
+    for number, scene in enumerate(scenes):
+        temporal.leave(renderer)
+        renderer.update(scene, seed=number)
+        temporal.arrive(renderer)
+        renderer.render(2)
+    shown = expose_and_encode(screen_of(renderer, temporal), 0.0, "none")
+    temporal.release()
+    renderer.release()
+    off = (shown.astype(float) - truth) / 255
+    return -10 * math.log10(float(np.square(off).mean()))
+
+
+def make_film(file: Path, context: Context, ways: Ways) -> None:
     """Modes side by side, a scene below the other; RuntimeError if the file is too large."""
-    rows = [_frames_of(scene, context, modes) for scene in SCENES]
+    rows = [_frames_of(scene, context, ways) for scene in SCENES]
     frames = [Image.fromarray(np.vstack(parts)) for parts in zip(*rows, strict=True)]
-    options: dict[str, Any] = {"duration": 120, "loop": 0, "quality": 30, "method": 6}
-    frames[0].save(file, save_all=True, append_images=frames[1:], **options)
-    if file.stat().st_size > MOST_BYTES:
-        raise RuntimeError(f"{file} has more than {MOST_BYTES} bytes")
+    options: dict[str, Any] = {"duration": 120, "loop": 0, "method": 6}
+    for quality in QUALITIES:
+        frames[0].save(file, save_all=True, append_images=frames[1:], quality=quality, **options)
+        if file.stat().st_size <= MOST_BYTES:
+            return
+    raise RuntimeError(f"{file} has more than {MOST_BYTES} bytes")
 
 
-def _frames_of(scene: str, context: Context, modes: Modes) -> list[NDArray[np.uint8]]:
+def _frames_of(scene: str, context: Context, ways: Ways) -> list[NDArray[np.uint8]]:
     opened = load(scene)
     settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
     swing: Sequence = orbit(opened, SWING, 1.5)
-    played = [play(swing, settings, context, mode) for mode in modes]
+    played = [play(swing, settings, context, way.mode, predictor=way.predictor) for way in ways]
     return [
         np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in row])
         for row in zip(*played, strict=True)

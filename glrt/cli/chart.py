@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 from glrt import files
 from glrt.analysis.chart import files as method_files
@@ -25,7 +25,8 @@ from glrt.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
 from glrt.rendering.stopping import Interruption
-from glrt.rendering.temporal import Mode
+from glrt.rendering.temporal import Mode, Way
+from glrt.rendering.wrls import Predictor
 from glrt.scene.scene import Scene
 from glrt.signals import INTERRUPTED
 
@@ -59,6 +60,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"changes, in place of methods; of {', '.join(get_args(Mode))}. No clock is read: --rounds "
         "and --seconds are not used",
     )
+    parser.add_argument(
+        "--predictor",
+        metavar="NAME,...",
+        default="published",
+        help="what wrls of --temporal predicts from; of published, delayed (default: published)",
+    )
     add_context(parser)
     add_files(parser)
     parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
@@ -71,15 +78,15 @@ _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 def run(arguments: argparse.Namespace) -> int:
     """A chart of each scene and a page of all of them in a folder; returns the exit code."""
     check_matplotlib()
-    plan, modes = _plan(arguments), _modes(arguments.temporal)
+    plan, ways = _plan(arguments), _ways(arguments)
     scenes = _scenes(arguments.scenes, file_rules(arguments))
     folder = Path(arguments.output)
-    files.make_folder(folder, PAGE if modes else "chart.md")
+    files.make_folder(folder, PAGE if ways else "chart.md")
     with Interruption().watched() as interruption:
         try:
             with _progress(arguments.quiet) as tell:
                 tell_or_stop = _stopping(tell, interruption)
-                work = partial(_temporal, modes) if modes else _chart
+                work = partial(_temporal, ways) if ways else _chart
                 page = work(scenes, plan, folder, arguments.context, tell_or_stop)
         except KeyboardInterrupt:
             print(
@@ -122,7 +129,7 @@ def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, te
 
 
 def _temporal(
-    modes: tuple[Mode, ...],
+    ways: tuple[Way, ...],
     scenes: dict[str, Scene],
     plan: Plan,
     folder: Path,
@@ -137,18 +144,25 @@ def _temporal(
             tell(text, (before + share) / len(scenes))
 
         settings = frame_of(scene, plan.height)
-        found = tracks_of(name, scene, settings, context, modes, REFERENCE, tell_of_all)
+        found = tracks_of(name, scene, settings, context, ways, REFERENCE, tell_of_all)
         save_tracks(name, scene.title or name, found, folder)
         tracks += found
     return save_page(tracks, f"Pictures are {plan.height} pixels high.", folder)
 
 
-def _modes(given: str | None) -> tuple[Mode, ...]:
-    names = tuple(given.split(",")) if given is not None else ()
-    known = {name: name for name in get_args(Mode)}
+def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
+    """Modes in their order; wrls by each predictor."""
+    predictors = _chosen("--predictor", arguments.predictor, get_args(Predictor))
+    modes = _chosen("--temporal", arguments.temporal, get_args(Mode))
+    found = [Way(mode, predictor) for mode in modes for predictor in predictors]
+    return tuple({way.name: way for way in found}.values())
+
+
+def _chosen(option: str, given: str | None, known: tuple[Any, ...]) -> tuple[Any, ...]:
+    names = given.split(",") if given is not None else []
     if unknown := [name for name in names if name not in known]:
-        raise UsageError(f"--temporal takes {', '.join(known)}; got {unknown[0]!r}.")
-    return tuple(known[name] for name in dict.fromkeys(names))
+        raise UsageError(f"{option} takes {', '.join(known)}; got {unknown[0]!r}.")
+    return tuple(dict.fromkeys(names))
 
 
 def _plan(arguments: argparse.Namespace) -> Plan:

@@ -29,23 +29,17 @@ TIMES = 1.7  # the true error over the estimate
 DOUBTFUL = 0.25  # the chance of that from which on it is doubted: docs/results/stress.md
 TOGETHER = (1, 4, 16, 64, 256)  # pixels that may bring it about
 SURE = 100  # hits: with more a pixel is known
-RARE = 20.0  # times as bright as usual: the fewer samples meet what makes a pixel so
 
 
 def is_doubtful(
-    radiance: ArrayLike,
-    stderr: ArrayLike,
-    observations: int,
-    seen: Seen | None = None,
-    spark: float = 0.0,
+    radiance: ArrayLike, stderr: ArrayLike, observations: int, seen: Seen | None = None
 ) -> bool | None:
     """Whether the estimated error of a picture, (H, W, 3) each, is not to be believed.
 
     It is not where for some k there is a chance of DOUBTFUL that k pixels are too bright, each by
     so much that together they make the error TIMES as large; nor where the pixels whose truth is
-    `seen` do that by themselves; nor where a single pixel would, once a sample met a lamp through
-    glass and made it `spark` times as bright as usual. None where that cannot be judged: below
-    four observations, without an estimate, or without noise or light.
+    `seen` do that by themselves. None where that cannot be judged: below four observations,
+    without an estimate, or without noise or light.
     """
     error = relative_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
     if not error or not math.isfinite(error):
@@ -56,7 +50,7 @@ def is_doubtful(
         room -= _excess(values, errors, seen)
         errors = errors.copy()
         errors[seen.rows, seen.columns] = 0  # no chance is left there
-    if room <= 0 or (room < 1 and spark >= RARE):
+    if room <= 0:
         return True
     found = _unsure(values, errors)
     return any(_chance(found, room, k) >= DOUBTFUL for k in TOGETHER)

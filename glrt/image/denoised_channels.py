@@ -37,4 +37,5 @@ def from_channels(
         if len(found) < 3:
             return None
         layers.append(np.stack(found, axis=-1).astype(np.float32, copy=False))
-    return Denoised(layers[0], layers[1], *known)
+    error, high = known
+    return Denoised(layers[0], layers[1], error, high)

@@ -1,6 +1,6 @@
 """A fragment shader over all pixels of a picture: it reads textures and draws on others."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import moderngl
@@ -9,6 +9,7 @@ from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 
 _VERSION = "410 core"
+Textures = Mapping[str, moderngl.Texture | Sequence[moderngl.Texture]]  # of samplers, and arrays
 
 
 class DrawnPass:
@@ -22,15 +23,21 @@ class DrawnPass:
     def draw(
         self,
         target: moderngl.Framebuffer,
-        textures: Mapping[str, moderngl.Texture],
+        textures: Textures,
         values: Mapping[str, Any],
     ) -> None:
         """Draw over a framebuffer. Uniforms that the compiler dropped need no value."""
         program = self._program or self._compile()
-        for unit, (name, texture) in enumerate(textures.items()):
-            if name in program:
-                texture.use(unit)
-                program[name] = unit
+        unit = 0
+        for name, given in textures.items():
+            if name not in program:
+                continue
+            parts = [given] if isinstance(given, moderngl.Texture) else [*given]
+            for place, texture in enumerate(parts, unit):
+                texture.use(place)
+            places = [*range(unit, unit + len(parts))]
+            program[name] = places[0] if isinstance(given, moderngl.Texture) else places
+            unit += len(parts)
         for name, value in values.items():
             if name in program:
                 program[name] = value

@@ -11,8 +11,7 @@ begins from. None of them ever writes to the film.
     texture = temporal.show(renderer, weights)   # None: the film alone is to be shown
 """
 
-from collections.abc import Callable, Mapping
-from typing import Literal
+from typing import Literal, NamedTuple, get_args
 
 import moderngl
 
@@ -25,8 +24,9 @@ from glrt.rendering.reprojection import USUAL, Limits, Reprojection, shares_obje
 from glrt.rendering.resolver import Fresh, Resolver
 from glrt.rendering.surfaces import SurfacePass, Surfaces
 from glrt.rendering.taa import Taa
+from glrt.rendering.wrls import Predictor, Wrls
 
-Mode = Literal["reset", "reproject", "taa"]
+Mode = Literal["reset", "reproject", "taa", "wrls"]
 
 END = 64.0  # samples of a film from which on history is not shown, at the latest
 
@@ -80,24 +80,49 @@ class Reproject:
 
 OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # what was shown is wrong by an unknown amount
 
-RESOLVERS: Mapping[Mode, Callable[[moderngl.Context], Resolver]] = {
-    "reproject": Reproject,
-    "taa": Taa,
-}
+
+class Way(NamedTuple):
+    """A mode, and what else its users choose."""
+
+    mode: Mode = "reproject"
+    predictor: Predictor = "published"  # of wrls
+
+    @property
+    def name(self) -> str:
+        """For tables and charts."""
+        is_told = self.mode == "wrls" and self.predictor != "published"
+        return f"{self.mode} {self.predictor}" if is_told else self.mode
+
+
+_ALL = [Way(mode, predictor) for mode in get_args(Mode) for predictor in get_args(Predictor)]
+WAYS = {way.name: way for way in reversed(_ALL)}  # a name alone: the published predictor
+
+
+def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
+    """What makes its pictures; None: the film alone is shown."""
+    match way.mode:
+        case "reset":
+            return None
+        case "reproject":
+            return Reproject(gl)
+        case "taa":
+            return Taa(gl)
+        case "wrls":
+            return Wrls(gl, way.predictor)
 
 
 class Temporal:
     """Follows a renderer; `reset` shows its film alone, and costs nothing."""
 
-    def __init__(self, gl: moderngl.Context, mode: Mode = "reproject") -> None:
-        """Nothing is compiled or allocated before it is needed."""
-        self.mode = mode
+    def __init__(
+        self, gl: moderngl.Context, mode: Mode = "reproject", predictor: Predictor = "published"
+    ) -> None:
+        """Nothing is compiled or allocated before it is needed; `predictor` is that of `wrls`."""
         self.end = END  # samples of the film from which on it is shown alone
         self._gl = gl
         self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, of the one before
         self._pass = SurfacePass(gl)
-        make = RESOLVERS.get(mode)
-        self._resolver = make(gl) if make else None
+        self._resolver = resolver_of(gl, Way(mode, predictor))
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one
         self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view

@@ -227,7 +227,7 @@ class App(CameraMoves):
         """A frame's work: edits, samples, and what is shown of them."""
         try:
             count = self.preferences.samples_per_frame
-            self.session.moving.use(self.preferences.temporal)
+            self.session.moving.use(self.preferences.temporal, self.preferences.predictor)
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)
             self.show.draw(self.session)

@@ -11,6 +11,7 @@ const float SAME_NORMAL = 0.906307787;        // cosine of 25 degrees
 const float WHOLE_PIXEL = 1.0 / 512.0;        // of a pixel: a place as near to a middle is there
 const float LEAST_SHARE = 0.01;                // of the nearest four texels, by their weights
 const vec2 NO_PLACE = vec2(-1.0);
+const ivec2 NO_TEXEL = ivec2(-1);
 
 // A surface relative to the eye before; a direction where nothing is met, which is infinitely far.
 vec3 seen_before(vec4 surface) {
@@ -45,6 +46,23 @@ bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
     precise vec4 other = texelFetch(before_normal, texel, 0);
     if (has_flag(other, LAMP_EDGE) || (has_flag(other, EDGE) && !has_flag(facing, EDGE))) return false;
     return dot(other.xyz, facing.xyz) >= SAME_NORMAL;
+}
+
+// Of the four texels around a place the nearest one that holds that surface; NO_TEXEL if none does.
+ivec2 texel_at(vec2 place, float object, vec3 seen, vec4 facing) {
+    ivec2 corner = ivec2(floor(place - 0.5));
+    ivec2 nearest = NO_TEXEL;
+    precise float least = 3.0;  // squares of distances are 2 at most
+    for (int n = 0; n < 4; n += 1) {
+        ivec2 texel = corner + ivec2(n & 1, n >> 1);
+        precise vec2 off = place - vec2(texel) - 0.5;
+        precise float distance = dot(off, off);
+        if (distance < least && holds(texel, object, seen, facing)) {
+            nearest = texel;
+            least = distance;
+        }
+    }
+    return nearest;
 }
 
 // Weights of Catmull and Rom's spline for texels at -1, 0, 1, 2 from one at `t` of the way from 0 to 1.

@@ -33,22 +33,29 @@ float sample_weight(vec3 radiance, vec3 feature) {
     return max(weight, LEAST_WEIGHT);
 }
 
-Prediction first_prediction(vec3 radiance) {
-    return Prediction(Model(radiance, 1.0, new_fit(radiance)), radiance, 1.0);
+// Of the mean of so many frames: those after the first tell that the mean is right, and nothing of slopes.
+Prediction first_prediction(vec3 radiance, float frames) {
+    precise Fit fit = new_fit(radiance);
+    if (frames > 1.0) fit = corrected(fit, vec4(1.0, radiance), radiance, frames - 1.0);
+    return Prediction(Model(radiance, 1.0, fit), radiance, 1.0);
 }
 
 // The model after the mean `radiance` of so many `frames` of a view, whose neighbourhood holds values
 // from `lowest` to `highest`. The published predictor is the feature of this view, which holds the
-// sample itself; the delayed one is the feature before.
+// sample itself; the delayed one is the feature of the frame before.
 Prediction predicted(Model before, vec3 radiance, vec3 lowest, vec3 highest, float frames, bool is_delayed) {
-    precise float kept = exp(log(FEATURE_SHARE) * frames);
-    precise vec3 feature = radiance + kept * (clamp(before.feature, lowest, highest) - radiance);
-    precise vec3 predictor = is_delayed ? before.feature : feature;
+    precise vec3 off = clamp(before.feature, lowest, highest) - radiance;
+    precise vec3 feature = radiance + exp(log(FEATURE_SHARE) * frames) * off;
+    precise vec3 predictor = feature;
+    if (is_delayed) {
+        if (frames > 1.0) predictor = radiance + exp(log(FEATURE_SHARE) * (frames - 1.0)) * off;
+        else predictor = before.feature;
+    }
     precise vec4 p = vec4(1.0, predictor);
     precise float weight = sample_weight(radiance, predictor);
     precise Fit fit = corrected(before.fit, p, radiance, weight * frames);
     precise vec3 prediction = fit.slopes * p;
     bool is_known = is_finite(prediction) && is_finite(feature) && is_finite_fit(fit);
-    if (!is_known) return first_prediction(radiance);
+    if (!is_known) return first_prediction(radiance, frames);
     return Prediction(Model(feature, before.views + 1.0, fit), prediction, weight);
 }

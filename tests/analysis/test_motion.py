@@ -2,6 +2,7 @@
 
 import csv
 import math
+from argparse import Namespace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,12 @@ import pytest
 from glrt.analysis.motion.measure import BEFORE, FRAMES, Seen, Track, looks_of, tracks_of
 from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
 from glrt.analysis.motion.sequences import light_step, orbit, turned
+from glrt.cli.chart import _ways
 from glrt.cli.commands import run
 from glrt.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.temporal import Mode
+from glrt.rendering.temporal import WAYS, Mode, Way
 from glrt.settings import settings_for
 
 
@@ -68,7 +70,7 @@ def test_history_makes_an_orbit_clearer_and_figures_are_the_same_again(context: 
     settings = settings_for(scene.render, width=24, height=24)
     modes: tuple[Mode, ...] = ("reset", "reproject")
     found = [
-        tracks_of("cornell", scene, settings, context, modes, 256, lambda *_: None)
+        tracks_of("cornell", scene, settings, context, [*map(Way, modes)], 256, lambda *_: None)
         for _ in range(2)
     ]
     assert found[0] == found[1]
@@ -102,8 +104,24 @@ def test_files_hold_the_figures(tmp_path: Path) -> None:
 
 
 def test_the_command_refuses_modes_that_are_none(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="--temporal takes reset, reproject, taa; got 'blur'"):
+    with pytest.raises(
+        UsageError, match="--temporal takes reset, reproject, taa, wrls; got 'blur'"
+    ):
         run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,blur"])
+
+
+def test_the_command_refuses_predictors_that_are_none(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="--predictor takes published, delayed; got 'none'"):
+        run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "wrls", "--predictor", "none"])
+
+
+def test_wrls_is_charted_by_each_predictor() -> None:
+    arguments = Namespace(temporal="reset,wrls,reset", predictor="published,delayed")
+    assert [way.name for way in _ways(arguments)] == ["reset", "wrls", "wrls delayed"]
+    assert {name: way.predictor for name, way in WAYS.items()} == {
+        **dict.fromkeys(("reset", "reproject", "taa", "wrls"), "published"),
+        "wrls delayed": "delayed",
+    }
 
 
 @pytest.mark.slow

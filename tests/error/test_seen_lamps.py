@@ -147,9 +147,9 @@ def test_rims_are_as_many_samples_see_them(context: Context, seed: int) -> None:
     ("hits", "times", "is_known"),
     [
         (1.0, 100.0, True),  # a single bright sample: its chance is 1 in 100
-        (1.0, 1e5, False),  # so bright a one is not of what is known
+        (1.0, 1e7, False),  # so bright a one is not of what is known
         (25.0, 1.5, True),  # 25 samples where 17 were expected: about 2 standard errors
-        (64.0, 2.0, False),  # 64 where 32 were: 1 in 10^6
+        (81.0, 3.0, False),  # 81 where 27 were: 1 in 10^15
     ],
 )
 def test_a_pixel_that_is_too_bright_to_be_so_by_luck_has_other_light(

@@ -19,6 +19,7 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
     *("edges", "reproject", "evidence", "fade", "taa"),
+    *("bring_models", "reconstruct", "predict", "predictions"),
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa")  # by tests/temporal
@@ -40,7 +41,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
         *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),
         *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
-        "taa.frag",
+        *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
         *DISPLAY_STAGES,
     }

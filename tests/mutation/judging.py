@@ -1,4 +1,4 @@
-"""Bugs of the judgement on an estimated error: lamps in view, and light through glass."""
+"""Bugs of the judgement on an estimated error, by what the scene tells of lamps in view."""
 
 from tests.mutation.mutant import Edit, Mutant
 
@@ -45,12 +45,5 @@ JUDGING = [
         "errors[seen.rows, seen.columns] = 0",
         "errors[seen.rows[:0], seen.columns[:0]] = 0",
         "test_judgement.py::test_a_lamp_that_was_met_too_often_or_too_rarely_is_known",
-    ),
-    mutant(
-        "a spark counts however little it adds to the error",
-        RULE,
-        "room < 1 and spark >= RARE",
-        "spark >= RARE",
-        "test_judgement.py::test_glass_under_a_small_lamp_is_doubted_where_one_spark_would_rule_the_error",
     ),
 ]

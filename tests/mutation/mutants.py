@@ -29,6 +29,7 @@ from tests.mutation.taa import TAA
 from tests.mutation.temporal import TEMPORAL
 from tests.mutation.textures import TEXTURES
 from tests.mutation.transport import TRANSPORT
+from tests.mutation.wrls import WRLS
 
 MUTANTS = [
     *TRANSPORT,
@@ -56,4 +57,5 @@ MUTANTS = [
     *JUDGING,
     *TEMPORAL,
     *TAA,
+    *WRLS,
 ]

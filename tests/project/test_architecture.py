@@ -32,6 +32,7 @@ ENTRIES = {
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
     *("evidence.frag", "taa.frag"),
+    *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
 }
 NOT_OF_A_PATH = {
     *ENTRIES,

@@ -21,7 +21,7 @@ SKY: dict[str, Any] = {
     "background": {"bottom": [0.1, 0.2, 0.3], "top": [3.0, 2.0, 1.0]}
 }  # noise on a wall
 PIXEL = 1.0 / 12
-HISTORIES: list[Mode] = ["reproject", "taa"]
+HISTORIES: list[Mode] = ["reproject", "taa", "wrls"]
 
 
 def settings(scene: Scene, **more: object) -> Settings:
@@ -137,7 +137,7 @@ def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(
 # --- what is no history ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("mode", HISTORIES)
+@pytest.mark.parametrize("mode", ["reproject", "taa"])  # of wrls: tests/temporal
 def test_history_that_is_seen_to_be_wrong_is_not_believed(context: Context, mode: Mode) -> None:
     """Without noise: a wall under an even sky that becomes three times as bright."""
     dim, bright = wall(), wall(background={"color": [3.0, 3.0, 3.0]})

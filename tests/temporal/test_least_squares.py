@@ -151,7 +151,7 @@ vec3 frame_at(int pixel, int frame) {
     return vec3(values_[first], values_[first + 1], values_[first + 2]);
 }
 Prediction after_all(int pixel) {
-    precise Prediction last = first_prediction(frame_at(pixel, 0));
+    precise Prediction last = first_prediction(frame_at(pixel, 0), float(FIRST));
     for (int frame = 1; frame < FRAMES; frame += 1) {
         precise vec3 y = frame_at(pixel, frame);
         precise Model before = last.model;
@@ -170,10 +170,11 @@ def glsl_wrls(
     frames: int = 1,
     reach: int = 1_000_000,
     functions: str = RECURSION,
+    first: int = 1,
 ) -> Array:
     """A vec4 of `last`, the prediction after samples (count, n, 3), for each of n pixels."""
     count, n, _ = samples.shape
-    sizes = {"FRAMES": count, "COUNT": n, "REACH": reach, "WEIGHT": frames}
+    sizes = {"FRAMES": count, "COUNT": n, "REACH": reach, "WEIGHT": frames, "FIRST": first}
     setup, constants = (
         "precise Prediction last = after_all(pixel);",
         {**sizes, "IS_DELAYED": is_delayed},
@@ -206,6 +207,29 @@ def test_the_shader_does_what_the_twin_does(
     trace = (twin.spread * np.square(twin.factor).sum(axis=1)).sum(axis=1)
     found = glsl_wrls(ctx, "vec4(trace(last.model.fit), 0, 0, 0)", samples, is_delayed, frames)
     assert found[:, 0] == pytest.approx(trace, rel=2e-2)
+
+
+@pytest.mark.parametrize("first", [2, 50])
+def test_a_model_that_begins_with_a_mean_of_samples_holds_on_to_it(
+    ctx: moderngl.Context, first: int
+) -> None:
+    """As if they had come one by one, all of them alike: along what was seen, and no other way."""
+    rng = np.random.default_rng(11)
+    samples = rng.gamma(3, 0.2, (6, 40, 3)).astype(np.float32)
+    twin = FactoredWrls(samples[0], frames=first)
+    one_by_one = FactoredWrls(samples[0], forgetting=1.0)
+    for _ in range(first - 1):
+        one_by_one.add(samples[0])
+    known = 1 / (1 / 1000 / np.square(twin.p).sum(axis=1) + first - 1)
+    held = FactoredWrls(samples[0], frames=first, forgetting=1.0)
+    for model in (held, one_by_one):
+        spread = np.einsum("nij,ni->nj", model.factor, twin.p)
+        variance = (model.spread * spread**2).sum(axis=1)
+        assert variance == pytest.approx(known, rel=1e-6)
+    for radiance in samples[1:]:
+        shown = twin.add(radiance)
+    got = glsl_wrls(ctx, "vec4(last.radiance, 0.0)", samples, first=first)
+    assert got[:, :3] == pytest.approx(shown, rel=2e-3, abs=2e-4)
 
 
 def test_the_covariance_of_the_shader_is_bounded_and_its_weights_are_not_zero(

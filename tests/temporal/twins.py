@@ -28,6 +28,7 @@ class Wrls:
     width: float = WIDTH
     forgetting: float = FORGETTING
     is_constant: bool = False
+    frames: float = 1  # that the first sample is the mean of
     dtype: Any = np.float64
     feature: Array = field(init=False)
     slopes: Array = field(init=False)  # (n, 4, 3)
@@ -42,6 +43,10 @@ class Wrls:
         self.slopes = np.zeros((len(first), 4, 3), self.dtype)
         self.slopes[:, 0] = first
         self._begin(len(first))
+        if self.frames > 1:
+            self.p = np.concatenate([np.ones((len(first), 1), self.dtype), first], axis=1)
+            self.weight = np.full(len(first), self.frames - 1, self.dtype)
+            self._gain()
 
     def add(
         self, radiance: Array, lowest: Any = -np.inf, highest: Any = np.inf, frames: float = 1
@@ -50,9 +55,11 @@ class Wrls:
         t = self.dtype
         y = np.asarray(radiance, t)
         before = self.feature
-        kept = t(FEATURE_SHARE**frames)
-        self.feature = y + kept * (np.clip(before, lowest, highest).astype(t) - y)
-        z = before if self.is_delayed else self.feature
+        off = np.clip(before, lowest, highest).astype(t) - y
+        self.feature = y + t(FEATURE_SHARE**frames) * off
+        z = self.feature
+        if self.is_delayed:
+            z = before if frames == 1 else y + t(FEATURE_SHARE ** (frames - 1)) * off
         ones = np.ones((len(y), 1), t)
         self.p = np.concatenate([ones, np.zeros_like(z) if self.is_constant else z], axis=1)
         self.weight = self.weight_of(y, z) * t(frames)

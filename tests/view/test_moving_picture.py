@@ -8,7 +8,7 @@ from glrt.analysis.motion.playing import read_texture
 from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering import surfaces
+from glrt.rendering import surfaces, wrls
 from glrt.rendering.temporal import END
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
@@ -138,6 +138,39 @@ def test_without_room_the_picture_goes_on_without_history(
     walk(moving)
     assert "temporal reset" in moving.problem
     assert moving.samples == 1
+    assert not is_shown(moving)
+
+
+def test_without_room_for_models_the_picture_goes_on_without_history(
+    moving: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are first needed where a view is left."""
+
+    def refuse(*_: object) -> None:
+        raise RenderError("no room")
+
+    moving.moving.use("wrls")
+    monkeypatch.setattr(wrls.Wrls, "_sized", refuse)
+    walk(moving)
+    assert "temporal reset" in moving.problem
+    assert moving.samples == 1
+    assert not is_shown(moving)
+
+
+def test_without_room_to_show_a_picture_it_is_told_once(
+    moving: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise RenderError("no room")
+
+    moving.moving.use("wrls", "delayed")
+    walk(moving)
+    assert is_shown(moving)
+    monkeypatch.setattr(wrls.Wrls, "_sized", refuse)
+    moving.advance(0.01, count=1)
+    assert moving.renderer
+    with moving.context.gl, pytest.raises(RenderError, match=r"no room.*temporal reset"):
+        moving.moving.texture(moving.renderer, moving.weights)
     assert not is_shown(moving)
 
 

@@ -18,6 +18,7 @@ from tests.window.hand import Hand, check
 # Each preference by its label: what to choose.
 CHOICES: dict[str, Any] = {
     "temporal": "reproject",
+    "predictor": "delayed",
     "samples per frame": 3,
     "target error": 0.1,
     "mode": "fly",

@@ -13,7 +13,7 @@ from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import light_step, orbit
 from glrt.analysis.reference import Reference, reference_for
 from glrt.gpu.context import Context
-from glrt.rendering.temporal import Mode
+from glrt.rendering.temporal import Way
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -43,7 +43,7 @@ class Track(NamedTuple):
 
     scene: str
     sequence: str
-    mode: Mode
+    mode: str  # and predictor
     seen: tuple[Seen, ...]
 
     @property
@@ -57,12 +57,12 @@ def tracks_of(
     scene: Scene,
     settings: Settings,
     context: Context,
-    modes: Sequence[Mode],
+    ways: Sequence[Way],
     reference_samples: int,
     tell: Tell,
     samples: int = 1,
 ) -> list[Track]:
-    """The orbit and the light step of a scene, by each mode at `samples` samples a frame.
+    """The orbit and the light step of a scene, by each way at `samples` samples a frame.
 
     Each look has a reference of its own, two halves of at most `reference_samples` samples.
     """
@@ -77,10 +77,10 @@ def tracks_of(
             known = [truth[n] for n in truth if frames.scenes[n] == frames.scenes[look]]
             wanted = frames.scenes[look], settings, context, 0.0, math.inf
             truth[look] = known[0] if known else reference_for(*wanted, samples=reference_samples)
-        for number, mode in enumerate(modes):
-            tell(f"{name}, {frames.name}: {mode}", (place + 0.8 + 0.2 * number / len(modes)) / 2)
-            seen = _seen(frames, truth, rays, settings, context, mode, samples)
-            found.append(Track(name, frames.name, mode, tuple(seen)))
+        for number, way in enumerate(ways):
+            tell(f"{name}, {frames.name}: {way.name}", (place + 0.8 + 0.2 * number / len(ways)) / 2)
+            seen = _seen(frames, truth, rays, settings, context, way, samples)
+            found.append(Track(name, frames.name, way.name, tuple(seen)))
     return found
 
 
@@ -98,15 +98,16 @@ def _seen(
     rays: float,
     settings: Settings,
     context: Context,
-    mode: Mode,
+    way: Way,
     samples: int,
 ) -> Iterator[Seen]:
     first = 0 if frames.name == "orbit" else BEFORE
     before = None
-    for number, picture in enumerate(play(frames, settings, context, mode, samples)):
+    played = play(frames, settings, context, way.mode, samples, predictor=way.predictor)
+    for number, picture in enumerate(played):
         is_new = frames.scenes[number] != before
         before = frames.scenes[number]
-        found = SURFACES if mode != "reset" and is_new else 0.0
+        found = SURFACES if way.mode != "reset" and is_new else 0.0
         if number in truth:
             squared = truth[number].squared_error(picture)
             yield Seen(1 + number - first, rays + found, squared)

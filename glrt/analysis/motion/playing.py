@@ -11,6 +11,7 @@ from glrt.analysis.motion.sequences import Sequence
 from glrt.gpu.context import Context, Pipeline
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import Mode, Temporal
+from glrt.rendering.wrls import Predictor
 from glrt.settings import Settings
 
 Picture = NDArray[np.float32]  # (H, W, 3) radiance, row 0 on top
@@ -23,6 +24,7 @@ def play(
     mode: Mode,
     samples: int = 1,
     pipeline: Pipeline = "auto",
+    predictor: Predictor = "published",
 ) -> Iterator[Picture]:
     """What is on the screen at the end of each frame, of `samples` samples of each pixel.
 
@@ -31,7 +33,7 @@ def play(
     """
     first = sequence.scenes[0]
     renderer = Renderer(first, settings, context, pipeline=pipeline)
-    temporal = Temporal(context.gl, mode)
+    temporal = Temporal(context.gl, mode, predictor)
     try:
         for number, scene in enumerate(sequence.scenes):
             if scene != renderer.scene:

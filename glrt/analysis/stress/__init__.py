@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - particles: a caustic of a lamp of any size
 - denoising: the bias of a filter, and fireflies
 - moving: history while the camera moves
+- history: what temporal modes make of a still pixel
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass keeps, a lamp inside it
 - plastic: the light that white plastic keeps

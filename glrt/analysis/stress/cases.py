@@ -3,6 +3,7 @@
 from glrt.analysis.stress import (
     denoising,
     glass,
+    history,
     lamps,
     moving,
     particles,
@@ -41,6 +42,7 @@ _ALL = (
     Case("denoised", "A denoised picture, by its samples", denoising.samples),
     Case("sparks", "Fireflies in a denoised picture", denoising.sparks),
     Case("speed", "History while the camera moves", moving.speed),
+    Case("still", "Least squares of a still pixel", history.still),
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
     Case("plastic", "The light that white plastic keeps", plastic.grazing),

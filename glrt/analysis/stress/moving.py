@@ -10,7 +10,7 @@ from glrt.analysis.motion.playing import Picture, play
 from glrt.analysis.motion.sequences import Sequence, with_camera
 from glrt.analysis.stress.scenes import glass, lamp, matte, plane, scene_of, sphere
 from glrt.analysis.stress.sweep import Lab, Sweep
-from glrt.rendering.temporal import Mode
+from glrt.rendering.temporal import WAYS, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 
@@ -18,7 +18,7 @@ SPEEDS = (0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # pixels a frame, of what 
 FRAMES, SIDE, TRUE = 8, 40, 4096
 PLACES = 4  # moves of which the squared errors are averaged
 SAMPLES = 16  # of a frame
-MODES: tuple[Mode, ...] = ("reproject", "taa", "reset")
+MODES = ("reproject", "taa", "wrls", "wrls delayed", "reset")
 CHOSEN, NAIVE = "reproject", "history that stays in its pixels"
 WORSE = 1.1  # times the error of `reset`, at most
 SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 4, "sampler": "independent"}
@@ -52,7 +52,7 @@ def speed(lab: Lab) -> Sweep:
         ]
         squares: dict[str, list[float]] = {name: [] for name in errors}
         for place in range(lab.count(PLACES, 1)):
-            shown = {mode: _shown(lab, moves, mode, 100 * place) for mode in MODES}
+            shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place) for mode in MODES}
             pictures = {NAIVE: np.mean(shown["reset"], axis=0)}
             pictures |= {mode: screens[-1] for mode, screens in shown.items()}
             for name, picture in pictures.items():
@@ -79,9 +79,9 @@ def _aside(scene: Scene, by: float) -> Scene:
     return with_camera(scene, camera.model_copy(update=places))
 
 
-def _shown(lab: Lab, moves: Sequence, mode: Mode, seed: int) -> list[Picture]:
+def _shown(lab: Lab, moves: Sequence, way: Way, seed: int) -> list[Picture]:
     settings = settings_for(moves.scenes[0].render, seed=seed, **SETTINGS)
-    return [*play(moves, settings, lab.context, mode, SAMPLES)]
+    return [*play(moves, settings, lab.context, way.mode, SAMPLES, predictor=way.predictor)]
 
 
 def _squared(picture: Any, truths: list[Any]) -> float:

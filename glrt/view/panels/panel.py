@@ -38,7 +38,7 @@ DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 PREFERENCES = controls_of(Preferences)
-MOVING = ("mode", "temporal")
+MOVING = ("mode", "temporal", "predictor")
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value

@@ -7,7 +7,8 @@ import moderngl
 from glrt.errors import RenderError
 from glrt.methods.light_layers import Weights
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import END, Mode, Temporal
+from glrt.rendering.temporal import END, Mode, Temporal, Way
+from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Settings, settings_for
 from glrt.view.state.edited import State
 
@@ -22,7 +23,7 @@ class MovingPicture:
         """Nothing is compiled or allocated before it is needed."""
         self._gl = gl
         self._temporal = Temporal(gl, mode)
-        self._wanted = mode
+        self._wanted = Way(mode)
         self._begun = 0
 
     def begin(self) -> None:
@@ -45,18 +46,23 @@ class MovingPicture:
         return replace(sized, settings=settings_for(sized.settings, seed=given.seed))
 
     def _other_seed(self, seed: int) -> int:
-        is_needed = self._wanted != "reset"
+        is_needed = self._wanted.mode != "reset"
         return (seed + self._begun * GOLDEN) & MOST_SEED if is_needed else seed
 
-    def use(self, mode: Mode) -> None:
+    def use(self, mode: Mode, predictor: Predictor = "published") -> None:
         """Another mode begins without history."""
-        if mode != self._wanted:
+        wanted = Way(mode, predictor)
+        if wanted != self._wanted:
             self._temporal.release()
-            self._temporal, self._wanted = Temporal(self._gl, mode), mode
+            self._temporal, self._wanted = Temporal(self._gl, *wanted), wanted
 
-    def leave(self, renderer: Renderer, weights: Weights) -> None:
-        """Before an edit."""
-        self._temporal.leave(renderer, weights)
+    def leave(self, renderer: Renderer, weights: Weights) -> str:
+        """Before an edit; returns what the driver refused, "" for nothing."""
+        try:
+            self._temporal.leave(renderer, weights)
+        except RenderError as error:
+            return self._left_out(error)
+        return ""
 
     def arrive(self, renderer: Renderer, cost: Cost | None) -> str:
         """After an edit of a cost; returns what the driver refused, "" for nothing."""
@@ -67,10 +73,13 @@ class MovingPicture:
         try:
             self._temporal.arrive(renderer)
         except RenderError as error:
-            self._temporal.release()
-            self._temporal = Temporal(self._gl, "reset")
-            return f"{error} History of earlier views is left out (temporal reset)."
+            return self._left_out(error)
         return ""
+
+    def _left_out(self, error: RenderError) -> str:
+        self._temporal.release()
+        self._temporal = Temporal(self._gl, "reset")
+        return f"{error} History of earlier views is left out (temporal reset)."
 
     def forget(self) -> None:
         """The picture is shown without history from now on."""
@@ -87,8 +96,14 @@ class MovingPicture:
         return int(self._temporal.end)
 
     def texture(self, renderer: Renderer, weights: Weights) -> moderngl.Texture | None:
-        """Film and history, valid until the next call; None: the film alone is to be shown."""
-        return self._temporal.show(renderer, weights)
+        """Film and history, valid until the next call; None: the film alone is to be shown.
+
+        RenderError if the driver has no room: from then on there is no history.
+        """
+        try:
+            return self._temporal.show(renderer, weights)
+        except RenderError as error:
+            raise RenderError(self._left_out(error)) from error
 
     def release(self) -> None:
         """Free what the driver holds."""

@@ -11,6 +11,7 @@ from pydantic import Field, ValidationError, field_validator
 from glrt.errors import RenderError
 from glrt.files import reason, write_text
 from glrt.rendering.temporal import Mode as Temporal
+from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Editable, Frozen
 from glrt.view.state import keys
 from glrt.view.state.keys import DEFAULTS, Bindings
@@ -45,7 +46,13 @@ class Preferences(Frozen):
         "reproject",
         description="while the camera moves; reset: the picture begins anew; reproject: what was "
         "shown follows the surfaces, until the new picture has samples enough; taa: an "
-        "exponential mean of what was shown, kept near the new picture",
+        "exponential mean of what was shown, kept near the new picture; wrls: a line through "
+        "all that each pixel saw, and a mean of its neighbours",
+    )
+    predictor: Annotated[Predictor, Editable(FREE)] = Field(
+        "published",
+        description="of temporal wrls, what its line runs over; published: a mean that holds the "
+        "new sample, quick to follow; delayed: the mean before it, calmer and later",
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"

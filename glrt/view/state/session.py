@@ -253,7 +253,7 @@ class Session:
         if not self.renderer:
             self.renderer, cost = self._open(wanted), Cost.RECOMPILE
         else:
-            self.moving.leave(self.renderer, self.weights)
+            self.problem = self.moving.leave(self.renderer, self.weights) or self.problem
             edits = dict(wanted.settings)
             cost = self.last_cost = self.renderer.update(wanted.scene, self.layering, **edits)
         if cost in (Cost.RESTART, Cost.RECOMPILE):

@@ -1,0 +1,32 @@
+// The models of another view (temporal/wrls_rows.glsl), brought to this one: each from the nearest pixel that
+// showed the same surface. Between pixels they are not blended: slopes of two fits have no mean.
+
+uniform sampler2D position;         // as in reproject.frag
+uniform sampler2D normal;
+uniform sampler2D before_position;
+uniform sampler2D before_normal;
+uniform vec3 eye_shift;
+uniform vec3 before_right;
+uniform vec3 before_up;
+uniform vec3 before_forward;
+uniform vec2 before_frame;
+uniform vec2 before_origin;
+
+#include "passes/reprojection.glsl"
+
+uniform sampler2D known_row[7];  // of models of the view before
+
+layout(location = 0) out vec4 unused;
+layout(location = 1) out vec4 row[7];  // zeros where the surface was not seen
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    precise vec4 surface = texelFetch(position, texel, 0);
+    precise vec4 facing = texelFetch(normal, texel, 0);
+    precise vec3 seen = seen_before(surface);
+    precise vec2 place = place_before(seen);
+    ivec2 source = NO_TEXEL;
+    if (place != NO_PLACE && !has_flag(facing, LAMP_EDGE)) source = texel_at(place, surface.w, seen, facing);
+    unused = vec4(0.0);
+    for (int j = 0; j < 7; j += 1) row[j] = source == NO_TEXEL ? vec4(0.0) : texelFetch(known_row[j], source, 0);
+}
