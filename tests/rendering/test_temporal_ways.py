@@ -31,9 +31,7 @@ WAYS: dict[str, dict[str, Any]] = {
 
 HISTORIES: tuple[Mode, ...] = ("taa", "wrls")
 BOTH: list[tuple[str, Mode]] = [(way, "reproject") for way in WAYS]
-BOTH += [
-    (way, mode) for mode in HISTORIES for way in ("a crop", "a classic model", "layers by groups")
-]
+BOTH += [(way, mode) for mode in HISTORIES for way in WAYS]
 
 
 @pytest.mark.parametrize(("way", "mode"), BOTH)

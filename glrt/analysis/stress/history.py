@@ -138,3 +138,82 @@ def still(lab: Lab) -> Sweep:
         bound=[1e-4] * len(MARKS),
         guaranteed=[mark > MARKS[0] for mark in MARKS],  # models of few frames follow rare samples
     )
+
+
+SHARES = (0.001, 0.003, 0.01, 0.03, 0.1)  # of samples that are fireflies
+BRIGHT = 50  # times as bright as others
+LESS = 0.8
+SERIES = 200  # frames, of which the last half counts
+RARE = """
+float firefly(int pixel, int frame, float share) {
+    uint bits = pcg_hash(pcg_hash(uint(pixel) ^ 0x9E3779B9u) + uint(frame));
+    return unit_float(bits) < share ? float(BRIGHT) : 1.0;
+}
+float shown_of(inout Prediction last, inout float exponential, vec3 y, int way) {
+    exponential += 0.1 * (y.x - exponential);
+    if (way == EXPONENTIAL) return exponential;
+    if (way != UNWEIGHTED) {
+        last = predicted(last.model, y, vec3(-1e9), vec3(1e9), 1.0, way == DELAYED);
+        return last.radiance.x;
+    }
+    last.model.feature = y + FEATURE_SHARE * (last.model.feature - y);
+    precise vec4 p = vec4(1.0, last.model.feature);
+    last.model.fit = corrected(last.model.fit, p, y, 1.0);
+    return (last.model.fit.slopes * p).x;
+}
+vec2 moments_of(int pixel, float share, int way) {
+    Prediction last = first_prediction(sample_of(pixel, 0), 1.0);
+    float mean = 0.0, square = 0.0, exponential = sample_of(pixel, 0).x;
+    for (int frame = 1; frame < SERIES; frame += 1) {
+        vec3 y = firefly(pixel, frame, share) * sample_of(pixel, frame);
+        float shown = shown_of(last, exponential, y, way);
+        if (2 * frame >= SERIES) {
+            mean += shown;
+            square += shown * shown;
+        }
+    }
+    return vec2(mean, square);
+}
+"""
+WAYS = {
+    "least squares, all samples alike": "UNWEIGHTED",
+    "wrls": "PUBLISHED",
+    "wrls delayed": "DELAYED",
+    "exponential mean, a tenth": "EXPONENTIAL",
+}
+
+
+def outliers(lab: Lab) -> Sweep:
+    """Error of what is shown of a still pixel, some of whose samples are fifty times as bright.
+
+    Against the mean of all others: a firefly is taken for noise, not for light.
+    """
+    pixels = lab.count(4096, 256)
+    errors = {
+        name: [_off(lab, pixels, way, share) for share in SHARES] for name, way in WAYS.items()
+    }
+    return Sweep(
+        parameter=f"share of samples that are {BRIGHT} times as bright",
+        measure="relative RMS error of what is shown",
+        x=SHARES,
+        chosen=("wrls", errors.pop("wrls")),
+        others=errors,
+        promise=f"at most {LESS:g} times that of samples that weigh alike, up to 1 %",
+        bound=[LESS * error for error in errors["least squares, all samples alike"]],
+        guaranteed=[share <= 0.01 for share in SHARES],
+    )
+
+
+def _off(lab: Lab, pixels: int, way: str, share: float) -> float:
+    numbers = {other: place for place, other in enumerate(WAYS.values())}
+    constants = {"STATE": STATE, "SERIES": SERIES, "BRIGHT": BRIGHT, **numbers}
+    call, functions = f"moments_of(pixel, share, {way})", SAMPLES + RARE
+    probe = Probe(call, "vec2", functions=functions, includes=FILES, constants=constants)
+    with lab.context.gl as gl:
+        state = gl.buffer(reserve=16)
+        given = {"pixel": np.arange(pixels), "share": [share]}
+        found = probe.run(gl, given, {"State": state}).astype(np.float64)
+        state.release()
+    mean, square = found.mean(axis=0) / (SERIES // 2)
+    squared = square - 2 * mean * GREY[0] + GREY[0] ** 2
+    return float(np.sqrt(max(squared, 0.0))) / GREY[0]

@@ -2,6 +2,7 @@
 
 import math
 import statistics
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,37 @@ def speed(lab: Lab) -> Sweep:
         {"floor": matte(0.7), "matte": matte(0.5), "glass": glass(1.5), "lamp": lamp(9.0)},
         {"position": [0, 0.9, 3.5], "look_at": [0, 0.5, 0], "fov": 40},
     )
-    tall = 2 * 3.5 * float(np.tan(np.radians(20)))  # what the picture shows of the plane through 0
+    return _sideways(lab, scene)
+
+
+def reflection(lab: Lab) -> Sweep:
+    """The same of what a mirror shows, which moves otherwise than its surface.
+
+    A wall that is a mirror, over a floor; the balls stand beside the camera.
+    """
+    scene = scene_of(
+        [
+            plane([0, 0, 0], [0, 1, 0], "floor"),
+            plane([0, 0, 0], [0, 0, 1], "mirror"),
+            sphere([-0.7, 0.6, 2.2], 0.5, "red"),
+            sphere([0.7, 0.6, 2.6], 0.4, "blue"),
+            sphere([0, 4, 3], 1.0, "lamp"),
+        ],
+        {
+            "floor": matte(0.5),
+            "red": {"type": "lambertian", "color": [0.8, 0.2, 0.1]},
+            "blue": {"type": "lambertian", "color": [0.1, 0.2, 0.8]},
+            "mirror": {"type": "metal", "color": [0.9, 0.9, 0.9], "roughness": 0.0},
+            "lamp": lamp(9.0),
+        },
+        {"position": [0, 1.2, 3.5], "look_at": [0, 0.6, 0], "fov": 40},
+    )
+    return replace(_sideways(lab, scene), bound=None, promise="none")
+
+
+def _sideways(lab: Lab, scene: Scene) -> Sweep:
+    """Of a camera 3.5 units before the plane through 0."""
+    tall = 2 * 3.5 * float(np.tan(np.radians(20)))  # what the picture shows of that plane
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     count = lab.count(TRUE, 512)
     for pixels in SPEEDS:
@@ -70,6 +101,51 @@ def speed(lab: Lab) -> Sweep:
     )
 
 
+FACTORS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 10.0)
+STILL, AFTER = 16, 2  # frames of a sample before the light changes, and after it
+
+
+def step(lab: Lab) -> Sweep:
+    """Error of what is on the screen two frames after all light changed, by how much it did.
+
+    A matte ball on a floor, a still camera. Other light is as bright everywhere: so one reference
+    serves all factors.
+    """
+    scene = scene_of(
+        [
+            plane([0, 0, 0], [0, 1, 0], "floor"),
+            sphere([0, 0.5, 0], 0.5, "matte"),
+            sphere([0.4, 3, 1.2], 0.5, "lamp"),
+        ],
+        {"floor": matte(0.7), "matte": matte(0.5), "lamp": lamp(9.0)},
+        {"position": [0, 1.2, 3.0], "look_at": [0, 0.4, 0], "fov": 40},
+    )
+    count = lab.count(TRUE, 512)
+    truths = [
+        np.asarray(lab.render(scene, count, seed=seed, **SETTINGS).radiance, float)
+        for seed in (8, 9)
+    ]
+    errors: dict[str, list[float]] = {mode: [] for mode in MODES}
+    for factor in FACTORS:
+        dimmed = scene.model_copy(update={"lights": {"lamp": factor}})
+        frames = Sequence("step", (*[scene] * STILL, *[dimmed] * AFTER))
+        scaled = [factor * truth for truth in truths]
+        for mode in MODES:
+            squares = [
+                _squared(_shown(lab, frames, WAYS[mode], 100 * place, 1)[-1], scaled)
+                for place in range(lab.count(PLACES, 1))
+            ]
+            errors[mode].append(math.sqrt(max(statistics.fmean(squares), 0.0)))
+    return Sweep(
+        parameter="factor of all light",
+        measure=f"relative RMS error {AFTER} frames of one sample later",
+        x=FACTORS,
+        chosen=(CHOSEN, errors[CHOSEN]),
+        others={name: errors[name] for name in errors if name != CHOSEN},
+        promise="none",
+    )
+
+
 def _aside(scene: Scene, by: float) -> Scene:
     camera = scene.camera
     places = {
@@ -79,9 +155,9 @@ def _aside(scene: Scene, by: float) -> Scene:
     return with_camera(scene, camera.model_copy(update=places))
 
 
-def _shown(lab: Lab, moves: Sequence, way: Way, seed: int) -> list[Picture]:
+def _shown(lab: Lab, moves: Sequence, way: Way, seed: int, samples: int = SAMPLES) -> list[Picture]:
     settings = settings_for(moves.scenes[0].render, seed=seed, **SETTINGS)
-    return [*play(moves, settings, lab.context, way.mode, SAMPLES, predictor=way.predictor)]
+    return [*play(moves, settings, lab.context, way.mode, samples, predictor=way.predictor)]
 
 
 def _squared(picture: Any, truths: list[Any]) -> float:
