@@ -11,7 +11,8 @@ EXPLANATIONS: dict[str, str] = {
         "f L' c / p. naive draws directions alone; nee draws points on lamps too, and counts lamps "
         "by these alone; mis weighs both ways by p^2 / (p^2 + q^2), where q is the density of the "
         "other one. phong, blinn, whitted and cook are models from before path tracing: they leave "
-        "light out."
+        "light out. ddgi takes light that has come over several surfaces from a grid of probes, "
+        "which blurs it."
     ),
     "sampler": (
         "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "
@@ -22,6 +23,11 @@ EXPLANATIONS: dict[str, str] = {
         "A path whose throughput is low ends with a chance of 1 - q, and one that goes on counts "
         "1 / q times: q L / q = L, so the mean stays. Paths take less time, and a little more "
         "noise."
+    ),
+    "probes": (
+        "N x N x N points hold the light that arrives there, by direction. A surface is lit by the "
+        "eight around it, E = sum(w E) / sum(w), by nearness and by whether they see it. 16 "
+        "samples share a set of probes, which is warmed up first."
     ),
     "caustics": (
         "on: paths from the lamps, too, linked to the camera at matte surfaces. Each way to find "

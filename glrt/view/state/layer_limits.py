@@ -23,8 +23,8 @@ class LayerLimits:
         layers = self.layers(scene, settings, layering)
         is_narrow = layers * settings.width <= self.largest and 2 * settings.height <= self.largest
         is_small = layers * settings.width * settings.height < self._refused
-        is_apart = not METHODS[settings.method].has_probes
-        return not layers or (is_narrow and is_small and is_apart)
+        is_apart = layering == "none" or not METHODS[settings.method].has_probes
+        return is_apart and (not layers or (is_narrow and is_small))
 
     def refuse(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
         """The driver would not; returns whether a film without layers is worth a trial."""

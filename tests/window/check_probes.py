@@ -1,0 +1,50 @@
+"""The method ddgi in the window: its control, and what an edit of a lamp costs there."""
+
+from glrt.scene.scene import with_lights
+from glrt.settings import Cost
+from tests.window.gestures import move
+from tests.window.hand import Hand, check
+
+LOOKED_AT = 20  # samples: more than one set of probes lights
+
+
+@check
+def probes_light_the_picture_of_the_method_ddgi(hand: Hand) -> None:
+    session = hand.session
+    hand.ctx.set_ref("Controls")
+    move(hand, "method/ddgi", None)
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert session.settings.method == "ddgi"
+    assert session.layering == "none"
+    assert not session.problem
+    assert hand.pixels()[..., :3].mean() > 20
+    move(hand, "probes", 2)
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert session.settings.probes == 2
+    assert session.last_cost is Cost.RESTART
+    assert not session.problem
+
+
+@check
+def a_lamp_over_probes_restarts_the_picture(hand: Hand) -> None:
+    """Their light is that of all lamps in one: it is not kept by layers."""
+    session = hand.session
+    hand.there(lambda: session.edit(method="ddgi", probes=2))
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    before = hand.pixels()[..., :3].mean()
+    hand.there(lambda: session.edit(with_lights(session.scene, {"lamp": 0.2})))
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert session.last_cost is Cost.RESTART
+    assert hand.pixels()[..., :3].mean() < before
+
+
+@check
+def what_does_not_go_with_probes_is_refused_by_name(hand: Hand) -> None:
+    session = hand.session
+    hand.there(lambda: session.edit(method="ddgi", probes=2))
+    hand.until(lambda: session.samples > 0)
+    hand.there(lambda: session.edit(sampler="independent"))
+    hand.until(lambda: bool(session.problem))
+    assert "--method ddgi" in str(session.problem)
+    hand.there(lambda: session.edit(method="mis"))
+    hand.until(lambda: not session.problem and session.samples > 0)
