@@ -142,7 +142,7 @@ WRLS = [
     ),
     Mutant(
         "pixels without history are told to have some",
-        edit("false_colors.frag", "if (number > least) shown", "if (number > 0.0) shown"),
+        edit("false_colors.frag", "if (number > least) shown", "if (number > least - 1.0) shown"),
         "rendering/test_false_colors.py::test_numbers_of_history_are_drawn_and_none_is_grey",
     ),
     Mutant(

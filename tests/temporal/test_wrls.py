@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import pairwise
-from typing import Any
+from typing import Any, get_args
 
 import moderngl
 import numpy as np
@@ -13,6 +13,7 @@ from glrt.analysis.motion.playing import play, read_texture
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.false_colors import Number
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.resolver import Fresh
 from glrt.rendering.temporal import Mode, Temporal
@@ -141,7 +142,7 @@ def test_numbers_of_the_history_are_told(context: Context) -> None:
         temporal.arrive(renderer)
         renderer.step(1)
     twin.add(np.full((1, 3), 0.5))
-    history, weight = (temporal.told(renderer, number) for number in ("history", "weight"))
+    history, weight = (temporal.told(renderer, number) for number in get_args(Number))
     assert history
     assert weight
     seen, weights = textures_of(context, history.texture, weight.texture)
@@ -251,7 +252,8 @@ def test_an_orbit_is_clearer(context: Context, predictor: Predictor) -> None:
     settings = settings_for(scene.render, width=24, height=24, sampler="independent")
     truth = [*play(Sequence("still", frames.scenes[23:]), settings, context, "reset", 512)][-1]
     squared = []
-    for mode, way in (("reset", "published"), ("wrls", predictor)):
+    ways: list[tuple[Mode, Predictor]] = [("reset", "published"), ("wrls", predictor)]
+    for mode, way in ways:
         *_, last = play(frames, settings, context, mode, 2, predictor=way)
         dark = truth.max(axis=2) < 3
         squared.append(float(np.square(np.minimum(last, 1) - np.minimum(truth, 1))[dark].mean()))
