@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 
 from glrt.errors import UsageError
 
-Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook"]
+Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi"]
 Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -73,7 +73,8 @@ class RenderSettings(Frozen):
         "mis",
         description="how lamps are found; naive: by scattering alone; nee: by sampling a lamp at "
         "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
-        "whitted, cook: lighting models before path tracing, which leave light out",
+        "whitted, cook: lighting models before path tracing, which leave light out; ddgi: direct "
+        "light as mis finds it, and indirect light from a grid of probes",
     )
 
 
@@ -119,6 +120,13 @@ class Settings(RenderSettings):
         ge=0,
         le=1,
     )
+    probes: Annotated[int, Editable(Cost.RESTART, "probes", (2, 8))] = Field(
+        0,
+        description="probes along each edge of the grid of method ddgi, 2 to 16; 0: as [probes] of "
+        "the scene says, or 5",
+        ge=0,
+        le=16,
+    )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF
     )
@@ -157,6 +165,13 @@ class Settings(RenderSettings):
         wanted = self.aov + (GUIDES if self.denoise != "none" else ())
         return tuple(aov for aov in get_args(Aov) if aov in wanted)
 
+    @field_validator("probes")
+    @classmethod
+    def _probes_span_cells(cls, value: int) -> int:
+        if value == 1:
+            raise ValueError("must be 0 or at least 2: one probe cannot tell places apart")
+        return value
+
     @field_validator("aov")
     @classmethod
     def _aovs_in_order(cls, value: tuple[Aov, ...]) -> tuple[Aov, ...]:
@@ -187,6 +202,7 @@ class FrameOptions(TypedDict, total=False):
     particles: float
     aimed: float
     linked: float
+    probes: int
     seed: int
     exposure: float
     tonemap: ToneMap

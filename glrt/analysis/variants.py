@@ -7,6 +7,7 @@ from typing import Any, get_args
 from glrt.denoise import oidn
 from glrt.methods.features import needs_of
 from glrt.methods.particles import caster_bits, link_bits, refusal
+from glrt.methods.table import METHODS as TRAITS
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
@@ -33,7 +34,7 @@ def variants_of(
     that the same kernel renders, such as all methods in a scene without lamps, are merged into one,
     "a = b = c".
     """
-    named = [(method, {"method": method}) for method in methods]
+    named = [_of_method(method, settings) for method in methods]
     if leads:
         named += _variants_of_lead(settings)
         named += _with_particles(scene, settings)
@@ -47,6 +48,13 @@ def variants_of(
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
+    """A method as it is; one with probes by the sampler that it needs."""
+    if not TRAITS[method].has_probes or settings.sampler == "sobol":
+        return method, {"method": method}
+    return f"{method}, sobol", {"method": method, "sampler": "sobol"}
 
 
 def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -54,7 +54,7 @@ def order(arguments: argparse.Namespace) -> Order:
     scene, settings = scene_and_settings(arguments)
     recipe = recipe_of(arguments.scene)
     ways = ways_wanted(arguments, settings, recipe)
-    check(ways - {Way.CLASSIC} if Way.AUTO in ways else ways)
+    check(ways - {Way.CLASSIC, Way.PROBES} if Way.AUTO in ways else ways)
     found = Order(scene, settings, Limits(0), decisions=_decisions_kept(arguments, recipe))
     return _in_parts(arguments, _limited(arguments, found))
 

@@ -5,6 +5,7 @@ Modules, each importing only what stands above it:
 - table: the methods, a row each
 - contents: what is in a scene, and by which trees shapes are found
 - particles: where particles from lamps go, and where they cannot
+- probe_grid: where the probes of a scene stand
 - features: the features compiled into a kernel
 - explanation: why each of them is, in words
 - light_layers: light as a weighted sum of layers

@@ -29,6 +29,7 @@ class Way(StrEnum):
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
     CLASSIC = "a classic lighting model"
+    PROBES = "--method ddgi"
     PARTICLES = "--caustics on"
     PILOT = "--caustics auto"
     DENOISE = "--denoise"
@@ -47,6 +48,7 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
+    Way.PROBES: "`--method ddgi`: indirect light from probes",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
     Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",
@@ -71,25 +73,26 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         Way.INDEPENDENT,
     ),
+    Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
     ),
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.INDEPENDENT, Way.CLASSIC),
+        *(Way.INDEPENDENT, Way.CLASSIC, Way.PROBES),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.CLASSIC),
-        *(Way.PARTICLES, Way.PILOT),
+        *(Way.PROBES, Way.PARTICLES, Way.PILOT),
     ),
     Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
+        *(Way.CLASSIC, Way.PROBES, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO, Way.TIME),
+        *(Way.CLASSIC, Way.PROBES, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO, Way.TIME),
     ),
 }
 
@@ -101,6 +104,13 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
     frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
     frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
+    frozenset({Way.PROBES, Way.LAYERS}): "probes hold the light of all lamps in one",
+    frozenset({Way.PROBES, Way.FRAGMENT}): "compute shaders fill the probes",
+    frozenset({Way.PROBES, Way.INDEPENDENT}): "the 16 samples of a block share their probes, so "
+    "that they are one observation",
+    frozenset({Way.PROBES, Way.CLASSIC}): "each is a method",
+    frozenset({Way.PROBES, Way.PARTICLES}): "particles are weighed by the method mis alone",
+    frozenset({Way.PROBES, Way.AUTO}): "it chooses among methods that leave no light out",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
     frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
@@ -163,6 +173,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.LAYERS: layering != "none",
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.CLASSIC: METHODS[settings.method].model != 0,
+        Way.PROBES: METHODS[settings.method].has_probes,
         Way.PARTICLES: settings.caustics == "on",
         Way.DENOISE: settings.denoise != "none",
     }

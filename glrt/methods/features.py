@@ -29,6 +29,11 @@ NO_LAYERS: dict[str, bool | int] = {
     "BACKGROUND_LAYER": 0,
     "SUN_LAYER": 0,
 }
+PLAIN_PROBES: dict[str, bool | int] = {
+    "FROM_PROBES": False,  # paths start at probes
+    "WITHOUT_VISIBILITY": False,  # of probes: for experiments
+    "WITHOUT_BIAS": False,
+}
 
 
 @dataclass(frozen=True)
@@ -83,6 +88,7 @@ class Needs:
     casters: int  # smooth spheres at which some of them are aimed: a bit for each
     targets: int  # balls around other smooth shapes at which some of them are aimed
     linked: int  # smooth spheres through which some of them are linked: a bit for each
+    has_probes: bool  # indirect light from a grid of them
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
@@ -98,14 +104,15 @@ class Needs:
         plain = [field.name for field in fields(self) if field.name not in _SETS]
         values = {name.upper(): getattr(self, name) for name in plain}
         counts = {"COUNT_RAYS": False, "COUNT_BOUNCES": False}
-        return {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
+        every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
+        return {**every, **PLAIN_PROBES}
 
 
 def everything() -> dict[str, bool | int]:
     """The constants of a kernel with every feature, for functions that are tried alone.
 
     Paths are traced; lamps are chosen as in the scene that the caller names, or not at all. The sky
-    has two gradients and no image, which would take their place.
+    has two gradients and no image, which would take their place, as probes would that of paths.
     """
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
@@ -114,7 +121,7 @@ def everything() -> dict[str, bool | int]:
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
-_IMAGE = ("has_environment", "sample_sky")
+_IMAGE = ("has_environment", "sample_sky", "has_probes")
 _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
@@ -126,7 +133,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
-    follows_particles = settings.caustics == "on" and sends_particles and traits.weights_both
+    follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
     metals = [m for m in found.materials.values() if m.type == "metal"]
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
@@ -172,6 +179,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
         targets=len(targets_of(scene)) if follows_particles and settings.aimed else 0,
         linked=link_bits(scene) if follows_particles and settings.linked else 0,
+        has_probes=traits.has_probes,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,

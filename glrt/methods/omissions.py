@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from glrt.methods.contents import contents_of
+from glrt.methods.probe_grid import grid_of
 from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.materials import glass_of
 from glrt.scene.scene import Scene
@@ -15,7 +16,22 @@ def omissions(scene: Scene, settings: Settings) -> list[str]:
 
     What a limit of bounces cuts off is not among it.
     """
+    if METHODS[settings.method].has_probes:
+        return list(_blurred(scene, settings))
     return list(_omissions(scene, settings.method)) if settings.method in CLASSIC else []
+
+
+def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
+    """What probes do not hold."""
+    if settings.bounces < 2 or not scene.visible:
+        return
+    kinds = {material.type for material in contents_of(scene).materials.values()}
+    if "lambertian" not in kinds:
+        return
+    cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(scene, settings).cell)
+    yield f"of indirect light what is finer than its probes, {cell} apart"
+    if kinds & {"metal", "dielectric"}:
+        yield "light over mirrors or through glass onto matte surfaces"
 
 
 def _omissions(scene: Scene, method: str) -> Iterator[str]:
@@ -65,7 +81,7 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
 
 def left_out(settings: Settings, missing: list[str]) -> str:
     """A sentence that names what `omissions` found."""
+    what = "blurs light" if METHODS[settings.method].has_probes else "leaves light out"
     return (
-        f"Method {settings.method} leaves light out, which no estimated error contains: "
-        f"{'; '.join(missing)}."
+        f"Method {settings.method} {what}, which no estimated error contains: {'; '.join(missing)}."
     )

@@ -172,7 +172,7 @@ def refusal(scene: Scene, settings: Settings) -> str | None:
 
 def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
     found = contents_of(scene)
-    if not METHODS[settings.method].weights_both:
+    if not METHODS[settings.method].weighs_particles:
         yield f"particles are weighed by the method mis alone, not by {settings.method}"
     sends = emitters_of(scene) or sun_sends_particles(scene) or sky_sends_particles(scene)
     if not sends:

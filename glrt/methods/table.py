@@ -20,11 +20,17 @@ class Traits:
     follows: bool = True  # mirrors and glass
     has_lens: bool = True
     has_rough: bool = True  # metal and glass; else they are smooth
+    has_probes: bool = False  # indirect light from a grid of them
 
     @property
     def uses_lamps(self) -> bool:
         """Whether it finds lamps otherwise than by scattering."""
         return self.samples_lights or self.model > 0
+
+    @property
+    def weighs_particles(self) -> bool:
+        """Whether paths from lamps can be weighed with its own."""
+        return self.weights_both and not self.has_probes
 
 
 METHODS: dict[str, Traits] = {
@@ -35,8 +41,11 @@ METHODS: dict[str, Traits] = {
     "blinn": Traits(model=2, follows=False, has_lens=False),
     "whitted": Traits(model=3, has_lens=False, has_rough=False),
     "cook": Traits(model=4, chooses_lights=True),
+    "ddgi": Traits(samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing
+# Those whose picture, however many samples it has, is not the light of the scene.
+BIASED = [name for name, traits in METHODS.items() if traits.model or traits.has_probes]
 
 if list(METHODS) != list(get_args(Method)):
     raise TypeError(f"methods have rows {list(METHODS)}, and settings {get_args(Method)}")

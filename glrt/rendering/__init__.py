@@ -15,6 +15,7 @@ Modules, each importing only what stands above it:
 - pack_lights: lamps as rows of the kernel's blocks
 - pack_maps: images on surfaces, and where they lie on shapes
 - pack_particles: what particles from lamps read
+- pack_probes: what probes read
 - pack: a scene as arrays for the kernel
 - passes: what runs over the pixels of a picture, as values
 - texel_texture: the texels of images on surfaces
@@ -29,6 +30,9 @@ Modules, each importing only what stands above it:
 - film: running mean and variance in textures
 - aov_tracer: gathers AOVs as the picture grows
 - particle_tracer: gathers what particles from lamps bring
+- probe_weights: how much of an update probes take
+- probe_tracer: gathers what probes hold
+- probe_supply: the probes that a picture needs next
 - tracer: adds samples to a film, a dispatch at a time
 - path_values: paths of a pixel as values
 - path_records: what a replay writes down, read as such

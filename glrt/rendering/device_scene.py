@@ -17,6 +17,7 @@ from glrt.methods.contents import Contents
 from glrt.methods.features import needs_of
 from glrt.methods.light_layers import Plan
 from glrt.methods.particles import ball_around, sky_sends_particles
+from glrt.methods.probe_grid import grid_of
 from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
@@ -86,6 +87,7 @@ class DeviceScene:
         needs = needs_of(plan.scene, plan.settings, contents)
         sends = needs.has_sun or sky_sends_particles(plan.scene)
         self._bounds = ball_around(plan.scene) if needs.has_particles and sends else None
+        self.grid = grid_of(plan.scene, plan.settings) if needs.has_probes else None
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**needs.constants(), **plan.constants(), **stack, **variant}
@@ -151,7 +153,7 @@ class DeviceScene:
         """
         numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
         density = self._sky_table.density if self._sky_table else 0.0
-        around = self._tree, self._glass, density, self._bounds
+        around = self._tree, self._glass, density, self._bounds, self.grid
         self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, *around))
         self._write_tree()
         resources = {**self._resources, **own}

@@ -11,6 +11,7 @@ from glrt.gpu.struct_arrays import COUNTED
 from glrt.gpu.structs import record
 from glrt.methods.contents import Contents, contents_of
 from glrt.methods.particles import Ball
+from glrt.methods.probe_grid import Grid
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack_details import pack_conductors, pack_facets
 from glrt.rendering.pack_lights import lamps_of, pack_aims, pack_clusters, pack_lights
@@ -18,6 +19,7 @@ from glrt.rendering.pack_maps import pack_coordinates, pack_maps
 from glrt.rendering.pack_materials import pack_emitters, pack_materials
 from glrt.rendering.pack_mesh import pack_tints
 from glrt.rendering.pack_particles import particle_fields
+from glrt.rendering.pack_probes import probe_fields
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
@@ -98,12 +100,13 @@ def pack_frame(
     glass: Around = AIR,
     sky_density: float = 0.0,
     bounds: Ball | None = None,
+    grid: Grid | None = None,
 ) -> bytes:
     """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
 
     `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
     film is not read. `glass` is around the camera; `sky_density` is that of samples of the sky, as
-    sky_table.py has it; `bounds` are those that particles from afar fill.
+    sky_table.py has it; `bounds` are those that particles from afar fill; `grid` is that of probes.
     """
     bottom, *horizon, top = scene.background_colors
     frame = {
@@ -116,6 +119,7 @@ def pack_frame(
         "sun_versine": scene.sun.versine if scene.sun else 0.0,
         "sun_radiance": scene.sun_radiance,
         **particle_fields(scene, settings, bounds),
+        **probe_fields(grid, scene.camera),
         "camera_absorption": glass.absorption,
         "camera_counts": glass.counts,
         "sky_density": sky_density,

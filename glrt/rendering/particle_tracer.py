@@ -196,6 +196,13 @@ class ParticleTracer:
         self._scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
 
 
+def particles_for(
+    context: Context, plan: Plan, scene: DeviceScene, known: ParticleTracer | None
+) -> ParticleTracer | None:
+    """What gathers the particles of a plan, if there are any: by known kernels that fit."""
+    return None if plan.settings.caustics == "off" else ParticleTracer(context, plan, scene, known)
+
+
 def _block_of_sums(context: Context, what: str, size: int) -> moderngl.Buffer:
     most = int(context.gl.info["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"])
     if size > most:

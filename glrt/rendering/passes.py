@@ -37,6 +37,10 @@ BOUNCES = RADIANCE._replace(
 )
 PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
 SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
+PROBE_RAYS = RenderPass({"compute": ("probe_rays.comp",)}, ("rays",), {"FROM_PROBES": True})
+PROBE_LIGHT = RenderPass({"compute": ("probe_light.comp",)}, ())
+PROBE_DISTANCES = RenderPass({"compute": ("probe_distances.comp",)}, ())
+PROBE_PLACES = RenderPass({"compute": ("probe_place.comp",)}, ())
 PATHS = RenderPass({"compute": ("paths.comp",)}, (), {"OF_PARTICLES": False})
 PARTICLE_PATHS = PATHS._replace(constants={"OF_PARTICLES": True})
 SURFACES = RenderPass(

@@ -140,6 +140,11 @@ def check_method(settings: Settings) -> None:
             f"paths are not shown of the method {settings.method}: it is a lighting model, which "
             "sums over all lamps where it ends. Choose naive, nee or mis."
         )
+    if METHODS[settings.method].has_probes:
+        raise UsageError(
+            f"paths are not shown of the method {settings.method}: they end where probes tell the "
+            "rest of the light. Choose naive, nee or mis."
+        )
 
 
 def check_pixel(pixel: Pixel, settings: Settings) -> None:

@@ -79,6 +79,12 @@ vec3 environment_pixel(int column, int row) {{
 }}
 uniform sampler2D {SKY_TREE};
 vec4 sky_part(int column, int row) {{ return texelFetch({SKY_TREE}, ivec2(column, row), 0); }}
+uniform sampler2D probe_light;
+vec4 probe_light_at(ivec2 texel) {{ return texelFetch(probe_light, texel, 0); }}
+uniform sampler2D probe_distances;
+vec4 probe_distances_at(ivec2 texel) {{ return texelFetch(probe_distances, texel, 0); }}
+uniform sampler2D probe_places;
+vec4 probe_place_at(ivec2 texel) {{ return texelFetch(probe_places, texel, 0); }}
 uniform sampler2D {TEXELS};
 vec4 texel_at(int index) {{
     return texelFetch({TEXELS}, ivec2(index & {WIDTH - 1}, index >> {BITS}), 0);

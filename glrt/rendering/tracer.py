@@ -17,9 +17,10 @@ from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
-from glrt.rendering.particle_tracer import Losses, ParticleTracer
+from glrt.rendering.particle_tracer import Losses, ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
+from glrt.rendering.probe_supply import ProbeSupply
 from glrt.rendering.schedule import (
     HEADLESS,
     DispatchPolicy,
@@ -48,26 +49,29 @@ class Tracer:
         self._tiles = tile_count(*plan.settings.size)
         extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
-            self.device_scene: DeviceScene = DeviceScene(
-                context, plan, options, before.device_scene if before else None
-            )
-            refused.callback(self.device_scene.release)
+            earlier: DeviceScene | None = before.device_scene if before else None
+            scene = DeviceScene(context, plan, options, earlier)
+            self.device_scene: DeviceScene = scene
+            refused.callback(scene.release)
+            known = before if before and scene.has_kernel_of(before.device_scene) else None
+            probes, particles = (known.probes, known.particles) if known else (None, None)
+            self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes)
+            refused.callback(self.probes.release, probes)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if before and self.device_scene.has_kernel_of(before.device_scene):
-                self.switch: KernelSwitch = before.switch
+            if known:
+                self.switch: KernelSwitch = known.switch
             else:
                 if before:
                     before.switch.schedule.drop()  # the first dispatch writes to its frame
                 self.switch = self._compiled()
                 refused.callback(self.switch.release)
-            self.particles = self._particles_for(before)
+            self.particles: ParticleTracer | None = particles_for(context, plan, scene, particles)
             if self.particles:
-                known = before.particles if before else None
-                refused.callback(self.particles.release, known)
+                refused.callback(self.particles.release, particles)
             self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
         if not before:
@@ -81,6 +85,7 @@ class Tracer:
         """
         after = Tracer(self._context, plan, self._options, self)
         self.device_scene.release()
+        self.probes.release(after.probes)
         if self.particles:
             self.particles.release(after.particles)
         if after.film is not self.film:
@@ -203,7 +208,9 @@ class Tracer:
         self.switch.schedule.drop()
         target = self.film.samples + samples
         while self.film.samples < target:
-            self._at_once(min(self.most_samples, target - self.film.samples))
+            self.probes.work_on(self.film.next_sample)
+            wanted = self.probes.together(self.film.next_sample, target - self.film.samples)
+            self._at_once(min(self.most_samples, wanted))
         self._catch_up_particles()
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
@@ -213,7 +220,10 @@ class Tracer:
         """
         if self.is_behind:
             self._work_behind(policy, seconds)
+        elif self.probes.lack(self.film.next_sample):
+            self.probes.work_on(self.film.next_sample, min(seconds, policy.limit / 2))
         else:
+            remaining = self.probes.together(self.film.next_sample, remaining)
             self._work_on_picture(remaining, policy, seconds)
 
     def _work_on_picture(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
@@ -228,7 +238,8 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        for part in (self.film, self.particles, self.aovs, self.switch, self.device_scene):
+        own = self.film, self.particles, self.probes, self.aovs, self.switch, self.device_scene
+        for part in own:
             if part:
                 part.release()
 
@@ -242,14 +253,6 @@ class Tracer:
             return before.aovs
         known = before.aovs if before else None
         return AovTracer(self._context, plan, self.device_scene, known)
-
-    def _particles_for(self, before: "Tracer | None") -> ParticleTracer | None:
-        """What gathers particles, if there are any: by the kernels of `before` where they fit."""
-        if self._plan.settings.caustics == "off":
-            return None
-        is_same = before and self.device_scene.has_kernel_of(before.device_scene)
-        known = before.particles if before and is_same else None
-        return ParticleTracer(self._context, self._plan, self.device_scene, known)
 
     @property
     def _lacks_particles(self) -> bool:
@@ -290,4 +293,5 @@ class Tracer:
         return False
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles)
+        own = self.probes.resources
+        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)

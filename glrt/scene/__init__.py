@@ -33,6 +33,7 @@ Modules, each importing only what stands above it:
 - shapes: what there is to see
 - texture_axes: texture coordinates of flat shapes
 - sun: a disc at infinity
+- probes: where a scene wants its probes
 - sky_picture: the image of all directions that a scene has
 - contents: the fields of a scene
 - validation: what is wrong with a scene, in words

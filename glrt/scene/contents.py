@@ -7,6 +7,7 @@ from pydantic import Field, field_validator
 from glrt.scene.background import Background
 from glrt.scene.camera import Camera
 from glrt.scene.materials import Material
+from glrt.scene.probes import Probes
 from glrt.scene.shapes import Shape
 from glrt.scene.sun import Sun
 from glrt.scene.values import Intensity, Name
@@ -31,6 +32,10 @@ class Contents(Frozen):
     )
     sun: Sun | None = Field(
         None, description="a disc at infinity; its light group is `sun`; default: there is none"
+    )
+    probes: Probes | None = Field(
+        None,
+        description="the box that method ddgi puts its probes into; default: around what is seen",
     )
     materials: dict[Name, Material] = Field({}, description="materials by name")
     lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(

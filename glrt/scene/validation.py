@@ -16,6 +16,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.cone import Cone
 from glrt.scene.contents import Contents
 from glrt.scene.materials import TYPES
+from glrt.scene.probes import Probes
 from glrt.scene.shapes import KINDS
 from glrt.scene.sun import Sun
 from glrt.scene.textures import NormalTexture, Texture
@@ -34,6 +35,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "render": RenderSettings,
     "background": Background,
     "sun": Sun,
+    "probes": Probes,
 }
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
@@ -200,6 +202,7 @@ _HEADINGS: dict[Place, str] = {
     ("render",): "must be a table headed [render]",
     ("background",): "must be a table headed [background]",
     ("sun",): "must be a table headed [sun]",
+    ("probes",): "must be a table headed [probes]",
     ("lights",): "must be a table headed [lights]",
     ("materials",): "must be a table of tables, each headed [materials.NAME]",
     ("objects",): "must be a list of tables, each headed [[objects]]",

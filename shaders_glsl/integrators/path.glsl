@@ -231,6 +231,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
         precise LightSample light = sample_sun(ray, rng);
         gather_sampled(path, vertex, light, FROM_SUN, facing, behind);
     }
+    if (HAS_PROBES) gather_from_probes(path, vertex, surface.position, rng);
     precise Scattering next = sample_material(vertex, rng);
     record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
     if (LINKED != 0) follow_chain(path.chain, surface.shape, vertex, next.crosses);
@@ -284,6 +285,6 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
     precise vec3 light = path.scale * path.throughput * emission * share;
     record_light(BY_SCATTERING, object_number(surface.shape), path.pdf, emission, light);
     gather(path, light, material.layer, path.depth);
-    if (path.depth == frame.bounces) return goes_on(END_BOUNCE_LIMIT);
+    if (path.depth == frame.bounces || HAS_PROBES && path.is_last) return goes_on(END_BOUNCE_LIMIT);
     return scatter_path(path, surface, material, rng);
 }

@@ -15,6 +15,7 @@ struct Path {
     float way;        // from there to the last hole
     float rho;        // what particles are weighed against (integrators/particle_weights.glsl); 0: they do not come
     Chain chain;      // of what it met first
+    bool is_last;     // whether its next segment is its last, for light beyond it is that of probes
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
@@ -22,11 +23,13 @@ Path start_path(Ray ray) {
     precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, start_chain(ray),
-                NO_LAYERS);
+                false, NO_LAYERS);
 }
 
-// Light of a lamp that is `length` scattering events from the camera; `group` is its layer.
+// Light of a lamp that is `length` scattering events from the camera; `group` is its layer. What a probe sees shine
+// is direct light of what it lights, which paths find.
 void gather(precise inout Path path, vec3 light, int group, int length) {
+    if (FROM_PROBES && length == 0) return;
     path.radiance += light;
     if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
 }

@@ -51,4 +51,9 @@ struct Frame {
     float linked;           // their share that is linked to the camera through spheres, too, where LINKED is not 0
     int linked_groups;      // the work groups of them
     float from_sun;         // the share of the particles that leaves the sun
+    vec3 probe_first;       // place of the first probe of the grid, relative to the camera; where HAS_PROBES
+    float probe_edge;       // the shortest edge of a cell
+    vec3 probe_cell;        // its edges
+    int probe_count;
+    ivec3 probe_counts;     // along x, y and z
 };

@@ -47,6 +47,15 @@ def test_particles_are_left_out_where_nothing_bends_light() -> None:
     assert found(MATTE) == {}
 
 
+def test_probes_are_charted_by_the_sampler_that_they_need() -> None:
+    scene = load("methods/diffuse")
+    for sampler, name in (("independent", "ddgi, sobol"), ("sobol", "ddgi")):
+        settings = settings_for(scene.render, sampler=sampler)
+        found = {it.name: it.settings for it in variants_of(scene, settings)}
+        assert found[name].sampler == "sobol"
+        assert found[name].method == "ddgi"
+
+
 @pytest.mark.parametrize(("has_oidn", "filters"), [(True, ["nlm", "oidn"]), (False, ["nlm"])])
 def test_the_denoisers_that_are_installed_are_charted(
     has_oidn: bool, filters: list[str], monkeypatch: pytest.MonkeyPatch

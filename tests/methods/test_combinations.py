@@ -66,6 +66,8 @@ def test_a_cell_that_works_works(
 NEVER_ASKED = [  # no command line does
     {Way.LAYERS, Way.MERGED},
     {Way.AUTO, Way.CLASSIC},
+    {Way.AUTO, Way.PROBES},
+    {Way.CLASSIC, Way.PROBES},
     {Way.PARTICLES, Way.PILOT},
 ]
 

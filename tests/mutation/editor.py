@@ -120,6 +120,13 @@ EDITOR: list[Mutant] = [
         "view/test_path_lines.py::test_a_particle_is_linked_to_the_camera_from_where_it_was_seen",
     ),
     bug(
+        "a picture that is waited for gets a small share of a frame",
+        _VIEW,
+        "is_alone = session.is_done or session.waits",
+        "is_alone = session.is_done",
+        "view/test_reference_image.py::test_a_picture_that_is_waited_for_gets_long_turns",
+    ),
+    bug(
         "a refusal outlives the edit that it was of",
         _VIEW,
         "session.aov, session.refused = aov_of(self.view), None",
@@ -219,6 +226,13 @@ EDITOR: list[Mutant] = [
         f"{_BAR_TEST}::test_a_row_is_not_kept_under_a_bar_that_grows",
     ),
     bug(
+        "the panel stays at what was used when something else is to be seen",
+        _ANCHOR,
+        "self._lead, 0.0))\n        self.forget()",
+        "self._lead, 0.0))",
+        f"{_BAR_TEST}::test_the_panel_goes_to_what_is_to_be_seen_whatever_was_used_before",
+    ),
+    bug(
         "a button of the bar is held as a row",
         _ANCHOR,
         "        if not self._has_rows:\n            return\n",
@@ -242,9 +256,16 @@ EDITOR: list[Mutant] = [
     bug(
         "a picture that is dim is said to have no light",
         _BLACK,
-        "if renderer.picture(session.weights)[0].any():",
+        "if renderer.picture(session.weights)[0].max() > FAINT:",
         "if False:",
         f"{_BLACK_TEST}::test_the_reason_is_told",
+    ),
+    bug(
+        "rounding at the rim of two walls is said to be light",
+        _BLACK,
+        "FAINT = 1e-7",
+        "FAINT = 0.0",
+        f"{_BLACK_TEST}::test_light_that_no_exposure_shows_is_none",
     ),
     bug(
         "a picture of few samples is not looked at when it is complete",

@@ -32,6 +32,7 @@ ENTRIES = {
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
     *("evidence.frag", "taa.frag"),
+    *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
     *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
 }
 NOT_OF_A_PATH = {
@@ -48,6 +49,8 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
     "7.62939453125e-6",  # 2^-17: how far off the tree over shapes takes a ray to be
     "9.5367431640625e-7",  # 2^-20: how far off its triangle a ray starts
+    *("0.2", "0.225", "1e-6", "0.05", "0.001", "1e-3", "1.5"),  # weights of probes, and their bias
+    *("0.25", "0.45"),  # how far probes are pushed, and what for
     "0.04",  # Schlick's reflectance of a clear coat, head-on
     "21.0",  # 1 / 21: the mean of (1 - cos)^5 over even light
     "255.0",  # steps of roughness where it is an image

@@ -44,6 +44,9 @@ UNUSED: dict[str, tuple[str, dict[str, Any]]] = {
     "lights/choice.glsl": ("weekend", {}),
     "lights/sampling.glsl": ("cornell", {"method": "naive"}),
     "film/layers.glsl": ("cornell", {}),
+    "probes/query.glsl": ("cornell", {}),
+    "probes/maps.glsl": ("lamps", {}),
+    "probes/grid.glsl": ("metals", {}),
     "sampling/sobol.glsl": ("lamps", {"sampler": "independent"}),
 }
 

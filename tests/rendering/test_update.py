@@ -66,6 +66,7 @@ CHANGES: dict[str, Any] = {
     "particles": 1.0,
     "aimed": 0.2,
     "linked": 0.5,
+    "probes": 3,
     "seed": 5,
     "exposure": 1.5,
     "tonemap": "agx",

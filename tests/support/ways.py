@@ -24,6 +24,7 @@ OPTIONS: dict[Way, Options] = {
     Way.FRAGMENT: ["--pipeline", "fragment"],
     Way.INDEPENDENT: ["--sampler", "independent"],
     Way.CLASSIC: ["--method", "phong"],
+    Way.PROBES: ["--method", "ddgi", "--probes", "2"],
     Way.PARTICLES: ["--caustics", "on"],
     Way.PILOT: ["--caustics", "auto"],
     Way.DENOISE: ["--denoise", "nlm"],
@@ -149,6 +150,15 @@ def classic_law(render: Render) -> None:
     assert np.isfinite(image.radiance).all()
 
 
+def probes_law(render: Render) -> None:
+    """It is its own picture, whose observations tell the noise of the probes."""
+    image = render(OPTIONS[Way.PROBES])
+    assert image.recipe
+    assert image.recipe.settings.method == "ddgi"
+    assert not same(image, render([]))
+    assert np.isfinite(image.radiance).all()
+
+
 def particles_law(render: Render) -> None:
     """Another noise, the same light."""
     many = ["--samples", "2048"]
@@ -202,6 +212,7 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.FRAGMENT: fragment_law,
     Way.INDEPENDENT: independent_law,
     Way.CLASSIC: classic_law,
+    Way.PROBES: probes_law,
     Way.PARTICLES: particles_law,
     Way.PILOT: pilot_law,
     Way.DENOISE: denoise_law,

@@ -36,6 +36,7 @@ class Panel:
         self.places: dict[str, ImVec2] = {}  # of the upper left corners, on the screen
         self.pressed: list[str] = []
         self.scroll = 0.0
+        self.goes_to = ""
         ANCHOR.forget()
         self.frame(2)
 
@@ -62,6 +63,9 @@ class Panel:
             imgui.render()
 
     def _row(self, name: str) -> None:
+        if name == self.goes_to:
+            ANCHOR.go_here()
+            self.goes_to = ""
         if button(f"{name}: as wide as the panel, more or less"):
             self.pressed.append(name)
         self.places[name] = imgui.get_item_rect_min()
@@ -169,6 +173,17 @@ def test_a_row_is_not_kept_under_a_bar_that_grows(panel: Panel) -> None:
     window = imgui.internal.find_window_by_name("Controls")
     end = window.deco_outer_size_y1 + window.deco_inner_size_y1
     assert panel.places["used"].y >= end
+
+
+def test_the_panel_goes_to_what_is_to_be_seen_whatever_was_used_before(panel: Panel) -> None:
+    """Though rows come above what was used, which is not kept in its place then."""
+    end = panel.places["above 0"].y
+    panel.frame(3, 150.0)
+    panel.frame(2)
+    panel.use()
+    panel.above, panel.goes_to = 14, "above 4"
+    panel.frame(4)
+    assert panel.places["above 4"].y == end
 
 
 def test_widgets_of_other_parts_are_not_held(panel: Panel) -> None:

@@ -119,3 +119,11 @@ def test_a_picture_of_few_paths_is_not_judged(looked: Any, share: float) -> None
     samples = math.ceil(PATHS / 1600)
     reason = looked(seen([BALL]), samples=1000, until=math.ceil(share * samples))
     assert bool(reason) == (share == 1.0)
+
+
+def test_light_that_no_exposure_shows_is_none(looked: Any) -> None:
+    """Rays that graze the rim where two walls meet bring 1e-15 of a lamp behind them."""
+    dim = scene_of(LIT, {"matte": MATTE, "lamp": lamp(1e-14)}, INSIDE)
+    assert "at this exposure" not in looked(dim)
+    dark = scene_of(LIT, {"matte": MATTE, "lamp": lamp(1e-5)}, INSIDE)
+    assert "at this exposure" in looked(dark)

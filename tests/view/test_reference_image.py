@@ -1,6 +1,7 @@
 """The kept picture at the seeds and samples of the next one: what is equal differs by nothing."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,9 +14,11 @@ from glrt.settings import settings_for
 from glrt.view.state.controls import replaced
 from glrt.view.state.edited import State
 from glrt.view.state.reference_image import ReferenceImage
-from glrt.view.state.session import ANNOUNCED
+from glrt.view.state.session import ANNOUNCED, Session
 from glrt.view.viewport.difference import difference_of
+from glrt.view.viewport.picture_view import LONGER, PictureView
 from tests.support.mixed_scene import everything
+from tests.support.sessions import start
 
 SIZE: dict[str, int] = {"width": 16, "height": 12, "bounces": 3}
 Floats = NDArray[np.float32]
@@ -151,4 +154,37 @@ def test_the_difference_is_told_in_numbers(context: Context) -> None:
     assert found.pixels == pytest.approx((0.5 / scale) ** 0.5)
     assert found.told.startswith("B is 33.3 % darker, in the mean, than A; pixels differ by 35.3 %")
     assert (same.brighter, same.pixels) == (0, 0)
+    assert same.told == "A and B are the same; 8 samples"
     assert dark.told == "A is black"
+
+
+class Behind:
+    """Stands for a kept picture that has some samples; remembers how long it was to work."""
+
+    def __init__(self, samples: int) -> None:
+        self._samples = samples
+        self.turns: list[float] = []
+
+    def fits(self, _: Renderer) -> bool:
+        return True
+
+    def samples(self, _: Renderer) -> int:
+        return self._samples
+
+    def catch_up(self, _: Renderer, seconds: float) -> None:
+        self.turns.append(seconds)
+
+
+@pytest.mark.parametrize(("samples", "share"), [(0, LONGER), (1000, 0.005)])
+def test_a_picture_that_is_waited_for_gets_long_turns(
+    session: Session, samples: int, share: float
+) -> None:
+    """Else it takes a small share of a frame, the rest of which nothing needs."""
+    nothing: Any = None
+    show, kept = PictureView(nothing, nothing, nothing, nothing), Behind(samples)
+    start(session)
+    session.advance(0.01, 1)
+    stand_in: Any = kept
+    show.kept, show.view = stand_in, "difference"
+    show.advance(session, 0.01, 1)
+    assert kept.turns == [share]

@@ -4,6 +4,8 @@ from typing import Any
 
 from imgui_bundle import imgui
 
+from tests.window.check_layout import resized
+from tests.window.check_newcomer import SMALLEST
 from tests.window.gestures import ball, press, retype
 from tests.window.hand import Hand, check
 
@@ -72,19 +74,25 @@ def rows_end_below_the_bar(hand: Hand) -> None:
 
 @check
 def keys_that_move_in_the_panel_go_to_no_row_under_the_bar(hand: Hand) -> None:
-    ctx = hand.ctx
+    ctx, panel = hand.ctx, panel_of(hand)
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    resized(hand, SMALLEST)  # where most rows are scrolled away
     ctx.scroll_to_top(PANEL)
-    ctx.yield_(2)
-    end = place_of(hand, "Light")
+    ctx.yield_(3)
+    end = place_of(hand, "Light") - 1
+    buttons = [panel.get_id(name) for name in ("pause", "undo", "redo")]
     scrolled_down(hand)
     ctx.item_click(f"{PANEL}/keep this picture")
     press(hand, imgui.Key.f6)
-    for _ in range(25):
-        press(hand, imgui.Key.up_arrow)
-        here = hand.there(lambda: imgui.get_current_context().nav_id)
-        row = ctx.item_info(imgui.test_engine.TestRef(here))
-        assert row.rect_full.min.y >= end - 8
-    press(hand, imgui.Key.escape)
+    try:
+        for _ in range(25):
+            press(hand, imgui.Key.up_arrow)
+            here = hand.there(lambda: imgui.get_current_context().nav_id)
+            row = ctx.item_info(imgui.test_engine.TestRef(here))
+            assert here in buttons or row.rect_full.min.y >= end
+    finally:
+        press(hand, imgui.Key.escape)
+        resized(hand, (usual[0], usual[1]))
 
 
 @check
@@ -160,4 +168,23 @@ def a_colour_stays_where_it_is_after_it_was_edited(hand: Hand) -> None:
     assert abs(place_of(hand, part) - before) < 2
     ctx.item_click(f"{PANEL}/dismiss")
     hand.there(session.undo)
+    app.selected = None
+
+
+@check
+def the_panel_goes_to_the_paths_of_a_pixel_whatever_was_used_before(hand: Hand) -> None:
+    app, ctx, (number, shape) = hand.window.app, hand.ctx, ball(hand)
+    ctx.item_close(f"{PANEL}/Paths of a pixel")
+    app.select(number)
+    ctx.yield_(3)
+    retype(hand, shape.material, "metal")
+    hand.settle()
+    left, top, width, height = app.rectangle
+    press(hand, imgui.Key.p)
+    ctx.mouse_move_to_pos((left + 0.5 * width, top + 0.9 * height))
+    ctx.mouse_click(0)
+    hand.until(lambda: app.paths.found is not None)
+    ctx.yield_(4)
+    first = place_of(hand, "choose a pixel") - place_of(hand, "undo")
+    assert 0 < first < 60, "below the bar"
     app.selected = None

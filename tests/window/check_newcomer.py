@@ -5,16 +5,28 @@ from typing import Any
 
 import numpy as np
 import pytest
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from glrt.view import file_dialogs
-from glrt.view.panels import widgets
+from glrt.view.panels import viewport, widgets
+from glrt.view.panels.pair_images import draw_notice
+from glrt.view.panels.path_overlay import place_of_outside
+from glrt.view.state.controls import replaced
 from tests.window.check_layout import resized
 from tests.window.gestures import add, ball, click, lines_told, press
 from tests.window.hand import Hand, check
 
 CTRL, SHIFT = imgui.Key.mod_ctrl.value, imgui.Key.mod_shift.value
 SMALLEST = (640, 400)
+CLOSED = ("Inspect", "Background", "Sun", "Frame", "Files", "Mouse and keys")  # parts, at the start
+ROWS = (
+    *("pause", "undo", "redo", "restart", "home", "fit", "16:1"),
+    *("object", "add", "delete", "focus here", "make unique", "new##material"),
+    *("keep this picture", "forget it", "swap A and B", "side by side", "wipe"),
+    *("show the difference", "scene", "recent", "##open", "##save", "##scene file"),
+    *("open", "...##open", "save picture", "...##save", "save scene", "...##scene file"),
+    *("copy recipe", "paste recipe", "reset keys"),
+)
 
 
 @check
@@ -154,29 +166,74 @@ def a_lamp_is_dimmed_where_it_is_edited(hand: Hand) -> None:
 
 @check
 def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
-    """In a window of 640 x 400: lists, buttons and names end inside of the panel."""
-    app, (number, shape) = hand.window.app, ball(hand)
+    """In a window of 640 x 400: buttons of all parts, lists and names end inside of the panel."""
+    app, (number, shape), ctx = hand.window.app, ball(hand), hand.ctx
     usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    hand.there(app.keep)
     app.select(number)
     resized(hand, SMALLEST)
-    hand.ctx.yield_(3)
-    panel: Any = hand.ctx.window_info("//Controls").window
+    ctx.yield_(3)
+    for title in CLOSED:
+        ctx.item_open(f"//Controls/{title}")
+        ctx.yield_(3)
+    panel: Any = ctx.window_info("//Controls").window
     right = panel.inner_clip_rect.max.x
     try:
-        for row in (
-            "object",
-            "delete",
-            "focus here",
-            f"name##shape {number}",
-            f"type##material {shape.material}",
-            "make unique",
-            "forget it",
-        ):
-            info = hand.ctx.item_info(f"//Controls/{row}")
-            box = info.rect_clipped if "##" in row else info.rect_full
+        for row in (*ROWS, f"name##shape {number}", f"type##material {shape.material}"):
+            info = ctx.item_info(f"//Controls/{row}")
+            is_typed = row.startswith(("name##", "type##", "##"))
+            box = info.rect_clipped if is_typed else info.rect_full
             assert box.max.x <= right + 1, row
-            if "##" in row:
-                assert box.max.x - box.min.x > 7 * imgui.get_font_size(), row
+            if is_typed:
+                assert box.max.x - box.min.x > 5 * imgui.get_font_size(), row
     finally:
+        for title in CLOSED:
+            ctx.item_close(f"//Controls/{title}")
         resized(hand, (usual[0], usual[1]))
         app.selected = None
+
+
+@check
+def lines_of_text_lie_beside_the_view_from_outside(hand: Hand) -> None:
+    """In a small window, where that view takes much of the picture's width."""
+    app = hand.window.app
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    resized(hand, SMALLEST)
+    try:
+        press(hand, imgui.Key.p)
+        click(hand, (0.4, -1.0, 0.16))  # on the floor, in the lower half
+        hand.until(lambda: app.paths.found is not None)
+        places: list[tuple[float, float]] = []
+
+        def written(text: str, corner: ImVec2, width: float = 0.0) -> float:
+            places.append((corner.x, width))
+            return draw_notice(text, corner, width)
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(viewport, "draw_notice", written)
+            hand.until(lambda: bool(places))
+        box = place_of_outside(app, app.rectangle)
+        assert box
+        assert box[0] > app.rectangle[0], "it is to the right, where no pixel is"
+        assert all(left + width <= box[0] + 1 for left, width in places), (places, box)
+    finally:
+        resized(hand, (usual[0], usual[1]))
+
+
+@check
+def the_box_of_the_tour_stays_in_a_window_that_gets_another_size(hand: Hand) -> None:
+    app = hand.window.app
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    app.preferences = replaced(app.preferences, tour=True)
+    app.tour_step = 0
+    hand.ctx.yield_(4)
+    try:
+        for size in (SMALLEST, (usual[0], usual[1])):
+            resized(hand, size)
+            box = hand.there(lambda: imgui.internal.find_window_by_name("###tour"))
+            assert box.pos.x >= 0
+            assert box.pos.x + box.size.x <= size[0]
+            assert box.pos.x + box.size.x > size[0] - 40, "in the upper right"
+    finally:
+        resized(hand, (usual[0], usual[1]))
+        app.tour_step = None

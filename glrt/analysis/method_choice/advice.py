@@ -15,7 +15,7 @@ from glrt.analysis.method_choice.trial import LEADER, Candidate, OutOfTimeError,
 from glrt.errors import UsageError
 from glrt.gpu.context import open_context
 from glrt.methods.omissions import omissions
-from glrt.methods.table import CLASSIC
+from glrt.methods.table import BIASED
 from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
@@ -208,7 +208,7 @@ def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> st
     least = min(each.work_to(verdict.error) for each in verdict.candidates)
     work = number(candidate.work_to(verdict.error) / least) if samples else "never"
     bias = percent(candidate.bias.value)
-    if settings.method in CLASSIC:
+    if settings.method in BIASED:
         missing = omissions(scene, settings)
         reason = "; ".join(missing) if missing else "leaves out nothing in this scene"
     else:

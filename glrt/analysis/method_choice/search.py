@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Tell, Trial, until
 from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
 from glrt.analysis.reference import Reference, reference_for, unlimited
-from glrt.analysis.variants import METHODS, variants_of
+from glrt.analysis.variants import variants_of
 from glrt.gpu.context import Context
-from glrt.methods.table import CLASSIC
+from glrt.methods.table import BIASED, METHODS
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
@@ -19,6 +19,8 @@ HEIGHT = 48  # of the measured frame, in pixels
 MOST_WIDE = 4  # times as wide as it is high; of a wider frame, the same number of pixels
 REFERENCE_WORK = 4e9  # most work of the reference: some 6 s on one core of llvmpipe
 REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds that are allowed
+# Work is counted along paths: that of probes is none of it.
+COUNTED = tuple(name for name, traits in METHODS.items() if not traits.has_probes)
 _TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
 
 
@@ -98,9 +100,9 @@ def what_suffices(
         limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))
-    variants = variants_of(scene, small, METHODS, leads=False)
+    variants = variants_of(scene, small, COUNTED, leads=False)
     found = trial.methods(variants, leader)
-    order = [*CLASSIC, *METHODS]
+    order = [*BIASED, *METHODS]
     ranked = sorted(found, key=lambda c: order.index(c.settings.method))
     untried = {variant.name for variant in variants} - {candidate.name for candidate in found}
     return Verdict(error, reference, tuple(ranked), beyond, tuple(sorted(untried)))

@@ -21,7 +21,7 @@ from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sam
 from glrt.analysis.reference import Floats, Reference
 from glrt.analysis.variants import Variant
 from glrt.gpu.context import Context
-from glrt.methods.table import CLASSIC
+from glrt.methods.table import BIASED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -173,13 +173,13 @@ class Trial:
         return found or [replace(leader, name=variant.name) for variant in first]
 
     def _measured(self, variant: Variant, leader: Candidate) -> Candidate:
-        if variant.settings.method in CLASSIC:
+        if variant.settings.method in BIASED:
             return self._tried(variant, self._bias_of_model, leader)
         settings = settings_for(variant.settings, bounces=leader.settings.bounces)
         return self._tried(Variant(variant.name, settings), lambda _: leader.bias, leader)
 
     def _bias_of_model(self, pictures: Sequence["_Picture"]) -> Bias:
-        """The bias of a classic model, measured against the reference."""
+        """The bias of a method that has one, measured against the reference."""
         halves = (self.reference.first, self.reference.second)
         errors = [p.radiance - r for p, r in zip(pictures, halves, strict=True)]
         return self._bias(*errors)

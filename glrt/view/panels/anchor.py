@@ -34,8 +34,13 @@ class Anchor:
         if widget and widget == self._widget:
             self._now = _place()
 
+    def go_here(self) -> None:
+        """Scroll so that what is drawn next comes to be the first row, and hold nothing."""
+        imgui.set_scroll_y(max(imgui.get_cursor_pos_y() - self._start - self._lead, 0.0))
+        self.forget()
+
     def forget(self) -> None:
-        """Hold nothing: the panel is to go elsewhere."""
+        """Hold nothing."""
         self._widget, self._before, self._now, self._lead = 0, None, None, 0.0
 
     def keep(self) -> None:

@@ -8,7 +8,7 @@ from glrt.files import printable
 from glrt.scene.catalog import scene_names
 from glrt.view.app import App
 from glrt.view.files import Files
-from glrt.view.panels.widgets import button, room_for, tip
+from glrt.view.panels.widgets import beside, button, room_for, tip
 
 
 def draw_files(app: App) -> None:
@@ -18,21 +18,21 @@ def draw_files(app: App) -> None:
     _recent(files)
     files.open_path, entered = _path("open", files.open_path, "scene, model or picture")
     tip("A scene file, a model, or a picture rendered by glrt: that opens its scene and settings")
-    imgui.same_line()
+    beside("open")
     if button("open", bool(files.open_path)) or (entered and files.open_path):
         files.ask_open(files.open_path)
     if _browse("open"):
         files.browse_open()
     has_picture = app.session.samples > 0
     files.picture_path, entered = _path("save", files.picture_path, "picture.png, or .exr, .npy")
-    imgui.same_line()
+    beside("save picture")
     if button("save picture", has_picture) or (entered and has_picture):
         files.ask_save_picture(files.picture_path)
     tip("The picture as shown, with its recipe; .exr holds radiance and its standard error")
     if has_picture and _browse("save"):
         files.browse_picture()
     files.scene_path, entered = _path("scene file", files.scene_path, "scene.toml")
-    imgui.same_line()
+    beside("save scene")
     if button("save scene", bool(files.scene_path)) or (entered and files.scene_path):
         files.ask_save_scene(files.scene_path)
     tip(
@@ -75,7 +75,7 @@ def _recipe(files: Files, has_picture: bool) -> None:
     tip(
         "Copies scene, settings and samples of this picture as text, for another window or a report"
     )
-    imgui.same_line()
+    beside("paste recipe")
     if button("paste recipe"):
         files.ask_paste()
 
@@ -91,5 +91,5 @@ def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
 
 def _browse(name: str) -> bool:
     """Whether the dialog of a row is asked for."""
-    imgui.same_line()
-    return imgui.button(f"...##{name}")
+    beside("...")
+    return button(f"...##{name}")

@@ -13,7 +13,6 @@ from glrt.view import file_dialogs
 from glrt.view.app import App
 from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.anchor import ANCHOR
-from glrt.view.panels.bar import bar_end
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.tags import tag
 from glrt.view.panels.widgets import beside, button, edited_fields, named, room_for, tip
@@ -27,7 +26,7 @@ _NONE = "nothing"
 def draw_object(app: App) -> None:
     """Which object is selected, its shape and its material."""
     if app.is_to_be_seen:
-        imgui.set_scroll_y(imgui.get_cursor_pos_y() - bar_end())
+        ANCHOR.go_here()
         app.is_to_be_seen = False
     _chooser(app)
     _commands(app)

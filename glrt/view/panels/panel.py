@@ -7,6 +7,7 @@ from typing import Any, Literal
 from imgui_bundle import imgui
 
 from glrt.methods.light_layers import MOST_LAYERS
+from glrt.methods.table import METHODS
 from glrt.scene.camera import Camera
 from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
@@ -33,6 +34,7 @@ from glrt.view.state.session import Session
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")
+PROBES = ("probes",)  # where the method has any
 PARTICLES = ("particles", "aimed", "linked")  # where caustics are on
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
@@ -116,6 +118,8 @@ def _paths(app: App) -> None:
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
+    if METHODS[session.settings.method].has_probes:
+        _settings(app, PROBES)
     if session.settings.caustics == "on":
         _settings(app, PARTICLES)
 

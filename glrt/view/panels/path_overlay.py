@@ -60,19 +60,25 @@ def told_paths(app: App) -> str:
     return f"paths of pixel {x}, {y}; {escape}"
 
 
-def draw_outside(app: App, seen: Rectangle) -> None:
-    """The same from outside, in the corner of the picture that is far from the pixel."""
-    path, found = app.paths.shown, app.paths.found
-    if not path or not found:
-        return
+def place_of_outside(app: App, seen: Rectangle) -> Rectangle | None:
+    """Where the view from outside lies: in the corner of the picture that is far from the pixel."""
+    found = app.paths.found
+    if not app.paths.shown or not found:
+        return None
     side, settings = SHARE * min(seen[2:]), found.recipe.settings
     is_toured = app.preferences.tour and app.tour_step is not None  # in the upper right
     is_high = found.pixel[1] >= settings.height / 2 and not is_toured  # upper left are notices
     is_left = not is_high and found.pixel[0] >= settings.width / 2
-    corner = (
-        seen[0] if is_left else seen[0] + seen[2] - side,
-        seen[1] if is_high else seen[1] + seen[3] - side,
-    )
+    left = seen[0] if is_left else seen[0] + seen[2] - side
+    return left, seen[1] if is_high else seen[1] + seen[3] - side, side, side
+
+
+def draw_outside(app: App, seen: Rectangle) -> None:
+    """The same from outside, in a corner of the picture."""
+    path, found, place = app.paths.shown, app.paths.found, place_of_outside(app, seen)
+    if not path or not found or not place:
+        return
+    corner, side = place[:2], place[2]
     painter, end = imgui.get_window_draw_list(), (corner[0] + side, corner[1] + side)
     painter.add_rect_filled(corner, end, imgui.get_color_u32(_GROUND), 4.0)
     painter.push_clip_rect(corner, end, True)

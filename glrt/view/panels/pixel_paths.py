@@ -7,6 +7,7 @@ from glrt.rendering.path_values import Path, PixelPaths
 from glrt.settings import Cost
 from glrt.text import counted
 from glrt.view.app import App
+from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.path_overlay import COLORS
 from glrt.view.panels.widgets import beside, button, edited, tip
 from glrt.view.state.controls import Control, switch
@@ -37,7 +38,7 @@ def draw_pixel_paths(app: App) -> None:
     """Choose a pixel; its samples by the light that they carry, and one of them in full."""
     paths = app.paths
     if paths.is_new:
-        imgui.set_scroll_here_y(0.0)
+        ANCHOR.go_here()
         paths.is_new = False
     wanted = edited(CHOOSING, paths.is_choosing)
     paths.is_choosing = paths.is_choosing if wanted is None else wanted

@@ -18,7 +18,7 @@ from glrt.view.panels.pair_images import (
     draw_wipe,
     draw_wipe_handle,
 )
-from glrt.view.panels.path_overlay import draw_outside, draw_paths, told_paths
+from glrt.view.panels.path_overlay import draw_outside, draw_paths, place_of_outside, told_paths
 from glrt.view.panels.shortcuts import modifiers
 from glrt.view.panels.tour import room_beside_tour
 from glrt.view.state.keys import label
@@ -67,7 +67,7 @@ def draw_viewport(app: App) -> None:
     low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
         draw_legend(app.show, app.session, app.progress.last, low, seen[2])
-    place, width = room_beside_tour(seen)
+    place, width = _room_for_notices(app, seen)
     for notice in filter(None, _notices(app)):
         place.y += draw_notice(notice, place, width)
     if app.inspects:
@@ -79,6 +79,13 @@ def _share_under_mouse(app: App) -> tuple[float, float]:
     left, top, width, height = app.rectangle
     x, y = imgui.get_io().mouse_pos
     return (x - left) / width, (y - top) / height
+
+
+def _room_for_notices(app: App, seen: Rectangle) -> tuple[ImVec2, float]:
+    """Where lines of text begin, and how wide they may be: beside what else is in the picture."""
+    (place, width), box = room_beside_tour(seen), place_of_outside(app, seen)
+    is_beside = box is not None and box[1] <= place.y < box[1] + box[3] and box[0] > place.x
+    return place, min(width, box[0] - place.x) if box and is_beside else width
 
 
 def _notices(app: App) -> tuple[str, ...]:

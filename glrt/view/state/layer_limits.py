@@ -1,6 +1,7 @@
 """Whether a driver has room for the layers of a film, which lie side by side in one texture."""
 
 from glrt.methods.light_layers import Layering, Plan
+from glrt.methods.table import METHODS
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -15,11 +16,15 @@ class LayerLimits:
         self._known: tuple[Scene, Settings, Layering, int] | None = None
 
     def fits(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
-        """Whether a film of these layers can be had; one without layers always fits here."""
+        """Whether a film of these layers can be had; one without layers always fits here.
+
+        Probes hold the light of all lamps in one: a method that has them cannot tell it apart.
+        """
         layers = self.layers(scene, settings, layering)
         is_narrow = layers * settings.width <= self.largest and 2 * settings.height <= self.largest
         is_small = layers * settings.width * settings.height < self._refused
-        return not layers or (is_narrow and is_small)
+        is_apart = not METHODS[settings.method].has_probes
+        return not layers or (is_narrow and is_small and is_apart)
 
     def refuse(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
         """The driver would not; returns whether a film without layers is worth a trial."""

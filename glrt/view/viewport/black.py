@@ -12,6 +12,7 @@ from glrt.view.viewport.orbit import axes
 from glrt.view.viewport.pick import first_along
 from glrt.view.viewport.picture import Picture
 
+FAINT = 1e-7  # radiance: what is darker is black at every exposure of the slider
 PATHS = 20_000  # after so many, a picture that is to show anything has most likely shown some of it
 
 
@@ -47,7 +48,7 @@ class Blackness:
 def why_black(session: Session, renderer: Renderer) -> str:
     """What is most likely the reason, in a sentence."""
     scene = renderer.scene
-    if renderer.picture(session.weights)[0].any():
+    if renderer.picture(session.weights)[0].max() > FAINT:
         return "Black at this exposure: the light in view is too dim for the screen"
     if not shines(scene):
         return "Black: every light is off, or there is none"

@@ -7,6 +7,7 @@ import numpy as np
 
 from glrt.error.estimate import relative_error
 from glrt.rendering.pass_film import Array
+from glrt.text import counted
 
 GROWTH = 1.25  # of samples, after which it is worth to look again
 
@@ -23,10 +24,13 @@ class Difference(NamedTuple):
         """In words: B is the picture that is edited, A the kept one."""
         how = "brighter" if self.brighter >= 0 else "darker"
         mean = f"{100 * abs(self.brighter):.3g} % {how}, in the mean,"
+        samples = counted(self.samples, "sample")
         if not np.isfinite(self.brighter):
             return "A is black"
+        if not self.pixels:
+            return f"A and B are the same; {samples}"
         pixels = f"pixels differ by {100 * self.pixels:.3g} % (RMS)"
-        return f"B is {mean} than A; {pixels}; {self.samples} samples"
+        return f"B is {mean} than A; {pixels}; {samples}"
 
 
 def difference_of(here: moderngl.Texture, there: moderngl.Texture, samples: int) -> Difference:

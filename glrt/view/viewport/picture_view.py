@@ -64,8 +64,8 @@ class PictureView:
         session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
         if kept and session.renderer:
-            share = max(seconds, LONGER) if session.is_done else seconds
-            kept.catch_up(session.renderer, share if session.waits else seconds / 2)
+            is_alone = session.is_done or session.waits
+            kept.catch_up(session.renderer, max(seconds, LONGER) if is_alone else seconds / 2)
         elif self.kept and self.view != "difference":
             self.kept.rest()
 

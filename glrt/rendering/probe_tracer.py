@@ -1,0 +1,208 @@
+"""Probes on the driver: maps of distances, and of light for one set of probes at a time.
+
+Where probes stand and how far they see follows from the scene alone. Light comes in sets: for each
+observation of the picture there is one from a seed of its own, so that its error tells the noise of
+probes, too. A set hangs on its number alone: it is warmed up from nothing, and then stays as it is.
+"""
+
+import time
+from contextlib import ExitStack
+from dataclasses import replace
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.context import Context
+from glrt.gpu.program import Images, Resource
+from glrt.methods.light_layers import Plan
+from glrt.methods.probe_grid import Grid
+from glrt.rendering.device_scene import DeviceScene
+from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.pack_probes import (
+    DISTANCE_MAP,
+    DISTANCES,
+    IN_ROW,
+    LIGHT,
+    LIGHT_MAP,
+    PUSHES,
+    USE,
+    even_directions,
+    seeds,
+    turn,
+    update_block,
+)
+from glrt.rendering.passes import (
+    PROBE_DISTANCES,
+    PROBE_LIGHT,
+    PROBE_PLACES,
+    PROBE_RAYS,
+    RenderPass,
+)
+from glrt.rendering.probe_weights import WEIGHTS
+from glrt.rendering.schedule import DispatchRange
+
+RAYS = 64  # of each probe in an update
+AVERAGED = 16  # updates at the end of a warm-up, of which the mean is taken
+UPDATES = len(WEIGHTS) + AVERAGED
+LOOKS = 24  # updates by which distances are found
+PUSHED = 4  # times that probes are moved before these
+GROUP = 64  # lanes of a work group
+
+_MAPS = {"probe_light": LIGHT_MAP, "probe_distances": DISTANCE_MAP, "probe_places": 1}
+_TEXELS = {name: side * side for name, side in _MAPS.items()}
+_PASSES = {  # by what they write
+    "target_rays": PROBE_RAYS,
+    "probe_light": PROBE_LIGHT,
+    "probe_distances": PROBE_DISTANCES,
+    "probe_places": PROBE_PLACES,
+}
+
+
+def kept_light(update: int) -> float:
+    """The share of a map of irradiance that an update keeps while a set warms up."""
+    averaged = update - len(WEIGHTS)
+    return 1 - WEIGHTS[update] if averaged < 0 else averaged / (averaged + 1)
+
+
+class _Update:
+    """What a pass over probes reads and writes, beside the scene."""
+
+    next_sample, samples = 0, 1
+
+    def __init__(self, images: Images) -> None:
+        self._images = images
+
+    def images(self) -> Images:
+        return self._images
+
+
+class ProbeTracer:
+    """Gathers the sets of probes of a plan, each by its number."""
+
+    def __init__(
+        self,
+        context: Context,
+        plan: Plan,
+        scene: DeviceScene,
+        before: "ProbeTracer | None" = None,
+    ) -> None:
+        """Allocate maps, and compile, unless `before` has the same kernels.
+
+        RenderError if the driver has no room for them.
+        """
+        assert scene.grid
+        self._context, self._scene, self.grid = context, scene, scene.grid
+        shorter = max(plan.settings.bounces - 1, 0)  # what they light scatters once more
+        settings = plan.settings.model_copy(update={"bounces": shorter})
+        self._plan, self._is_used = replace(plan, settings=settings), shorter > 0
+        self._sees, self._set, self._done = False, -1, 0
+        start = time.perf_counter()
+        with ExitStack() as refused:
+            self.maps = {name: _map(context, self.grid, name, refused) for name in _MAPS}
+            self._rays = _texture(context, (RAYS, self.grid.probes), refused)
+            with context.checked("the probes"):
+                self._block = context.gl.buffer(update_block(even_directions(RAYS), LIGHT))
+            refused.callback(self._block.release)
+            self._kernels: dict[str, AnyKernel] = before._kernels if before else {}
+            for name, each in _PASSES.items() if not before else ():
+                self._kernels[name] = self._compiled(name, each)
+                refused.callback(self._kernels[name].release)
+            refused.pop_all()
+        self.compile_seconds = time.perf_counter() - start
+
+    @property
+    def resources(self) -> dict[str, Resource]:
+        """The maps as kernels name them that read them."""
+        return dict(self.maps)
+
+    def has_set(self, number: int) -> bool:
+        """Whether the maps hold a set of probes, warmed up."""
+        return not self._is_used or (self._set == number and self._done == UPDATES)
+
+    def work_on(self, number: int, seconds: float) -> None:
+        """Updates of a set, for about so long."""
+        start = time.perf_counter()
+        while not self.has_set(number) and time.perf_counter() - start < seconds:
+            self.update(number)
+
+    def update(self, number: int, kept: float | None = None) -> None:
+        """One update of a set; `kept`: the share of what its maps hold, unless it warms up."""
+        if not self._sees:
+            self._look()
+        if self._set != number:
+            self._set, self._done = number, 0
+            _clear(self.maps["probe_light"])
+        seed, done = self._plan.settings.seed, self._done
+        share = kept_light(done) if kept is None else kept
+        turned = even_directions(RAYS) @ turn(seeds(seed, number, done)).T
+        self._block.write(update_block(turned, LIGHT, done, int(seeds(seed, number)[3]), share))
+        self._gather("probe_light")
+        self._context.finish()
+        self._scene.lost_any()  # rays that are lost are left out
+        self._done += 1
+
+    def release(self, after: "ProbeTracer | None" = None) -> None:
+        """Free what the driver holds, but for kernels that another one has taken over."""
+        self._block.release()
+        for texture in (*self.maps.values(), self._rays):
+            texture.release()
+        if not after or after._kernels is not self._kernels:
+            for kernel in self._kernels.values():
+                kernel.release()
+
+    def _look(self) -> None:
+        """Move probes out of solids, and find what they see: the same for every seed."""
+        for name in ("probe_places", "probe_distances"):
+            _clear(self.maps[name])
+        for step in range(PUSHED + 1):
+            purpose = PUSHES if step < PUSHED else USE
+            self._block.write(update_block(even_directions(RAYS), purpose))
+            self._gather("probe_places")
+        for step in range(LOOKS):
+            turned = even_directions(RAYS) @ turn(seeds(step)).T
+            self._block.write(update_block(turned, DISTANCES, kept=step / (step + 1)))
+            self._gather("probe_distances")
+        self._sees = True
+
+    def _gather(self, name: str) -> None:
+        """Send rays, and let a map take what they bring."""
+        self._run("target_rays", RAYS)
+        self._run(name, _TEXELS[name])
+
+    def _run(self, name: str, lanes: int) -> None:
+        """A pass of so many lanes for each probe."""
+        part = DispatchRange(0, 0, -(-lanes * self.grid.probes // GROUP))
+        self._dispatch(name, self._kernels[name], part)
+
+    def _dispatch(self, name: str, kernel: AnyKernel, part: DispatchRange) -> None:
+        """A part of the pass that writes what has this name."""
+        writes_rays = name == "target_rays"
+        images = {name: self._rays} if writes_rays else {"updated_map": self.maps[name]}
+        maps = self.maps if writes_rays else {"probe_rays": self._rays}
+        own: dict[str, Resource] = {"ProbeBlock": self._block, **maps}
+        self._scene.dispatch(kernel, _Update(images), self._plan, part, 1, own)
+
+    def _compiled(self, name: str, each: RenderPass) -> AnyKernel:
+        """By a dispatch whose results are cleared before anything reads them."""
+
+        def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
+            self._dispatch(name, kernel, part)
+
+        return ready(self._context, self._scene.shaders_of(each), dispatch)
+
+
+def _map(context: Context, grid: Grid, name: str, refused: ExitStack) -> moderngl.Texture:
+    rows, side = -(-grid.probes // IN_ROW), _MAPS[name]
+    return _texture(context, (IN_ROW * side, rows * side), refused)
+
+
+def _texture(context: Context, size: tuple[int, int], refused: ExitStack) -> moderngl.Texture:
+    with context.checked("the probes"):
+        texture = context.gl.texture(size, 4, dtype="f4")
+    refused.callback(texture.release)
+    texture.filter = moderngl.NEAREST, moderngl.NEAREST
+    return texture
+
+
+def _clear(texture: moderngl.Texture) -> None:
+    texture.write(np.zeros((texture.height, texture.width, 4), np.float32))

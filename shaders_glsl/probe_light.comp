@@ -1,0 +1,40 @@
+// Puts the light that the rays of one update have found into the maps of the probes: a lane a texel.
+
+layout(local_size_x = 64) in;
+
+#include "structs/scene.glsl"
+#include "scene_arrays.glsl"
+#include "sampling/warp.glsl"
+#include "probes/octahedron.glsl"
+#include "probes/grid.glsl"
+#include "structs/probes.glsl"
+#include "probes/blend.glsl"
+
+layout(std140) uniform ProbeBlock {
+    ProbeUpdate update;
+    vec4 directions[MOST_PROBE_RAYS];
+};
+uniform sampler2D probe_rays;
+layout(rgba32f) uniform image2D updated_map;
+
+const int TEXELS = (LIGHT_SIDE + 2) * (LIGHT_SIDE + 2);  // of a map
+
+// Irradiance is PI times the mean of radiance by the cosine. Rays that end in a solid say nothing.
+void blend_light(int probe, ivec2 texel) {
+    precise vec3 normal = direction_of_texel(inner_texel(texel, LIGHT_SIDE), LIGHT_SIDE);
+    precise Blend blend = Blend(vec3(0.0), 0.0);
+    for (int i = 0; i < update.rays; i += 1) {
+        precise vec4 found = texelFetch(probe_rays, ivec2(i, probe), 0);
+        if (found.a > 0.0) add_ray(blend, PI * found.rgb, dot(directions[i].xyz, normal));
+    }
+    ivec2 at = corner_of_map(probe, LIGHT_SIDE) + texel;
+    precise vec3 before = imageLoad(updated_map, at).rgb;
+    imageStore(updated_map, at, vec4(blended(blend, before, update.kept), 1.0));
+}
+
+void main() {
+    int index = 64 * (frame.first_tile + int(gl_WorkGroupID.x)) + int(gl_LocalInvocationIndex);
+    int probe = index / TEXELS;
+    int texel = index % TEXELS;
+    if (probe < frame.probe_count) blend_light(probe, ivec2(texel % (LIGHT_SIDE + 2), texel / (LIGHT_SIDE + 2)));
+}

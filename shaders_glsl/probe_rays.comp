@@ -1,0 +1,40 @@
+// Sends rays from probes: a lane a ray. Each brings the light that comes along it, and the distance to what it meets.
+
+layout(local_size_x = 64) in;
+
+#include "probes/first_met.glsl"
+#include "trace.glsl"
+#include "structs/probes.glsl"
+#include "probes/solids.glsl"
+
+layout(std140) uniform ProbeBlock {
+    ProbeUpdate update;
+    vec4 directions[MOST_PROBE_RAYS];  // unit
+};
+layout(std430) buffer Lost { uint lost_samples; };
+layout(rgba32f) uniform writeonly image2D target_rays;  // a row a probe; a: distance, below 0 of an inner face, 0: lost
+
+// Radiance along a ray from a probe, and how far it goes.
+vec4 light_along(Ray ray, precise inout Sampler rng) {
+    precise Path path = start_path(ray);
+    bool goes = extend_path(path, rng);
+    if (has_met && is_inner_face(met_object, met_normal, ray.direction)) {
+        precise vec4 inner = vec4(vec3(0.0), INNER_FACE * met_distance);
+        return inner;
+    }
+    while (goes && update.purpose == FOR_LIGHT) goes = extend_path(path, rng);
+    if (loop_was_cut || !is_finite(path.radiance)) return vec4(0.0);
+    return vec4(path.radiance, has_met ? met_distance : FAR);
+}
+
+void main() {
+    int index = 64 * (frame.first_tile + int(gl_WorkGroupID.x)) + int(gl_LocalInvocationIndex);
+    int probe = index / update.rays;
+    int number = index % update.rays;
+    if (probe >= frame.probe_count) return;
+    precise vec3 stand = middle_of_cell(probe) + place_of_probe(probe).xyz;
+    precise Sampler rng = sampler_at(ivec2(number, probe), update.number, update.seed);
+    precise vec4 found = light_along(Ray(stand, directions[number].xyz, NO_SHAPE, false), rng);
+    imageStore(target_rays, ivec2(number, probe), found);
+    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && loop_was_cut) atomicAdd(lost_samples, 1u);
+}

@@ -1,0 +1,109 @@
+// Indirect light at a point, from the eight probes around it.
+//
+// Each is weighed by nearness, by whether it stands before the surface, and by whether the point is seen from it: by
+// the mean and the variance of the distances there, Chebyshev's inequality bounds the chance of that. The weights
+// and constants are those of Majercik et al. ("Scaling Probe-Based Real-Time Dynamic Global Illumination for
+// Production", JCGT 2021) and of NVIDIA's RTXGI.
+
+const float BIAS = 0.225;          // of the shortest edge of a cell: how far before a surface its light is looked up
+const float BIAS_TO_NORMAL = 0.2;  // the rest goes towards where the light goes
+const float LEAST_SEEN = 0.05;     // weight of a probe that is not seen
+const float LEAST_WEIGHT = 1e-6;
+const float SMALL_WEIGHT = 0.2;    // below it weights fall to 0 faster, so that dim leaks vanish
+const float LEAST_NEARNESS = 0.001;
+
+// How likely a point at a distance is seen, where distances have this mean and mean square.
+float chance_seen(vec2 moments, float distance) {
+    if (distance <= moments.x) return 1.0;
+    precise float variance = abs(moments.x * moments.x - moments.y);
+    precise float beyond = distance - moments.x;
+    precise float chance = variance / (variance + beyond * beyond);
+    precise float seen = max(chance * chance * chance, LEAST_SEEN);
+    return seen;
+}
+
+// Of a probe in a direction from a surface.
+float weight_of_side(vec3 normal, vec3 to_probe) {
+    precise float before = (dot(to_probe, normal) + 1.0) / 2.0;
+    precise float weight = before * before + 0.2;
+    return weight;
+}
+
+// Small weights made smaller, and none 0.
+float crushed(float weight) {
+    precise float kept = max(weight, LEAST_WEIGHT);
+    if (kept < SMALL_WEIGHT) kept *= kept * kept / (SMALL_WEIGHT * SMALL_WEIGHT);
+    return kept;
+}
+
+// What is looked up of a surface lies before it; `wo`: towards where the light goes.
+vec3 biased_place(vec3 position, vec3 normal, vec3 wo) {
+    if (WITHOUT_BIAS) return position;
+    precise float length = BIAS * frame.probe_edge;
+    precise vec3 place = position + length * (BIAS_TO_NORMAL * normal + (1.0 - BIAS_TO_NORMAL) * wo);
+    return place;
+}
+
+// Light of probes, and the sum of their weights; 0: none is of use.
+struct ProbeLight {
+    vec3 irradiance;
+    float weight;
+};
+
+// Of the probe of a cell: what it gives to a point `position`, looked up at `place`.
+float weight_of_probe(int probe, vec3 position, vec3 place, vec3 normal) {
+    precise vec4 offset = place_of_probe(probe);
+    if (offset.a == 0.0) return 0.0;
+    precise vec3 stand = middle_of_cell(probe) + offset.xyz;
+    precise vec3 to_probe = stand - position;
+    precise float weight = 1.0;
+    if (dot(to_probe, to_probe) > 0.0) weight = weight_of_side(normal, normalized(to_probe));
+    precise vec3 from_probe = place - stand;
+    precise float distance = length(from_probe);
+    if (!WITHOUT_VISIBILITY && distance > 0.0) {
+        weight *= chance_seen(distances_at_probe(probe, from_probe), distance);
+    }
+    return crushed(weight);
+}
+
+// By how far along each axis a point has come from the first of eight probes to the last.
+float nearness(ivec3 corner, vec3 beyond) {
+    precise vec3 shares = vec3(0.0);
+    for (int i = 0; i < 3; i += 1) shares[i] = max(corner[i] == 1 ? beyond[i] : 1.0 - beyond[i], LEAST_NEARNESS);
+    precise float product = shares.x * shares.y * shares.z;
+    return product;
+}
+
+// At a surface with a unit normal on the side of `wo`.
+ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
+    precise vec3 place = biased_place(position, normal, wo);
+    precise vec3 cells = place_in_grid(place);
+    ivec3 first = clamp(ivec3(floor(cells)), ivec3(0), frame.probe_counts - 2);
+    precise vec3 beyond = clamp(cells - vec3(first), 0.0, 1.0);
+    precise ProbeLight sum = ProbeLight(vec3(0.0), 0.0);
+    for (int i = 0; i < 8; i += 1) {
+        ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
+        int probe = probe_at(first + corner);
+        precise float weight = weight_of_probe(probe, position, place, normal) * nearness(corner, beyond);
+        sum.weight += weight;
+        sum.irradiance += weight * light_at_probe(probe, normal);
+    }
+    if (sum.weight > 0.0) sum.irradiance /= sum.weight;
+    return sum;
+}
+
+// Light that reaches a matte surface over others, in place of following the path further: it ends with the segment
+// that finds its direct light. Beyond the grid, and where no probe is of use, paths go on.
+void gather_from_probes(precise inout Path path, Vertex vertex, vec3 position, precise inout Sampler rng) {
+    if (vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;
+    precise float share = share_of_probes(position);
+    if (share < 1.0) {
+        if (next_1d(rng) >= share) return;
+    }
+    precise vec3 normal = vertex.frame[2];
+    precise ProbeLight found = light_of_probes(position, normal, -path.ray.direction);
+    if (found.weight == 0.0) return;
+    precise vec3 weight = path.scale * path.throughput * vertex.material.color / PI;
+    gather(path, weight * found.irradiance, 0, path.depth + 2);
+    path.is_last = true;
+}

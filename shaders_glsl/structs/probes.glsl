@@ -1,0 +1,21 @@
+// What one update of the probes is given (glrt/rendering/probe_tracer.py).
+
+const int MOST_PROBE_RAYS = 256;  // of a probe in one update
+const float INNER_FACE = -0.2;    // of the distance to an inner face, as rays tell it: the probe seems near to it
+
+struct ProbeUpdate {
+    int rays;     // of each probe
+    int number;   // of the update
+    uint seed;    // of the set of probes
+    int purpose;  // of the rays
+    float kept;   // share of what a map held before (hysteresis)
+    int spare_a;  // fill the row
+    int spare_b;
+    int spare_c;
+};
+
+// Purposes. Rays that look for surfaces bring no light.
+const int FOR_LIGHT = 0;
+const int FOR_DISTANCES = 1;
+const int FOR_PUSHES = 2;
+const int FOR_USE = 3;  // whether a probe is of any
