@@ -12,15 +12,15 @@ layout(std140) uniform ProbeBlock {
     vec4 directions[MOST_PROBE_RAYS];  // unit
 };
 layout(std430) buffer Lost { uint lost_samples; };
-layout(rgba32f) uniform writeonly image2D target_rays;  // a row a probe; a: distance, below 0 of an inner face, 0: lost
+layout(rgba32f) uniform writeonly image2D target_rays;  // a row a probe; a: distance, below 0 of a wrong face, 0: lost
 
 // Radiance along a ray from a probe, and how far it goes.
 vec4 light_along(Ray ray, precise inout Sampler rng) {
     precise Path path = start_path(ray);
     bool goes = extend_path(path, rng);
-    if (has_met && is_inner_face(met_object, met_normal, ray.direction)) {
-        precise vec4 inner = vec4(vec3(0.0), INNER_FACE * met_distance);
-        return inner;
+    if (has_met && is_wrong_face(met_object, met_normal, ray.direction)) {
+        precise vec4 wrong = vec4(vec3(0.0), WRONG_FACE * met_distance);
+        return wrong;
     }
     while (goes && update.purpose == FOR_LIGHT) goes = extend_path(path, rng);
     if (loop_was_cut || !is_finite(path.radiance)) return vec4(0.0);

@@ -1,15 +1,16 @@
-// Probes that stand in a solid, or close to a surface, are pushed aside: at most to the edge of their cell.
+// Probes that stand in a solid, outside of the room that the camera is in, or close to a surface, are pushed aside: at
+// most to the edge of their cell. The wrong faces of solids tell: those that the camera is not before.
 
-const float MOST_INNER = 0.25;    // share of the rays of a probe that meet inner faces: beyond, it is in a solid
+const float MOST_WRONG = 0.25;    // share of the rays of a probe, of those that meet something: beyond, it is in a solid
 const float NEAR_SURFACE = 0.05;  // of the shortest edge of a cell: nearer to surfaces no probe should stand
 const float MOST_PUSHED = 0.45;   // of a cell, along each edge
 
 // What the rays of a probe have met.
 struct Surroundings {
-    int rays;
-    int inner;
-    vec3 nearest_inner;  // the way to it; of length 0: none
-    vec3 nearest_outer;
+    int rays;  // that met something
+    int wrong;
+    vec3 nearest_wrong;  // the way to it; of length 0: none
+    vec3 nearest_right;
 };
 
 Surroundings nothing_around() {
@@ -22,33 +23,30 @@ bool is_nearer(vec3 way, vec3 known) {
 
 // `distance` as the rays of probes tell it.
 void look(precise inout Surroundings around, vec3 direction, float distance) {
-    if (distance == 0.0 || distance >= FAR) {
-        around.rays += distance == 0.0 ? 0 : 1;
-        return;
-    }
+    if (distance == 0.0 || distance >= FAR) return;
     around.rays += 1;
-    precise vec3 way = direction * (distance < 0.0 ? distance / INNER_FACE : distance);
+    precise vec3 way = direction * (distance < 0.0 ? distance / WRONG_FACE : distance);
     if (distance < 0.0) {
-        around.inner += 1;
-        if (is_nearer(way, around.nearest_inner)) around.nearest_inner = way;
-    } else if (is_nearer(way, around.nearest_outer)) {
-        around.nearest_outer = way;
+        around.wrong += 1;
+        if (is_nearer(way, around.nearest_wrong)) around.nearest_wrong = way;
+    } else if (is_nearer(way, around.nearest_right)) {
+        around.nearest_right = way;
     }
 }
 
 bool is_in_solid(Surroundings around) {
-    return float(around.inner) > MOST_INNER * float(around.rays);
+    return float(around.wrong) > MOST_WRONG * float(around.rays);
 }
 
-// Where it stands next, from the middle of its cell: through the nearest inner face, or away from what is close.
+// Where it stands next, from the middle of its cell: through the nearest wrong face, or away from what is close.
 vec3 pushed(Surroundings around, vec3 offset) {
     precise float near = NEAR_SURFACE * frame.probe_edge;
     precise vec3 next = offset;
     if (is_in_solid(around)) {
-        next += around.nearest_inner + near * normalized(around.nearest_inner);
-    } else if (around.nearest_outer != vec3(0.0)) {
-        precise float distance = length(around.nearest_outer);
-        if (distance < near) next -= (near - distance) / distance * around.nearest_outer;
+        next += around.nearest_wrong + near * normalized(around.nearest_wrong);
+    } else if (around.nearest_right != vec3(0.0)) {
+        precise float distance = length(around.nearest_right);
+        if (distance < near) next -= (near - distance) / distance * around.nearest_right;
     }
     precise vec3 most = MOST_PUSHED * frame.probe_cell;
     if (any(greaterThan(abs(next), most))) return offset;

@@ -1,7 +1,7 @@
 // What one update of the probes is given (glrt/rendering/probe_tracer.py).
 
 const int MOST_PROBE_RAYS = 256;  // of a probe in one update
-const float INNER_FACE = -0.2;    // of the distance to an inner face, as rays tell it: the probe seems near to it
+const float WRONG_FACE = -0.2;    // of the distance to a wrong face of a solid, as rays tell it: the probe seems near to it
 
 struct ProbeUpdate {
     int rays;     // of each probe

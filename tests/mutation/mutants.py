@@ -21,6 +21,7 @@ from tests.mutation.particle_sky import PARTICLE_SKY
 from tests.mutation.particles import PARTICLES
 from tests.mutation.paths import PATHS
 from tests.mutation.principled import PRINCIPLED
+from tests.mutation.probes import PROBES
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
@@ -38,6 +39,7 @@ MUTANTS = [
     *PARTICLE_NORMALS,
     *PARTICLE_SKY,
     *SPHERE_LINKS,
+    *PROBES,
     *SHAPES,
     *MESHES,
     *INSTANCES,

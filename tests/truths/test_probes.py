@@ -218,12 +218,15 @@ def test_a_probe_deep_in_a_solid_is_of_no_use(context: Context) -> None:
 
 
 def test_probes_in_a_room_that_is_a_solid_stay(context: Context) -> None:
-    """Its inner faces are the walls of the camera's room."""
+    """Its inner faces are the walls of the camera's room; from outside probes are pushed in."""
     with probes_of(room("sphere", 0.5), context, probes=3) as (_, tracer):
         tracer.update(0)
         found = np.frombuffer(tracer.maps["probe_places"].read(), np.float32).reshape(-1, 4)[:27]
-    inside = np.linalg.norm(tracer.grid.places(), axis=1) < 0.9
-    assert (found[inside] == [0, 0, 0, 1]).all()
+    away = np.linalg.norm(tracer.grid.places(), axis=1)
+    assert (found[away < 0.9] == [0, 0, 0, 1]).all()
+    assert (away > 1).sum() == 8
+    assert (np.linalg.norm(tracer.grid.places() + found[:, :3], axis=1) < 1).all()
+    assert (found[:, 3] == 1).all()
 
 
 # --- leaks ------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - spots: edges of cones, one spot among many
 - glass: refraction and caustics
 - particles: a caustic of a lamp of any size
+- probes: light through thin walls, rooms that hardly absorb
 - denoising: the bias of a filter, and fireflies
 - moving: history while the camera moves
 - history: what temporal modes make of a still pixel
