@@ -1,5 +1,5 @@
 // A number of each pixel as a colour: how unsure its light is, how many of its samples were
-// dropped, or how its light differs from another film's. Film row 0 is on top.
+// dropped, how its light differs from another film's, or what is told of its history. Film row 0 is on top.
 
 #include "film/most_layers.glsl"
 #include "passes/color_scale.glsl"
@@ -7,6 +7,7 @@
 const int SHOWS_ERROR = 0;
 const int SHOWS_DROPPED = 1;
 const int SHOWS_DIFFERENCE = 2;
+const int SHOWS_HISTORY = 3;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
 const vec3 UNKNOWN = vec3(0.5);
 const float DIM = 0.25;  // of the picture below the marks
@@ -16,11 +17,12 @@ uniform sampler2D mean;       // of the film, as in trace.comp
 uniform float samples;        // that each pixel has, finite or not
 uniform sampler2D variance;
 uniform sampler2D layers;     // as in weighting.frag
-uniform sampler2D other;      // radiance to compare with
+uniform sampler2D other;      // radiance to compare with; a: a number of its history
 uniform int shows;
 uniform int layer_count;      // 0: the light is the mean times weights[0]
 uniform vec3 weights[MOST_LAYERS];
 uniform float dark;           // radiance^2, added so that dark pixels do not rule
+uniform float least;          // a number of its history that is above it is one
 uniform bool is_logarithmic;
 uniform vec2 range;           // the numbers of the first and the last colour
 uniform vec3 colors[COLORS];  // sRGB
@@ -98,6 +100,9 @@ void main() {
         precise float count = most_dropped(texel);
         precise float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
         shown = count > 0.0 ? color_of(count) : vec3(DIM * pow(min(luminance, 1.0), 1.0 / 2.2));
+    } else if (shows == SHOWS_HISTORY) {
+        precise float number = texelFetch(other, texel, 0).a;
+        if (number > least) shown = color_of(number);
     } else {
         shown = color_of(relative_difference(texel));
     }

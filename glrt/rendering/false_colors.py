@@ -1,4 +1,4 @@
-"""A number of each pixel as a colour: its error, its dropped samples, its difference from another.
+"""A number of each pixel as a colour: its error, dropped samples, difference from another, history.
 
 The error of a pixel is its share in that of the picture: the mean over pixels of its square is the
 square of `glrt.error.estimate.relative_error`.
@@ -6,7 +6,7 @@ square of `glrt.error.estimate.relative_error`.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
 import moderngl
 import numpy as np
@@ -45,6 +45,16 @@ YELLOW_TO_RED = _colors(
 )
 
 
+Number = Literal["history", "weight"]
+
+
+class Told(NamedTuple):
+    """A number of each pixel of the history that is shown: `a` of a texture."""
+
+    texture: moderngl.Texture
+    least: float  # where it is not above it, there is nothing to tell
+
+
 @dataclass(frozen=True)
 class Scale:
     """What colours numbers have, from `low` to `high`; what is beyond has that of the end."""
@@ -70,6 +80,8 @@ class Scale:
 
 ERROR = Scale(VIRIDIS, 0.001, 1.0)
 DROPPED = Scale(YELLOW_TO_RED, 1.0, 1000.0)
+HISTORY = Scale(VIRIDIS, 1.0, 64.0)
+WEIGHT = Scale(VIRIDIS, 0.001, 1.0)
 DIFFERENCE = Scale(BLUE_WHITE_RED, -0.5, 0.5, is_logarithmic=False)
 
 
@@ -115,6 +127,11 @@ class FalseColors:
         values = {"shows": SHOWS["SHOWS_DIFFERENCE"], "dark": DARK * mean**2}
         self._draw(film, light, other, scale, values)
 
+    def draw_history(self, film: Film, light: moderngl.Texture, told: Told, scale: Scale) -> None:
+        """A number of the history of each pixel; grey where there is none."""
+        values = {"shows": SHOWS["SHOWS_HISTORY"], "least": told.least}
+        self._draw(film, light, told.texture, scale, values)
+
     def release(self) -> None:
         """Free program and quad."""
         if self._program:
@@ -133,7 +150,7 @@ class FalseColors:
         parts = [light, film.mean, film.variance, film.layers or film.mean, other]
         for unit, texture in enumerate(parts):
             texture.use(unit)
-        plain = {"layer_count": 0, "weights": [ONE] * MOST_LAYERS, "dark": 0.0}
+        plain = {"layer_count": 0, "weights": [ONE] * MOST_LAYERS, "dark": 0.0, "least": 0.0}
         plain["samples"] = film.samples
         range_ = {"is_logarithmic": scale.is_logarithmic, "range": (scale.low, scale.high)}
         for name, value in {**plain, **range_, "colors": scale.colors, **values}.items():

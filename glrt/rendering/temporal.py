@@ -19,6 +19,7 @@ from glrt.gpu.canvas import Canvas
 from glrt.gpu.program import TILE
 from glrt.methods.light_layers import Weights
 from glrt.rendering.drawn_pass import DrawnPass
+from glrt.rendering.false_colors import Number, Told
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.reprojection import USUAL, Limits, Reprojection, shares_objects
 from glrt.rendering.resolver import Fresh, Resolver
@@ -164,6 +165,19 @@ class Temporal:
     def is_shown(self, renderer: Renderer) -> bool:
         """Whether the picture is not the film alone."""
         return self._is_brought and renderer.samples < self.end
+
+    def told(
+        self, renderer: Renderer, number: Number, weights: Weights | None = None
+    ) -> Told | None:
+        """A number of what is shown, valid as `show` is; None: there is none.
+
+        `history`: samples that a pixel stands for, with those of the film; by `wrls` the views that
+        its model has seen. `weight`: by `wrls` that of the film in the fit, from 0 to 1.
+        """
+        shown, resolver = self.show(renderer, weights), self._resolver
+        if shown and isinstance(resolver, Wrls):
+            return Told(shown, 1.0) if number == "history" else Told(resolver.predictions, 0.0)
+        return Told(shown, renderer.samples) if shown and number == "history" else None
 
     def forget(self) -> None:
         """What was shown is no history for what comes."""

@@ -75,6 +75,11 @@ class Wrls:
         self._has_made, self._samples = True, float(fresh.samples)
         return self._shown.texture
 
+    @property
+    def predictions(self) -> moderngl.Texture:
+        """Of what was shown last: radiance, and the weight of the film (0: no sample)."""
+        return self._made.textures[0]
+
     def release(self) -> None:
         """Free what the driver holds."""
         for part in (self._bring, self._reconstruct, self._predict, self._smooth):

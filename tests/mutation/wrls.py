@@ -141,6 +141,11 @@ WRLS = [
         f"{PASSES}::test_what_was_hidden_has_no_model_in_a_band_as_wide_as_the_parallax",
     ),
     Mutant(
+        "pixels without history are told to have some",
+        edit("false_colors.frag", "if (number > least) shown", "if (number > least - 1.0) shown"),
+        "rendering/test_false_colors.py::test_numbers_of_history_are_drawn_and_none_is_grey",
+    ),
+    Mutant(
         "models that no sample followed are lost",
         (Edit(HOST, "if self._has_brought and not self._has_made:", "if False:"),),
         f"{PASSES}::test_a_view_without_a_sample_hands_its_models_on",

@@ -19,9 +19,11 @@ from glrt.rendering.false_colors import (
     DIFFERENCE,
     DROPPED,
     ERROR,
+    HISTORY,
     VIRIDIS,
     FalseColors,
     Scale,
+    Told,
     symmetric,
 )
 from glrt.rendering.renderer import Renderer
@@ -111,6 +113,24 @@ def test_without_two_observations_the_error_is_grey(context: Context) -> None:
             renderer, lambda colors, light: colors.draw_error(renderer.film, light, (ONE,), 1.0)
         )
     assert (np.abs(codes.astype(int) - 127) <= 1).all()
+
+
+def test_numbers_of_history_are_drawn_and_none_is_grey(context: Context) -> None:
+    with traced(context, room(), 1) as renderer:
+        rng = np.random.default_rng(4)
+        numbers = np.zeros((SIZE["height"], SIZE["width"], 4), np.float32)
+        numbers[..., 3] = rng.uniform(1.5, 80, numbers.shape[:2])
+        numbers[3:5, :, 3] = 1.0
+        with context.gl:
+            texture = context.gl.texture(renderer.size, 4, numbers.tobytes(), dtype="f4")
+        told = Told(texture, 1.0)
+        codes = drawn(
+            renderer,
+            lambda colors, light: colors.draw_history(renderer.film, light, told, HISTORY),
+        )
+        texture.release()
+    assert (np.abs(codes[3:5].astype(int) - 127) <= 1).all()
+    assert_drawn(codes[5:], HISTORY, numbers[5:, :, 3])
 
 
 def test_dropped_samples_are_marked_where_they_fell(context: Context) -> None:

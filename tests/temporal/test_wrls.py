@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import pairwise
-from typing import Any
+from typing import Any, get_args
 
 import moderngl
 import numpy as np
@@ -13,12 +13,15 @@ from glrt.analysis.motion.playing import play, read_texture
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.false_colors import Number
+from glrt.rendering.renderer import Renderer
 from glrt.rendering.resolver import Fresh
+from glrt.rendering.temporal import Mode, Temporal
 from glrt.rendering.wrls import Predictor, Wrls
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.moving import drawn, noise, textures_of, two_walls, view, wall
-from tests.temporal.twins import Array
+from tests.temporal.twins import Array, FactoredWrls
 from tests.temporal.wrls_twin import StillWrls, reconstructed
 
 SIZE = (16, 12)
@@ -127,6 +130,52 @@ def test_the_film_takes_the_place_of_predictions(context: Context) -> None:
     wrls.release()
 
 
+def test_numbers_of_the_history_are_told(context: Context) -> None:
+    """Views that a model has seen, and the weight of the film, as the twin has it."""
+    twin = FactoredWrls(np.full((1, 3), 0.5), frames=1)
+    scene = wall()
+    settings = settings_for(scene.render, width=SIZE[0], height=SIZE[1], sampler="independent")
+    renderer, temporal = Renderer(scene, settings, context), Temporal(context.gl, "wrls")
+    for number in range(3):
+        temporal.leave(renderer)
+        renderer.update(scene, seed=number)
+        temporal.arrive(renderer)
+        renderer.step(1)
+    twin.add(np.full((1, 3), 0.5))
+    history, weight = (temporal.told(renderer, number) for number in get_args(Number))
+    assert history
+    assert weight
+    seen, weights = textures_of(context, history.texture, weight.texture)
+    assert (seen[..., 3] == 3).all()
+    assert history.least == 1
+    np.testing.assert_allclose(weights[..., 3], twin.weight[0], rtol=1e-5)
+    temporal.forget()
+    assert temporal.told(renderer, "history") is None
+    temporal.release()
+    renderer.release()
+
+
+@pytest.mark.parametrize("mode", ["reproject", "taa"])
+def test_other_ways_tell_the_samples_of_their_history(context: Context, mode: Mode) -> None:
+    """Of a wall that goes by two pixels: two samples, and one where nothing was seen before."""
+    scenes = wall(), wall(2 * PIXEL)
+    settings = settings_for(scenes[0].render, width=SIZE[0], height=SIZE[1], sampler="independent")
+    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, mode)
+    renderer.step(1)
+    temporal.leave(renderer)
+    renderer.update(scenes[1], seed=1)
+    temporal.arrive(renderer)
+    renderer.step(1)
+    told = temporal.told(renderer, "history")
+    assert told
+    (numbers,) = textures_of(context, told.texture)
+    assert numbers[:, :-2, 3] == pytest.approx(2, abs=0.02)
+    assert (numbers[:, -2:, 3] <= told.least).all()
+    assert temporal.told(renderer, "weight") is None
+    temporal.release()
+    renderer.release()
+
+
 # --- motion ---------------------------------------------------------------------------------------
 
 
@@ -203,8 +252,9 @@ def test_an_orbit_is_clearer(context: Context, predictor: Predictor) -> None:
     settings = settings_for(scene.render, width=24, height=24, sampler="independent")
     truth = [*play(Sequence("still", frames.scenes[23:]), settings, context, "reset", 512)][-1]
     squared = []
-    for mode, way in (("reset", "published"), ("wrls", predictor)):
-        *_, last = play(frames, settings, context, mode, 2, predictor=way)  # type: ignore[arg-type]
+    ways: list[tuple[Mode, Predictor]] = [("reset", "published"), ("wrls", predictor)]
+    for mode, way in ways:
+        *_, last = play(frames, settings, context, mode, 2, predictor=way)
         dark = truth.max(axis=2) < 3
         squared.append(float(np.square(np.minimum(last, 1) - np.minimum(truth, 1))[dark].mean()))
     assert squared[1] < 0.5 * squared[0]

@@ -1,15 +1,17 @@
 """Other views of the picture, as numbers in colours."""
 
+from functools import partial
 from typing import Any, get_args
 
 import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from glrt.rendering.false_colors import ERROR
+from glrt.rendering.false_colors import ERROR, HISTORY, WEIGHT
 from glrt.settings import Aov, Cost
 from glrt.view.panels import legend
 from glrt.view.panels.inspector import told_pixel
+from glrt.view.state.controls import replaced
 from tests.window.gestures import lines_told, press
 from tests.window.hand import Hand, check
 
@@ -165,3 +167,35 @@ def the_zoom_is_told_with_the_key_that_ends_it(hand: Hand) -> None:
         lines.clear()
         hand.ctx.yield_(2)
         assert not any("zoom" in line for line in lines)
+
+
+@check
+def the_history_of_pixels_is_shown_while_it_counts(hand: Hand) -> None:
+    """Samples of `reproject`; weights by `wrls` alone, and a sentence where there is nothing."""
+    app, session = hand.window.app, hand.session
+
+    def look(temporal: str) -> None:
+        app.preferences = replaced(app.preferences, temporal=temporal)
+        app.turn(0.01, 0.0, about_camera=False)
+
+    for temporal, view, colors in (
+        ("reproject", "history", HISTORY),
+        ("wrls", "history", HISTORY),
+        ("wrls", "weight", WEIGHT),
+    ):
+        session.paused = False
+        hand.there(partial(look, temporal))
+        hand.settle()
+        hand.there(partial(look, temporal))
+        hand.settle()
+        session.paused = True
+        (shown,) = views(hand, view)
+        scale = 255 * colors.color(np.geomspace(colors.low, colors.high, 500))
+        apart = np.abs(shown[:, :, None].astype(int) - scale).max(axis=3).min(axis=2)
+        is_grey = np.ptp(shown, axis=2) <= 1
+        assert np.where(is_grey, 0, apart).max() <= 2, (temporal, view)
+        assert (~is_grey).mean() > 0.5, (temporal, view)
+    with lines_told() as told:
+        hand.there(partial(look, "taa"))
+        hand.until(lambda: any("by temporal wrls alone" in text for text in told))
+    views(hand, "picture")

@@ -1,11 +1,14 @@
 """What the screen shows beside the film while the camera moves: see glrt/rendering/temporal.py."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 import moderngl
 
 from glrt.errors import RenderError
 from glrt.methods.light_layers import Weights
+from glrt.rendering.false_colors import Number, Told
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import END, Mode, Temporal, Way
 from glrt.rendering.wrls import Predictor
@@ -90,6 +93,16 @@ class MovingPicture:
         self._temporal.end = float(min(END, wanted))
         return renderer is not None and self._temporal.is_shown(renderer)
 
+    def tells(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
+        """Whether there is a number of the history that is shown."""
+        is_one = number == "history" or self._wanted.mode == "wrls"
+        return is_one and self.is_shown(renderer, wanted)
+
+    def told(self, renderer: Renderer, weights: Weights, number: Number) -> Told | None:
+        """That number, valid until the next call; RenderError as `texture`."""
+        with self._left_out_if_refused():
+            return self._temporal.told(renderer, number, weights)
+
     @property
     def end(self) -> int:
         """The samples of the film from which on it is shown alone."""
@@ -100,8 +113,13 @@ class MovingPicture:
 
         RenderError if the driver has no room: from then on there is no history.
         """
-        try:
+        with self._left_out_if_refused():
             return self._temporal.show(renderer, weights)
+
+    @contextmanager
+    def _left_out_if_refused(self) -> Iterator[None]:
+        try:
+            yield
         except RenderError as error:
             raise RenderError(self._left_out(error)) from error
 

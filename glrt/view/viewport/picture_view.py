@@ -13,10 +13,11 @@ from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.difference import GROWTH, Difference, difference_of
 from glrt.view.viewport.picture import Picture
-from glrt.view.viewport.views import View, aov_of, scale_of
+from glrt.view.viewport.views import View, aov_of, number_of, scale_of
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
+NO_HISTORY = "The view {} is there while light of earlier views is shown, by temporal {}"
 HISTORY = "with light of earlier views, until there are {} samples"
 
 
@@ -133,6 +134,9 @@ class PictureView:
             return f"The error is known after {2 * renderer.film.extent.block} samples"
         if aov_of(self.view) and self.drawn != self.view:
             return f"The view {self.view} comes with its first sample"
+        if (number := number_of(self.view)) and self.drawn != self.view:
+            of = "wrls alone" if number == "weight" else "reproject, taa or wrls"
+            return NO_HISTORY.format(number, of)
         if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
             return HISTORY.format(session.moving.end)
         if self.view == "picture":
@@ -171,6 +175,10 @@ class PictureView:
         if aov := aov_of(self.view):
             is_there = session.renderer and session.renderer.aov_mean(aov)
             return self.view if is_there else "picture"
+        if number := number_of(self.view):
+            wanted = session.settings.samples
+            tells = session.moving.tells(session.renderer, wanted, number)
+            return self.view if tells else "picture"
         if session.is_preview or (self.view == "error" and not self._knows_error(session)):
             return "picture"
         return "picture" if self.view == "difference" and not self._compared(session) else self.view
@@ -195,6 +203,8 @@ class PictureView:
 
         aov = aov_of(view)
         mean = renderer.aov_mean(aov) if aov else None
+        number = number_of(view)
+        told = session.moving.told(renderer, weights, number) if number else None
 
         def paint() -> None:
             if aov and mean:
@@ -203,6 +213,8 @@ class PictureView:
                 self.colors.draw_error(film, light, weights, self.mean or 0.0)
             elif view == "dropped":
                 self.colors.draw_dropped(film, light)
+            elif told:
+                self.colors.draw_history(film, light, told, self.scale)
             elif other and self.kept:
                 self._measure(session, light, other)
                 self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)

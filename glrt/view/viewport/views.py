@@ -3,11 +3,20 @@
 from typing import Literal, get_args
 
 from glrt.rendering.aov_view import MOST_BOUNCES, cell_of, scale_of_bounces
-from glrt.rendering.false_colors import DIFFERENCE, DROPPED, ERROR, Scale, symmetric
+from glrt.rendering.false_colors import (
+    DIFFERENCE,
+    DROPPED,
+    ERROR,
+    HISTORY,
+    WEIGHT,
+    Number,
+    Scale,
+    symmetric,
+)
 from glrt.scene.camera import Camera
 from glrt.settings import Aov
 
-FilmView = Literal["picture", "error", "dropped", "difference"]
+FilmView = Literal["picture", "error", "dropped", "difference", "history", "weight"]
 View = FilmView | Aov
 VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 
@@ -17,6 +26,9 @@ HELP = (
     "dropped: where samples were not finite and were left out\n"
     "difference: from the kept picture, at equal seeds and samples; what did not change shows no "
     "noise\n"
+    "history: while light of earlier views is shown, the samples that each pixel stands for (by "
+    "temporal wrls, views); grey where it has none\n"
+    "weight: by temporal wrls, how much the new samples count\n"
     "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
     "gathered while they are shown\n"
     "bounces: how often the paths of a pixel scatter before they end, in the mean"
@@ -25,6 +37,8 @@ TITLES: dict[View, str] = {
     "error": "estimated relative error of a pixel",
     "dropped": "samples dropped, not finite",
     "difference": "luminance against the kept picture",
+    "history": "samples (wrls: views) of history; grey: none",
+    "weight": "weight of the new samples; grey: no sample",
     "albedo": "albedo of the first surface",
     "normal": "normal, x y z as red green blue around grey",
     "depth": "depth, grey at {focus:.3g}, where the camera focuses",
@@ -54,6 +68,11 @@ def aov_of(view: View) -> Aov | None:
     return next((aov for aov in get_args(Aov) if aov == view), None)
 
 
+def number_of(view: View) -> Number | None:
+    """The number of the history that a view shows, if it shows one."""
+    return next((number for number in get_args(Number) if number == view), None)
+
+
 def has_scale(view: View) -> bool:
     """Whether a view has false colours, and so a legend with numbers."""
     return view == "bounces" or aov_of(view) is None
@@ -67,6 +86,7 @@ def scale_of(view: View, most: float, bounces: int) -> Scale:
     if view == "bounces":
         return scale_of_bounces(bounces)
     scales: dict[View, Scale] = {"error": ERROR, "dropped": DROPPED}
+    scales |= {"history": HISTORY, "weight": WEIGHT}
     return scales.get(view) or symmetric(DIFFERENCE, most)
 
 
@@ -76,6 +96,10 @@ def ticks_of(view: View, scale: Scale) -> dict[float, str]:
         return {0.001: "0.1 %", 0.01: "1 %", 0.1: "10 %", 1.0: "100 %"}
     if view == "dropped":
         return {1.0: "1", 10.0: "10", 100.0: "100", 1000.0: "1000"}
+    if view == "history":
+        return {1.0: "1", 4.0: "4", 16.0: "16", 64.0: "64 and more"}
+    if view == "weight":
+        return {0.001: "0.001", 0.01: "0.01", 0.1: "0.1", 1.0: "1"}
     if view == "bounces":
         end = f"{scale.high:g}" + (" and more" if scale.high == MOST_BOUNCES else "")
         return {0.0: "0", scale.high / 2: f"{scale.high / 2:g}", scale.high: end}
