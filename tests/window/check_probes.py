@@ -46,5 +46,3 @@ def what_does_not_go_with_probes_is_refused_by_name(hand: Hand) -> None:
     hand.there(lambda: session.edit(sampler="independent"))
     hand.until(lambda: bool(session.problem))
     assert "--method ddgi" in str(session.problem)
-    hand.there(lambda: session.edit(method="mis"))
-    hand.until(lambda: not session.problem and session.samples > 0)
