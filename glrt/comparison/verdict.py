@@ -22,6 +22,7 @@ from glrt.comparison.sensitivity import sensitivity
 from glrt.error.estimate import sidak_threshold
 from glrt.errors import UsageError
 from glrt.image.image import Image
+from glrt.methods.table import METHODS
 
 Flags = NDArray[np.bool_]
 
@@ -75,6 +76,13 @@ def _check(image: Image, reference: Image) -> None:
             raise UsageError(
                 f"the {name} does not say how many samples a pixel it has: give them by --samples "
                 "for the image and --reference-samples for the reference."
+            )
+        method = picture.recipe.settings.method if picture.recipe else None
+        if method and METHODS[method].has_probes:
+            raise UsageError(
+                f"the {name} was rendered by {method}, whose pixels share the noise of their "
+                "probes: glrt compare takes the noise of pixels for independent, and would call "
+                "equal pictures different. Compare pictures of another method, such as mis."
             )
 
 
