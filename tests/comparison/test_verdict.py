@@ -255,15 +255,6 @@ def test_what_cannot_be_compared_is_refused(
     assert all(word in str(error.value) for word in words)
 
 
-@pytest.mark.parametrize("place", ["image", "reference"])
-def test_pictures_whose_pixels_share_their_noise_are_refused(place: str) -> None:
-    """Of probes: pixels that are taken for independent would be called different."""
-    pair = {"image": noisy("smooth", 64, 1), "reference": noisy("smooth", 64, 2)}
-    pair[place] = replace(pair[place], recipe=recipe(method="ddgi"))
-    with pytest.raises(UsageError, match=f"the {place} was rendered by ddgi, whose pixels share"):
-        compare(pair["image"], pair["reference"])
-
-
 def test_recipes_tell_whether_the_noise_is_of_one_method() -> None:
     image, other = noisy("smooth", 64, 1), noisy("smooth", 64, 2)
     mis, naive = recipe(method="mis"), recipe(method="naive")

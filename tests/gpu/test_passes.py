@@ -23,6 +23,11 @@ DISPLAYS = [
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa")  # by tests/temporal
+PROBES = {  # by tests/shaders/test_probe_kernels.py
+    *("probe_rays.comp", "probe_light.comp", "probe_distances.comp", "probe_place.comp"),
+    *("probes/blend.glsl", "probes/first_met.glsl", "probes/place.glsl", "probes/solids.glsl"),
+    "structs/probes.glsl",
+}
 
 
 def test_every_shader_file_is_compiled_by_a_test() -> None:
@@ -44,6 +49,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
         *DISPLAY_STAGES,
+        *PROBES,
     }
 
 

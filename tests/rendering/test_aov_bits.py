@@ -163,9 +163,9 @@ def test_aovs_in_many_small_dispatches_have_the_same_bits(
     parts: list[DispatchRange] = []
     work = DeviceScene.dispatch
 
-    def noted(self: DeviceScene, kernel: Any, film: Any, plan: Any, part: Any, tiles: int) -> None:
+    def noted(self: DeviceScene, kernel: Any, film: Any, plan: Any, part: Any, *rest: Any) -> None:
         parts.append(part)
-        work(self, kernel, film, plan, part, tiles)
+        work(self, kernel, film, plan, part, *rest)
 
     monkeypatch.setattr(DeviceScene, "dispatch", noted)
     monkeypatch.setattr(schedule, "FIRST_TILES", 1)
