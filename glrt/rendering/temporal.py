@@ -124,6 +124,7 @@ class Temporal:
         self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, of the one before
         self._pass = SurfacePass(gl)
         self._resolver = resolver_of(gl, Way(mode, predictor))
+        self._is_prepared = False  # whether all passes are compiled
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one
         self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view
@@ -142,6 +143,17 @@ class Temporal:
                 self._resolved(self._resolver, renderer, weights)
             self._is_kept = True
 
+    def prepare(self, renderer: Renderer, weights: Weights | None = None) -> None:
+        """Compile and allocate what the first edit would wait for; nothing of it is shown."""
+        if not self._resolver or not renderer.samples or self._is_prepared:
+            return
+        self._is_prepared = True
+        self.leave(renderer, weights)
+        with self._gl:
+            for before in (self.surfaces, None):
+                self._resolver.arrive(self.surfaces, before, True)
+        self.forget()
+
     def arrive(self, renderer: Renderer) -> None:
         """Begin the view that a renderer shows now; its film has no sample yet."""
         if not self._resolver:
@@ -153,6 +165,7 @@ class Temporal:
         is_usable = self._is_kept and before.scene and shares_objects(renderer.scene, before.scene)
         is_same_light = bool(before.scene and is_lit_alike(renderer, before))
         self._is_brought = bool(is_usable)
+        self._is_prepared |= self._is_brought
         with self._gl:
             self._resolver.arrive(now, before if is_usable else None, is_same_light)
 

@@ -124,4 +124,9 @@ TEMPORAL = [
         ),
         "view/test_moving_picture.py::test_no_error_is_told_while_history_is_shown",
     ),
+    Mutant(
+        "the first edit waits until shaders of history are compiled",
+        (Edit("glrt/rendering/temporal.py", "renderer.samples or self._is_prepared", "True"),),
+        "view/test_moving_picture.py::test_the_first_edit_waits_for_no_shader",
+    ),
 ]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
+import moderngl
 import pytest
 
 from glrt.analysis.motion.playing import read_texture
@@ -9,7 +10,8 @@ from glrt.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering import surfaces, wrls
-from glrt.rendering.temporal import END
+from glrt.rendering.drawn_pass import DrawnPass
+from glrt.rendering.temporal import END, Mode, Temporal
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
 from glrt.view.state.controls import replaced
@@ -68,6 +70,42 @@ def shows_the_film(session: Session) -> bool:
 def walk(session: Session) -> None:
     session.edit(walked(session.scene), "camera")
     session.advance(0.01, count=1)
+
+
+@pytest.mark.parametrize("mode", ["reproject", "taa", "wrls"])
+def test_the_first_edit_waits_for_no_shader(
+    context: Context, mode: Mode, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are compiled with the first sample; and the picture is as it would be otherwise."""
+    scene, compiled, pictures = load("lamps"), list[str](), []
+    settings = settings_for(scene.render, width=24, height=16, bounces=2, samples=8)
+    work = DrawnPass._compile
+
+    def noted(self: DrawnPass) -> moderngl.Program:
+        compiled.append(self._shader)
+        return work(self)
+
+    monkeypatch.setattr(DrawnPass, "_compile", noted)
+    for prepares in (True, False):
+        with monkeypatch.context() as patch, context.gl:
+            if not prepares:
+                patch.setattr(Temporal, "prepare", lambda *_: None)
+            session = Session(scene, settings, context, Clock())
+            session.moving.use(mode)
+            start(session)
+            while not session.is_done:
+                session.advance(0.01)
+            before = len(compiled)
+            walk(session)
+            assert session.renderer
+            assert (len(compiled) == before) is prepares
+            with context.gl:
+                texture = session.moving.texture(session.renderer, session.weights)
+            assert texture
+            with context.gl:
+                pictures.append((session.samples, read_texture(texture)[..., :3].tobytes()))
+            session.release()
+    assert pictures[0] == pictures[1]
 
 
 def test_a_moved_camera_shows_history_until_there_are_samples_enough(moving: Session) -> None:

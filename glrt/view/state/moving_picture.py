@@ -67,6 +67,14 @@ class MovingPicture:
             return self._left_out(error)
         return ""
 
+    def prepare(self, renderer: Renderer, weights: Weights) -> str:
+        """While nothing moves, so that no edit waits for it; returns what the driver refused."""
+        try:
+            self._temporal.prepare(renderer, weights)
+        except RenderError as error:
+            return self._left_out(error)
+        return ""
+
     def arrive(self, renderer: Renderer, cost: Cost | None) -> str:
         """After an edit of a cost; returns what the driver refused, "" for nothing."""
         if cost is Cost.RELIGHT:

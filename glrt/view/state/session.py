@@ -211,6 +211,8 @@ class Session:
         self.rendering += self._clock() - start
         if self.is_shown:
             self._preview.deliver()
+        if not self.is_preview:
+            self.problem = self.moving.prepare(renderer, self.weights) or self.problem
 
     def _apply_pending(self, seconds: float) -> bool:
         """Whether there is something to render; what compiles is announced first."""
