@@ -103,7 +103,7 @@ def main(arguments: list[str] | None = None) -> int:
     add = parser.add_argument
     add("--scenes", nargs="*", metavar="NAME", default=SCENES, help="to compare")
     add("--calibrated", nargs="*", metavar="NAME", default=CALIBRATED, help="to calibrate")
-    add("--size", type=at_least(8), default=64, metavar="N", help="pixels a side (default: 64)")
+    add("--size", type=at_least(8), default=96, metavar="N", help="pixels a side (default: 96)")
     add("--samples", type=at_least(32), default=256, metavar="N", help="of each (default: 256)")
     add("--renders", type=at_least(1), default=8, metavar="N", help="of each way (default: 8)")
     add("--repeats", type=at_least(2), default=64, metavar="N", help="to calibrate (default: 64)")
