@@ -92,7 +92,7 @@ def _sideways(lab: Lab, scene: Scene) -> Sweep:
             errors[name].append(math.sqrt(max(statistics.fmean(found), 0.0)))
     return Sweep(
         parameter="speed of the camera, in pixels a frame",
-        measure=f"relative RMS error after {FRAMES} frames of {SAMPLES} samples",
+        measure=f"relative RMS error after {FRAMES} frames",
         x=SPEEDS,
         chosen=(CHOSEN, errors[CHOSEN]),
         others={name: errors[name] for name in errors if name != CHOSEN},

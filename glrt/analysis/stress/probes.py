@@ -30,8 +30,8 @@ def leak(lab: Lab) -> Sweep:
             variant = WITHOUT.get(name, PLAIN)
             values.append(_light(lab, house(thickness * CELL, 1), samples, variant) / lit)
     return Sweep(
-        parameter="thickness of the wall between two rooms, in cells of the grid of probes",
-        measure="light on the floor of the dark room over that of the lit one",
+        parameter="thickness of the wall, in cells",
+        measure="light behind a wall over that before it",
         x=THICKNESSES,
         chosen=("ddgi", found.pop("ddgi")),
         others=found,
@@ -49,9 +49,9 @@ def white(lab: Lab) -> Sweep:
         image = lab.render(room, lab.count(16), probes=3, **SETTINGS)
         lacking.append(abs(1 - mean_of(image)[0] * (1 - albedo)))
     return Sweep(
-        parameter="albedo of a closed room that shines",
-        measure="what its light lacks, over 1 / (1 - albedo)",
-        x=ALBEDOS,
+        parameter="share of light that walls absorb, 1 - albedo",
+        measure="share of its light that is missing",
+        x=[1 - albedo for albedo in ALBEDOS],
         chosen=("ddgi, warmed up by Chebyshev's weights", lacking),
         others={
             "as many updates that count whole": [a ** (PLAIN_UPDATES + 1) for a in ALBEDOS],
