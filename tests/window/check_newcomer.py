@@ -176,8 +176,7 @@ def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
     for title in CLOSED:
         ctx.item_open(f"//Controls/{title}")
         ctx.yield_(3)
-    panel: Any = ctx.window_info("//Controls").window
-    right = panel.inner_clip_rect.max.x
+    right = hand.there(lambda: imgui.internal.find_window_by_name("Controls").inner_clip_rect.max.x)
     try:
         for row in (*ROWS, f"name##shape {number}", f"type##material {shape.material}"):
             info = ctx.item_info(f"//Controls/{row}")
