@@ -6,18 +6,24 @@ beyond that is the square of what the filter makes wrong: its bias, in light tha
 under a caustic or in a shadow. Shown is A + alpha (D - A), with the alpha that makes the sum of
 both squares least. Everything is taken from the one half, so the other one can judge the result.
 
+Averages are taken over neighbours that look alike in D and in its guides: a lamp or a sky without
+noise is not judged by the wall beside it, and the pixels of an edge by others of that edge.
+
 Wiener (1949) for alpha; Stein, "Estimation of the Mean of a Multivariate Normal Distribution"
-(1981), for what (D - A)^2 is without bias.
+(1981), for what (D - A)^2 is without bias; Tomasi and Manduchi, "Bilateral Filtering for Gray and
+Color Images" (1998), for means over what looks alike.
 """
 
 import numpy as np
 
 from glrt.denoise.filters import Filtered
 from glrt.denoise.half import Half, Pixels
-from glrt.denoise.windows import Array, window_mean
+from glrt.denoise.windows import Array, pairs
 
 REACH = 3  # pixels: squares are averaged over 7 x 7
-SPARED = 0.3  # of the variance: a smaller excess of the squares is taken for chance
+SPARED = 0.5  # of the variance: a smaller excess of the squares is taken for chance
+ALIKE = 0.25  # difference of guides, or of logarithms of D, that makes a weight of 1 / e
+DARK = 0.02  # of the mean of D: differences of what is darker count less
 
 
 def blended(half: Half, found: Filtered) -> Pixels:
@@ -29,15 +35,35 @@ def blended(half: Half, found: Filtered) -> Pixels:
 def trust(half: Half, found: Filtered) -> Array:
     """Alpha of each pixel, (H, W) float32: 1 where the filter is right, 0 where it does harm."""
     own = found.own_weight[..., None]
-    apart = _local(np.square(found.radiance - half.radiance))
-    noise = _local(half.variance * (1 - own))
-    expected = _local(half.variance * (1 - 2 * own))
+    squares = (
+        np.square(found.radiance - half.radiance),
+        half.variance * (1 - own),
+        half.variance * (1 - 2 * own),
+    )
+    planes = np.stack([square.mean(axis=-1, dtype=np.float64) for square in squares])
+    apart, noise, expected = _mean_of_alike(planes, _looks(half, found.radiance))
     wrong = np.maximum(apart - expected - SPARED * noise, 0)
     whole = noise + wrong
     alpha = np.divide(noise, whole, out=np.zeros_like(whole), where=whole > 0)
     return np.asarray(alpha, np.float32)
 
 
-def _local(squares: Array) -> Array:
-    """Mean over channels and neighbours, (H, W) float64."""
-    return window_mean(squares.mean(axis=-1, dtype=np.float64), REACH)
+def _looks(half: Half, radiance: Pixels) -> Pixels:
+    """What neighbours are compared by, (H, W, 9), in units of `ALIKE`."""
+    light = np.maximum(radiance, 0)
+    floor = max(DARK * float(light.mean()), float(np.finfo(np.float32).tiny))
+    parts = np.log(light + floor), half.albedo.mean, half.normal.mean
+    return np.concatenate(parts, axis=-1, dtype=np.float32) / np.float32(ALIKE)
+
+
+def _mean_of_alike(planes: Array, looks: Pixels) -> Array:
+    """Means of planes (N, H, W) over neighbours, weighted by how alike they look."""
+    total, weights = planes.copy(), np.ones(planes.shape[1:])
+    for here, there in pairs(planes.shape[1:], REACH):
+        apart = looks[here] - looks[there]
+        weight = np.exp(-np.einsum("...i,...i", apart, apart))
+        total[:, *here] += weight * planes[:, *there]
+        total[:, *there] += weight * planes[:, *here]
+        weights[here] += weight
+        weights[there] += weight
+    return np.asarray(total / weights)

@@ -9,13 +9,11 @@ Zwicker, "Adaptive Rendering with Non-Local Means Filtering" (2012), equations 3
 Manzi and Zwicker, "Robust Denoising using Feature and Color Information" (2013), equations 6 to 9.
 """
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
 from glrt.denoise.half import Guide, Half, Pixels
-from glrt.denoise.windows import window_mean
+from glrt.denoise.windows import Place, pairs, window_mean
 
 REACH = 7  # of the window in pixels: how far a pixel looks
 PATCH = 2  # of a patch: 5 x 5 pixels are compared at once
@@ -26,7 +24,6 @@ LEAST = 3e-3  # variance of guides below which they count as equal
 NO_NOISE = 1e-10  # variance added to those of colours, in squared units of radiance
 
 Plane = NDArray[np.float32]
-Place = tuple[slice, ...]
 
 
 def filtered(half: Half) -> tuple[Pixels, Plane]:
@@ -35,8 +32,7 @@ def filtered(half: Half) -> tuple[Pixels, Plane]:
     spans = [_span(guide) for guide in half.guides]
     total = color.astype(np.float64)
     weights = np.ones(color.shape[:2])
-    for offset in _offsets(*color.shape[:2]):
-        here, there = _overlap(color.shape[:2], offset)
+    for here, there in pairs(color.shape[:2], REACH):
         weight = _alike(color, variance, here, there)
         for guide, span in zip(half.guides, spans, strict=True):
             np.minimum(weight, _same_surface(guide, span, here, there), out=weight)
@@ -46,24 +42,6 @@ def filtered(half: Half) -> tuple[Pixels, Plane]:
         weights[there] += weight
     mean = total / weights[..., None]
     return mean.astype(np.float32), (1 / weights).astype(np.float32)
-
-
-def _offsets(height: int, width: int) -> Iterator[tuple[int, int]]:
-    """Half of those in the window and in the picture: each pair of pixels once."""
-    across = min(REACH, width - 1)
-    for down in range(min(REACH, height - 1) + 1):
-        for right in range(-across, across + 1):
-            if down > 0 or right > 0:
-                yield down, right
-
-
-def _overlap(size: tuple[int, ...], offset: tuple[int, int]) -> tuple[Place, Place]:
-    """Where a pixel and the one at the offset both lie in the picture."""
-    here, there = [], []
-    for length, step in zip(size, offset, strict=True):
-        here.append(slice(max(0, -step), max(0, length - max(0, step))))
-        there.append(slice(max(0, step), max(0, length - max(0, -step))))
-    return tuple(here), tuple(there)
 
 
 def _alike(color: Pixels, variance: Pixels, here: Place, there: Place) -> Plane:

@@ -1,11 +1,13 @@
-"""Means over the neighbourhood of each pixel."""
+"""Means over the neighbourhood of each pixel, and pairs of neighbours."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+Place = tuple[slice, ...]
 
 
 def window_mean(image: Array, reach: int) -> Array:
@@ -39,3 +41,25 @@ def _ends(length: int, reach: int) -> tuple[Array, Array]:
     """First neighbour of each place, and the one after the last."""
     places = np.arange(length)
     return np.maximum(places - reach, 0), np.minimum(places + reach + 1, length)
+
+
+def pairs(size: tuple[int, ...], reach: int) -> Iterator[tuple[Place, Place]]:
+    """Each pair of pixels of a picture (H, W) once that lie up to `reach` apart either way.
+
+    All pairs of an offset come at once: the places of the one and those of the other.
+    """
+    height, width = size
+    across = min(reach, width - 1)
+    for down in range(min(reach, height - 1) + 1):
+        for right in range(-across, across + 1):
+            if down > 0 or right > 0:
+                yield _overlap(size, (down, right))
+
+
+def _overlap(size: tuple[int, ...], offset: tuple[int, int]) -> tuple[Place, Place]:
+    """Where a pixel and the one at the offset both lie in the picture."""
+    here, there = [], []
+    for length, step in zip(size, offset, strict=True):
+        here.append(slice(max(0, -step), max(0, length - max(0, step))))
+        there.append(slice(max(0, step), max(0, length - max(0, -step))))
+    return tuple(here), tuple(there)

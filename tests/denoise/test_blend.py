@@ -1,6 +1,7 @@
 """The plain picture wins where a filter errs by more than the noise."""
 
 import numpy as np
+import pytest
 
 from glrt.denoise.blend import blended, trust
 from glrt.denoise.filters import Filtered
@@ -52,3 +53,44 @@ def test_own_weight_is_counted() -> None:
     mean = blocks.repeat(2, axis=0).repeat(2, axis=1)
     alpha = trust(half, Filtered(mean, np.full((64, 64), 0.25, np.float32)))
     assert alpha.mean() > 0.9
+
+
+@pytest.mark.parametrize(("lamp", "guide"), [(4.0, 0.5), (0.5, 1.0)], ids=["light", "guide"])
+def test_light_without_noise_is_not_judged_by_the_noisy_wall_beside_it(
+    lamp: float, guide: float
+) -> None:
+    """A filter makes a lamp darker, and is right on the wall; the two look different by either."""
+    is_lamp = np.zeros((32, 32, 1), bool)
+    is_lamp[:, :16] = True
+    truth, looks = np.where(is_lamp, lamp, TRUTH), np.where(is_lamp, guide, TRUTH)
+    half = drawn(np.random.default_rng(5), truth, (16, 16), guide=looks).halves[0]
+    half = half._replace(
+        radiance=np.where(is_lamp, truth, half.radiance).astype(np.float32),
+        variance=np.where(is_lamp, 0, half.variance),
+    )
+    wrong = np.where(is_lamp, 0.95 * truth, truth).astype(np.float32)
+    alpha = trust(half, Filtered(wrong, NO_WEIGHT))
+    assert alpha[:, :16].max() < 0.05
+    assert alpha[:, 16:].mean() > 0.9
+
+
+def test_an_edge_is_judged_by_its_own_pixels() -> None:
+    """A filter blurs a line of one pixel; the noise of its surroundings does not cover that."""
+    truth = TRUTH.copy()
+    truth[:, 16] = 1.0
+    half = drawn(np.random.default_rng(6), truth, (16, 16), guide=truth).halves[0]
+    blurred = truth.astype(np.float32)
+    blurred[:, 16] = 0.7
+    alpha = trust(half, Filtered(blurred, NO_WEIGHT))
+    assert alpha[:, 16].mean() < 0.35
+    assert alpha[:, :16].mean() > 0.9
+
+
+def test_alike_is_told_by_ratios() -> None:
+    """The same bits in another unit of radiance."""
+    half = drawn(np.random.default_rng(7), TRUTH).halves[0]
+    found = Filtered(half.radiance[::-1].copy(), NO_WEIGHT)
+    unit = np.float32(2**20)
+    other = half._replace(radiance=half.radiance * unit, variance=half.variance * unit**2)
+    scaled = trust(other, found._replace(radiance=found.radiance * unit))
+    np.testing.assert_allclose(scaled, trust(half, found), rtol=1e-4)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glrt.denoise.windows import window_mean
+from glrt.denoise.windows import pairs, window_mean
 
 
 @pytest.mark.parametrize("reach", [0, 1, 3, 9])
@@ -22,3 +22,22 @@ def test_the_type_stays_and_sums_do_not_lose_digits() -> None:
     found = window_mean(image, 2)
     assert found.dtype == np.float32
     np.testing.assert_allclose(found[10:, 10:], 1e-3, rtol=1e-6)
+
+
+@pytest.mark.parametrize("reach", [1, 3])
+@pytest.mark.parametrize("size", [(5, 7), (1, 4), (3, 2)])
+def test_each_pair_of_neighbours_comes_once(size: tuple[int, int], reach: int) -> None:
+    number = np.arange(size[0] * size[1]).reshape(size)
+    found = [
+        frozenset(pair)
+        for here, there in pairs(size, reach)
+        for pair in zip(number[here].flat, number[there].flat, strict=True)
+    ]
+    near = [
+        frozenset((number[a], number[b]))
+        for a in np.ndindex(size)
+        for b in np.ndindex(size)
+        if a != b and max(abs(a[0] - b[0]), abs(a[1] - b[1])) <= reach
+    ]
+    assert len(found) == len(set(found))
+    assert set(found) == set(near)

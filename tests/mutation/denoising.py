@@ -69,6 +69,20 @@ DENOISING = [
         "denoise/test_blend.py::test_a_filter_that_is_wrong_is_not_where_it_is_wrong",
     ),
     mutant(
+        "a lamp without noise is judged by the noise of the wall beside it",
+        BLEND,
+        "parts = np.log(light + floor), half",
+        "parts = 0 * light, half",
+        "denoise/test_blend.py::test_light_without_noise_is_not_judged_by_the_noisy_wall_beside_it",
+    ),
+    mutant(
+        "guides do not tell neighbours apart that a filter judges",
+        BLEND,
+        "half.albedo.mean, half.normal.mean",
+        "0 * half.albedo.mean, 0 * half.normal.mean",
+        "denoise/test_blend.py::test_light_without_noise_is_not_judged_by_the_noisy_wall_beside_it",
+    ),
+    mutant(
         "noise of colours counts as a difference",
         NLM,
         "np.square(color[here] - color[there]) - 2 * np.minimum(a, b)",
