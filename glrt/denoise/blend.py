@@ -7,7 +7,8 @@ under a caustic or in a shadow. Shown is A + alpha (D - A), with the alpha that 
 both squares least. Everything is taken from the one half, so the other one can judge the result.
 
 Averages are taken over neighbours that look alike in D and in its guides: a lamp or a sky without
-noise is not judged by the wall beside it, and the pixels of an edge by others of that edge.
+noise is not judged by the wall beside it, and the pixels of an edge by others of that edge. What
+few look like is judged by little: there a filter is trusted less.
 
 Wiener (1949) for alpha; Stein, "Estimation of the Mean of a Multivariate Normal Distribution"
 (1981), for what (D - A)^2 is without bias; Tomasi and Manduchi, "Bilateral Filtering for Gray and
@@ -23,6 +24,7 @@ from glrt.denoise.windows import Array, pairs
 REACH = 3  # pixels: squares are averaged over 7 x 7
 SPARED = 0.5  # of the variance: a smaller excess of the squares is taken for chance
 ALIKE = 0.25  # difference of guides, or of logarithms of D, that makes a weight of 1 / e
+FLAW = 0.01  # of what a filter shows: it may be wrong by that anywhere
 DARK = 0.02  # of the mean of D: differences of what is darker count less
 
 
@@ -39,12 +41,13 @@ def trust(half: Half, found: Filtered) -> Array:
         np.square(found.radiance - half.radiance),
         half.variance * (1 - own),
         half.variance * (1 - 2 * own),
+        np.square(FLAW * found.radiance),
     )
     planes = np.stack([square.mean(axis=-1, dtype=np.float64) for square in squares])
-    apart, noise, expected = _mean_of_alike(planes, _looks(half, found.radiance))
+    (apart, noise, expected, flaw), count = _mean_of_alike(planes, _looks(half, found.radiance))
     wrong = np.maximum(apart - expected - SPARED * noise, 0)
-    whole = noise + wrong
-    alpha = np.divide(noise, whole, out=np.zeros_like(whole), where=whole > 0)
+    whole = noise + wrong + flaw + noise / count
+    alpha = np.divide(noise, whole, out=np.zeros_like(whole), where=noise > 0)
     return np.asarray(alpha, np.float32)
 
 
@@ -56,8 +59,8 @@ def _looks(half: Half, radiance: Pixels) -> Pixels:
     return np.concatenate(parts, axis=-1, dtype=np.float32) / np.float32(ALIKE)
 
 
-def _mean_of_alike(planes: Array, looks: Pixels) -> Array:
-    """Means of planes (N, H, W) over neighbours, weighted by how alike they look."""
+def _mean_of_alike(planes: Array, looks: Pixels) -> tuple[Array, Array]:
+    """Means of planes (N, H, W) over neighbours as they look alike, and of how many, (H, W)."""
     total, weights = planes.copy(), np.ones(planes.shape[1:])
     for here, there in pairs(planes.shape[1:], REACH):
         apart = looks[here] - looks[there]
@@ -66,4 +69,4 @@ def _mean_of_alike(planes: Array, looks: Pixels) -> Array:
         total[:, *there] += weight * planes[:, *here]
         weights[here] += weight
         weights[there] += weight
-    return np.asarray(total / weights)
+    return total / weights, weights

@@ -94,3 +94,22 @@ def test_alike_is_told_by_ratios() -> None:
     other = half._replace(radiance=half.radiance * unit, variance=half.variance * unit**2)
     scaled = trust(other, found._replace(radiance=found.radiance * unit))
     np.testing.assert_allclose(scaled, trust(half, found), rtol=1e-4)
+
+
+def test_what_few_look_like_is_trusted_half() -> None:
+    """One pixel unlike all others is judged by its own noise alone."""
+    truth = TRUTH.copy()
+    truth[16, 16] = 4.0
+    half = drawn(np.random.default_rng(8), truth, (16, 16), guide=truth).halves[0]
+    alpha = trust(half, Filtered(truth.astype(np.float32), NO_WEIGHT))
+    assert 0.3 < alpha[16, 16] <= 0.5
+    assert alpha[:, :12].mean() > 0.9
+
+
+def test_no_filter_is_better_than_a_percent() -> None:
+    """With noise of a tenth of that the plain picture is shown, however right the filter looks."""
+    half = drawn(np.random.default_rng(9), TRUTH).halves[0]
+    noise = 1e-3 * (half.radiance - TRUTH)
+    half = half._replace(radiance=(TRUTH + noise).astype(np.float32), variance=1e-6 * half.variance)
+    alpha = trust(half, Filtered(TRUTH.astype(np.float32), NO_WEIGHT))
+    assert alpha.max() < 0.02

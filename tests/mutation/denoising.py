@@ -83,6 +83,20 @@ DENOISING = [
         "denoise/test_blend.py::test_light_without_noise_is_not_judged_by_the_noisy_wall_beside_it",
     ),
     mutant(
+        "a pixel that none looks like is judged as surely as others",
+        BLEND,
+        " + noise / count",
+        "",
+        "denoise/test_blend.py::test_what_few_look_like_is_trusted_half",
+    ),
+    mutant(
+        "a filter is believed to be right to any digit",
+        BLEND,
+        " + flaw",
+        "",
+        "denoise/test_blend.py::test_no_filter_is_better_than_a_percent",
+    ),
+    mutant(
         "noise of colours counts as a difference",
         NLM,
         "np.square(color[here] - color[there]) - 2 * np.minimum(a, b)",
