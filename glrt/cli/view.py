@@ -1,7 +1,6 @@
 """`glrt view`: open the window, or say what is missing for it."""
 
 import argparse
-import sys
 
 from glrt.cli.options import (
     SCENE,
@@ -11,6 +10,7 @@ from glrt.cli.options import (
     file_rules,
     settings_given,
 )
+from glrt.denoise.filters import with_filter
 from glrt.early import leave_at_once
 from glrt.errors import ContextError, UsageError
 from glrt.image.sources import load_recipe
@@ -45,9 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Show the window until it is closed; exit code 3 where none can be opened."""
     scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
-    if settings.denoise != "none":
-        settings = settings_for(settings, denoise="none")
-        print("glrt: the window shows the plain picture: --denoise none.", file=sys.stderr)
+    settings = with_filter(settings)
     scene = with_lights(scene, dict(arguments.lights))
     try:
         with handled(leave_at_once):

@@ -50,6 +50,10 @@ class Halver:
             stops.append(_next_whole(samples + 1, settings.block))
         return min(stop for stop in stops if stop > samples)
 
+    def has_half(self, samples: int, block: int) -> bool:
+        """Whether what is kept makes halves of a picture of so many samples."""
+        return self._first_half(samples, block) is not None
+
     def keep(self, image: Image) -> None:
         """Keep the picture as it is now."""
         self._kept = [*self._kept, image][-KEPT:]

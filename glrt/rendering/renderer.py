@@ -204,12 +204,15 @@ class Renderer(Progress):
         image = self.plain_image(weights)
         return self._halver.finished(image)
 
-    def plain_image(self, weights: Weights | None = None) -> Image:
-        """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too."""
+    def plain_image(self, weights: Weights | None = None, beside_layers: bool = False) -> Image:
+        """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too.
+
+        `beside_layers`: with the state of a film that keeps layers, from which none goes on.
+        """
         weights = weights or self.plan.weights
         with self.context.gl:
             aovs = self._tracer.aov_images()
-            mean, noise, state = mixed(self.film, weights)
+            mean, noise, state = mixed(self.film, weights, beside_layers)
             waiting = self._tracer.with_particles(mean, noise, weights, waits=True)
         radiance, stderr, films = waiting
         return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)

@@ -30,14 +30,17 @@ def read_row(film: Film, weights: Weights, y: int) -> tuple[Exposure, Array, Arr
     return row, *_mixed(row, weights)
 
 
-def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]:
+def mixed(
+    film: Film, weights: Weights, beside_layers: bool = False
+) -> tuple[Array, Array, FilmState | None]:
     """Radiance and its standard error, (H, W, 3) float32 each, of a film under weights.
 
-    And what the film has gathered beside them: None if they do not tell its mean, or not alone.
+    And what the film has gathered beside them: None if they do not tell its mean, or, but for
+    `beside_layers`, not alone.
     """
     width, height = film.size
     radiance, error = np.empty((2, height, width, 3), np.float32)
-    is_all = are_trivial(weights) and not film.extent.layers
+    is_all = are_trivial(weights) and (beside_layers or not film.extent.layers)
     film_state = empty_state(height, width) if is_all else None
     for rows in film.bands():
         exposure = film.read(rows)

@@ -144,7 +144,7 @@ class Files:
             self.messages.complain(save_recent(recent, self.recent_file))
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
-        self.session.opened = State(scene, settings_for(settings, crop=None))
+        self.session.opened = State(scene, settings_for(settings, crop=None, denoise="none"))
         self.session.problem = ""
         self.session.edit(scene, **dict(self.session.opened.settings))
         self.show(scene)

@@ -14,7 +14,7 @@ from glrt.rendering.false_colors import FalseColors
 from glrt.rendering.stopping import Interruption
 from glrt.rendering.surface_view import SurfaceView
 from glrt.scene.scene import Scene
-from glrt.settings import Settings
+from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
@@ -28,6 +28,7 @@ from glrt.view.panels.questions import draw_question
 from glrt.view.panels.shortcuts import draw_keys
 from glrt.view.panels.tour import draw_tour
 from glrt.view.panels.viewport import draw_viewport
+from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.preferences import load_preferences, preferences_file
@@ -125,14 +126,14 @@ class Window:
     def _open(self) -> None:
         """The window is there, and its context current."""
         source, scene, settings = self._opened
-        context = wrap_window()
+        plain, context = settings_for(settings, denoise="none"), wrap_window()
         preferences, problem = load_preferences(preferences_file())
         self._rate = RATES[context.is_software]
-        session = Session(scene, settings, context, pipeline=self._pipeline, rest=IdleKernel())
+        session = Session(scene, plain, context, pipeline=self._pipeline, rest=IdleKernel())
         self.app = App(
             session=session,
             messages=Messages(session),
-            show=_shown(context.gl),
+            show=_shown(context.gl, settings.denoise),
             preferences=preferences,
             preferences_file=preferences_file(),
             source=source,
@@ -224,8 +225,11 @@ class Window:
         self.app.session.release()
 
 
-def _shown(gl: moderngl.Context) -> PictureView:
-    return PictureView(Picture(gl), FalseColors(gl), AovView(gl), SurfaceView(gl))
+def _shown(gl: moderngl.Context, denoise: Denoise) -> PictureView:
+    show = PictureView(Picture(gl), FalseColors(gl), AovView(gl), SurfaceView(gl))
+    if denoise != "none":
+        show.denoised, show.view = DenoisedPicture(denoise), "denoised"
+    return show
 
 
 def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:

@@ -97,6 +97,20 @@ DENOISING = [
         "denoise/test_blend.py::test_no_filter_is_better_than_a_percent",
     ),
     mutant(
+        "the window shows what was denoised before an edit",
+        "view/state/denoised_picture.py",
+        "        if of != self._of:\n",
+        "        if self._of is None:\n",
+        "view/test_denoised_picture.py::test_an_edit_begins_anew",
+    ),
+    mutant(
+        "the window's frames pass by the middle of the samples",
+        "view/state/session.py",
+        "            target = min(target, self.stop or target)\n",
+        "",
+        "view/test_denoised_picture.py::test_it_is_what_a_render_makes",
+    ),
+    mutant(
         "noise of colours counts as a difference",
         NLM,
         "np.square(color[here] - color[there]) - 2 * np.minimum(a, b)",

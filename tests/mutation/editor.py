@@ -129,14 +129,14 @@ EDITOR: list[Mutant] = [
     bug(
         "a refusal outlives the edit that it was of",
         _VIEW,
-        "session.aov, session.refused = aov_of(self.view), None",
-        "session.aov = aov_of(self.view)",
+        "session.aovs, session.refused = gathered_for(self.view), ()",
+        "session.aovs = gathered_for(self.view)",
         f"{_REFUSED}::test_a_refused_view_is_given_up_and_had_once_the_edit_is_undone",
     ),
     bug(
         "a refused view is not given up",
         _VIEW,
-        "if session.refused == self.view:",
+        "if session.refused and session.refused == gathered_for(self.view):",
         "if session.refused != session.refused:",
         f"{_REFUSED}::test_a_refused_view_is_given_up_and_had_once_the_edit_is_undone",
     ),

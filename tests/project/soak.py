@@ -18,6 +18,7 @@ from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.methods.light_layers import Layering
+from glrt.methods.table import METHODS
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.scene.catalog import scene_names
@@ -57,12 +58,14 @@ def all_scenes() -> list[Scene]:
 
 def any_settings(chance: random.Random) -> dict[str, Any]:
     """Settings that are valid for every scene."""
-    sampler = chance.choice(get_args(Sampler))
+    sampler, method = chance.choice(get_args(Sampler)), chance.choice(get_args(Method))
+    if METHODS[method].has_probes:
+        sampler = "sobol"
     return {
         "width": round(LARGEST ** chance.random()),
         "height": round(LARGEST ** chance.random()),
         "bounces": chance.randint(0, 8),
-        "method": chance.choice(get_args(Method)),
+        "method": method,
         "sampler": sampler,
         "roulette": chance.random() < 0.5,
         "seed": chance.randint(0, 99),
@@ -71,16 +74,23 @@ def any_settings(chance: random.Random) -> dict[str, Any]:
     }
 
 
-def any_way(chance: random.Random) -> dict[str, Any]:
+def any_layering(chance: random.Random, method: Method) -> Layering:
+    """What layers may hold: nothing by a method that keeps its light in probes."""
+    return "none" if METHODS[method].has_probes else chance.choice(get_args(Layering))
+
+
+def any_way(chance: random.Random, method: Method) -> dict[str, Any]:
     """How a renderer may go about it."""
-    pipeline = chance.choice(["compute", "fragment"])
-    layering = "none" if pipeline == "fragment" else chance.choice(get_args(Layering))
+    pipelines = ["compute"] if METHODS[method].has_probes else ["compute", "fragment"]
+    pipeline = chance.choice(pipelines)
+    layering = "none" if pipeline == "fragment" else any_layering(chance, method)
     return {"tier": chance.choice(get_args(Tier)), "pipeline": pipeline, "layering": layering}
 
 
 def change(renderer: Renderer, scene: Scene, chance: random.Random) -> None:
     """As the window does: another scene and other settings, some work, and what is shown."""
-    renderer.update(scene, chance.choice(get_args(Layering)), **any_settings(chance))
+    settings = any_settings(chance)
+    renderer.update(scene, any_layering(chance, settings["method"]), **settings)
     renderer.advance(0.05)
     if chance.random() < 0.5:
         renderer.bake()
@@ -93,7 +103,9 @@ def change(renderer: Renderer, scene: Scene, chance: random.Random) -> None:
 def open_another(context: Context | None, scene: Scene, chance: random.Random, file: Path) -> None:
     """As a script does: a picture, saved and read again; without a context, in one of its own."""
     route: Choice = chance.choice(["egl", "osmesa"])
-    renderer = Renderer(scene, context=context or route, **any_way(chance), **any_settings(chance))
+    settings = any_settings(chance)
+    ways = any_way(chance, settings["method"])
+    renderer = Renderer(scene, context=context or route, **ways, **settings)
     image = renderer.render().image()
     renderer.release()
     image.save(file.with_suffix(".png"))

@@ -50,8 +50,9 @@ class Session:
         self.paused = False
         self.waits = False  # for another picture, which is to get as many samples
         self.alone: int | None = None  # the one length that is shown
-        self.aov: Aov | None = None  # that is shown
-        self.refused: Aov | None = None  # that cannot be
+        self.aovs: tuple[Aov, ...] = ()  # of the view
+        self.refused: tuple[Aov, ...] = ()  # that cannot be
+        self.stop: int | None = None  # samples at which a frame is to end
         self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
         self.busy = self.problem = ""  # what the next frame will wait for, and the last refusal
         self.restarts = 0
@@ -173,6 +174,7 @@ class Session:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
+            target = min(target, self.stop or target)
             is_short = self.renderer.lacks(target)
             if is_short and not (self.rest and self.rest.follow(self.renderer, self.restarts)):
                 self._render(self.renderer, target, seconds, self._clock() - start)
@@ -267,7 +269,7 @@ class Session:
 
     def _refuse(self, error: GlrtError) -> None:
         """Tell, and go back to what the renderer has; without one there is nothing to do."""
-        self.problem, self.refused = str(error), self.aov
+        self.problem, self.refused = str(error), self.aovs
         self._preview.end()
         if not self.renderer:
             raise error
@@ -293,6 +295,6 @@ class Session:
     def _wanted(self) -> State:
         """What the renderer is to show: while edits restart it, at a size that keeps up."""
         factor = self._preview.factor
-        shown = (self.aov,) if self.aov else NEEDED if factor > 1 and self.surface.is_wanted else ()
+        shown = self.aovs or (NEEDED if factor > 1 and self.surface.is_wanted else ())
         state = State(self.scene, self.settings).showing(*shown).coarser(factor)
         return self.moving.reseeded(state) if self._preview.is_under_way else state

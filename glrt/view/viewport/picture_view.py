@@ -1,6 +1,6 @@
 """What the screen shows of a render: a view of it, and the kept picture beside it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import moderngl
 
@@ -9,11 +9,12 @@ from glrt.rendering.false_colors import FalseColors, Scale
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED, SurfaceView
 from glrt.view.state.costs import traced_bounces
+from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.difference import GROWTH, Difference, difference_of
 from glrt.view.viewport.picture import Picture
-from glrt.view.viewport.views import View, aov_of, number_of, scale_of
+from glrt.view.viewport.views import View, aov_of, gathered_for, number_of, scale_of
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
@@ -30,6 +31,7 @@ class PictureView:
     aovs: AovView
     surface: SurfaceView
     view: View = "picture"  # as wanted; see `drawn`
+    denoised: DenoisedPicture = field(default_factory=DenoisedPicture)
     most: float = 0.5  # relative difference that has the strongest colour
     bounces: int = 10  # the limit that the paths were traced to; the picture may show fewer
     wipe: float = 0.5  # share of the picture's width that shows the kept one
@@ -54,15 +56,18 @@ class PictureView:
 
         RenderError if the driver has no room for that.
         """
-        if session.refused == self.view:
+        if session.refused and session.refused == gathered_for(self.view):
             self.view = "picture"
-        session.aov, session.refused = aov_of(self.view), None
+        session.aovs, session.refused = gathered_for(self.view), ()
+        is_denoised = self.view == "denoised"
+        session.stop = self.denoised.stop(session) if is_denoised else None
         self.bounces = traced_bounces(session)
         renderer = session.renderer
         kept = self._compared(session)
         is_ahead = kept and renderer and kept.samples(renderer) < session.samples
         session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
+        self.denoised.follow(session) if is_denoised else self.denoised.rest()
         if kept and session.renderer:
             is_alone = session.is_done or session.waits
             kept.catch_up(session.renderer, max(seconds, LONGER) if is_alone else seconds / 2)
@@ -73,7 +78,7 @@ class PictureView:
         """Whether nothing remains to be rendered."""
         kept, renderer = self._compared(session), session.renderer
         is_behind = kept and renderer and kept.samples(renderer) < session.samples
-        return session.is_done and not is_behind
+        return session.is_done and not is_behind and not self.denoised.is_under_way
 
     def draw(self, session: Session) -> None:
         """Bring the newest samples to the screen; without any the old picture stays."""
@@ -99,6 +104,7 @@ class PictureView:
             self.scale,
             self.mean,
             kept,
+            id(self.denoised.found),
         )
         if content != self._content:
             self._draw(session, renderer, view, other)
@@ -139,6 +145,8 @@ class PictureView:
             return NO_HISTORY.format(number, of)
         if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
             return HISTORY.format(session.moving.end)
+        if self.view == "denoised":
+            return self.denoised.told(session)
         if self.view == "picture":
             return ""
         if self.view != "difference":
@@ -158,6 +166,7 @@ class PictureView:
     def release(self) -> None:
         """Free what the driver holds."""
         self.forget()
+        self.denoised.release()
         self.picture.release()
         self.colors.release()
         self.aovs.release()
@@ -172,6 +181,8 @@ class PictureView:
 
     def _possible(self, session: Session) -> View:
         """The view as wanted, or the picture where that cannot be told."""
+        if self.view == "denoised":
+            return self.view if self.denoised.fits(session) else "picture"
         if aov := aov_of(self.view):
             is_there = session.renderer and session.renderer.aov_mean(aov)
             return self.view if is_there else "picture"
@@ -200,6 +211,10 @@ class PictureView:
             shown = session.moving.texture(renderer, weights) or light
             self.picture.draw(shown, session.settings, session.is_preview)
             return self._draw_surface(session, renderer) if session.is_preview else None
+
+        if view == "denoised":
+            with self.denoised.texture(renderer.context.gl) as shown:
+                return self.picture.draw(shown, session.settings)
 
         aov = aov_of(view)
         mean = renderer.aov_mean(aov) if aov else None

@@ -14,14 +14,16 @@ from glrt.rendering.false_colors import (
     symmetric,
 )
 from glrt.scene.camera import Camera
-from glrt.settings import Aov
+from glrt.settings import GUIDES, Aov
 
-FilmView = Literal["picture", "error", "dropped", "difference", "history", "weight"]
+FilmView = Literal["picture", "denoised", "error", "dropped", "difference", "history", "weight"]
 View = FilmView | Aov
 VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 
 HELP = (
     "picture: as it will be saved\n"
+    "denoised: without its noise, as --denoise makes it, and how wrong that is; files have the "
+    "picture\n"
     "error: the estimated relative error of each pixel\n"
     "dropped: where samples were not finite and were left out\n"
     "difference: from the kept picture, at equal seeds and samples; what did not change shows no "
@@ -34,6 +36,7 @@ HELP = (
     "bounces: how often the paths of a pixel scatter before they end, in the mean"
 )
 TITLES: dict[View, str] = {
+    "denoised": "denoised; files have the plain picture",
     "error": "estimated relative error of a pixel",
     "dropped": "samples dropped, not finite",
     "difference": "luminance against the kept picture",
@@ -63,6 +66,12 @@ def told_limit(limit: int | None) -> str:
     return "" if limit is None else f", of paths of up to {limit}"
 
 
+def gathered_for(view: View) -> tuple[Aov, ...]:
+    """The AOVs that a view needs."""
+    aov = aov_of(view)
+    return GUIDES if view == "denoised" else (aov,) if aov else ()
+
+
 def aov_of(view: View) -> Aov | None:
     """The AOV that a view shows, if it shows one."""
     return next((aov for aov in get_args(Aov) if aov == view), None)
@@ -75,7 +84,7 @@ def number_of(view: View) -> Number | None:
 
 def has_scale(view: View) -> bool:
     """Whether a view has false colours, and so a legend with numbers."""
-    return view == "bounces" or aov_of(view) is None
+    return view == "bounces" or not gathered_for(view)
 
 
 def scale_of(view: View, most: float, bounces: int) -> Scale:

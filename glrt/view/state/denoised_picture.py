@@ -1,0 +1,142 @@
+"""The picture denoised while it is rendered on, by a thread beside the window's frames.
+
+It is filtered when its samples have doubled, and once they are all there; in between the last one
+stays. A picture that is there already has no half of its samples to judge the rest by: it is
+filtered once a fifth of them came later.
+"""
+
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import replace
+
+import moderngl
+import numpy as np
+
+from glrt.denoise.filters import least_samples, with_filter
+from glrt.image.image import Image
+from glrt.methods.light_layers import are_trivial
+from glrt.rendering.halver import Halver
+from glrt.rendering.renderer import Renderer
+from glrt.settings import Denoise, Settings, settings_for
+from glrt.text import counted
+from glrt.view.state.session import Session
+
+FEWER = 1.25  # factor from the samples of the first half to those of the first picture
+NO_END = 1 << 40  # samples: halves are kept at doublings alone
+
+
+class DenoisedPicture:
+    """What a filter made last of the picture under way."""
+
+    def __init__(self, by: Denoise = "auto") -> None:
+        """By a filter, oidn where it is installed. No thread is started before one is needed."""
+        self._by: Denoise = by
+        self._threads = ThreadPoolExecutor(1, "denoise")
+        self._halver = Halver()
+        self._of: object = None  # what its halves are of
+        self._task: Future[Image] | None = None
+        self._tried = self._next = 0  # samples of the last picture to be filtered, of the next
+        self.found: Image | None = None
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether something is being filtered."""
+        return self._task is not None
+
+    def stop(self, session: Session) -> int | None:
+        """How many samples the picture is to have when it is kept next; None: it need not be."""
+        renderer = session.renderer
+        if not renderer or session.is_preview or not are_trivial(session.weights):
+            return None
+        settings, samples = self._filtered(renderer.settings), renderer.samples
+        if self._halver.wants(settings, samples, NO_END):
+            return samples  # until its guides are there
+        return self._halver.next_stop(settings, samples, NO_END)
+
+    def follow(self, session: Session) -> None:
+        """Once a frame: take what is ready, keep a half, or begin to filter."""
+        of = session.restarts, session.weights if session.renderer else ()
+        if of != self._of:
+            self.rest()
+            self._of = of
+        if self._task and self._task.done():
+            self.found, self._task = self._task.result(), None
+        renderer = session.renderer
+        is_at_hand = renderer and not session.is_preview and not session.is_behind
+        if not renderer or not is_at_hand or not are_trivial(session.weights):
+            return
+        if not renderer.lacks(renderer.samples):  # guides lag behind where they begin late
+            self._take(renderer, session.is_done)
+
+    def fits(self, session: Session) -> bool:
+        """Whether there is something to show, of the picture that is rendered now."""
+        return bool(self.found and self.found.denoising) and not session.is_preview
+
+    @contextmanager
+    def texture(self, gl: moderngl.Context) -> Iterator[moderngl.Texture]:
+        """What was found, as the display pass takes it."""
+        assert self.found
+        radiance = self.found.denoised().radiance
+        height, width = radiance.shape[:2]
+        texture = gl.texture(
+            (width, height), 4, np.dstack([radiance, radiance[..., :1]]), dtype="f4"
+        )
+        try:
+            yield texture
+        finally:
+            texture.release()
+
+    def rest(self) -> None:
+        """Forget everything; what is being filtered is not waited for."""
+        self._halver, self._task, self.found = Halver(), None, None
+        self._of, self._tried, self._next = None, 0, 0
+
+    def release(self) -> None:
+        """End the thread once it is done."""
+        self.rest()
+        self._threads.shutdown(cancel_futures=True)
+
+    def told(self, session: Session) -> str:
+        """What is shown, or why it is not."""
+        renderer = session.renderer
+        if not renderer or session.is_preview:
+            return ""
+        if not are_trivial(session.weights):
+            return "The picture is denoised while no lamp is relit and all bounces are shown"
+        name = self._filtered(renderer.settings).denoise
+        work = f"denoising {counted(self._tried, 'sample')} by {name}" if self._task else ""
+        if self.found and self.found.denoising:
+            known = self.found.denoising
+            error = f"error {100 * known.error:.2g} %, below {100 * known.error_high:.2g} %"
+            shown = f"{counted(self.found.samples, 'sample')} by {name}: {error} in 95 of 100 cases"
+            return f"{shown}; {work}" if work else shown
+        if work:
+            return work.capitalize()
+        if session.is_done:
+            return "Denoising compares samples to come with those that are there: restart"
+        wanted = max(self._next, least_samples(renderer.settings.block))
+        return f"Denoised from {wanted} samples on"
+
+    def _take(self, renderer: Renderer, is_end: bool) -> None:
+        settings, samples = self._filtered(renderer.settings), renderer.samples
+        is_kept = self._halver.wants(settings, samples, NO_END)
+        is_due = samples >= self._next > 0 or (is_end and samples > self._tried)
+        is_due = is_due and self._task is None and self._halver.has_half(samples, settings.block)
+        if not is_kept and not is_due:
+            return
+        image = renderer.plain_image(beside_layers=True)
+        assert image.recipe
+        image = replace(image, recipe=image.recipe.model_copy(update={"settings": settings}))
+        if is_due:
+            self._tried, self._next = samples, 2 * samples
+            self._task = self._threads.submit(self._halver.finished, image)
+        if is_kept:
+            self._halver.keep(image)
+            first = max(least_samples(settings.block), int(FEWER * samples))
+            self._next = self._next or first
+
+    def _filtered(self, settings: Settings) -> Settings:
+        """The settings with the filter."""
+        most = max(settings.samples, least_samples(settings.block))
+        return with_filter(settings_for(settings, denoise=self._by, samples=most))

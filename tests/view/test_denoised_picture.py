@@ -1,0 +1,141 @@
+"""The view of the denoised picture: what `--denoise` makes, at doublings; no window is opened."""
+
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glrt.denoise.filters import FILTERS, with_filter
+from glrt.gpu.context import Context
+from glrt.image.image import Image
+from glrt.image.sources import load
+from glrt.rendering.renderer import Renderer
+from glrt.settings import Settings, settings_for
+from glrt.view.state.denoised_picture import DenoisedPicture
+from glrt.view.state.session import Session
+
+SIZE: dict[str, Any] = {"width": 32, "height": 32}
+
+
+@pytest.fixture(params=["cornell", "lamps"], ids=["one film", "a film with layers"])
+def session(request: pytest.FixtureRequest, context: Context) -> Iterator[Session]:
+    scene = load(request.param)
+    opened = Session(scene, settings_for(scene.render, **SIZE, samples=256), context)
+    yield opened
+    opened.release()
+
+
+@pytest.fixture
+def denoised() -> Iterator[DenoisedPicture]:
+    picture = DenoisedPicture()
+    yield picture
+    picture.release()
+
+
+def frame(session: Session, denoised: DenoisedPicture) -> None:
+    """Of a view of the denoised picture, as `PictureView` makes it."""
+    session.aovs = "albedo", "normal"
+    session.stop = denoised.stop(session)
+    session.advance(0.05, 24)
+    denoised.follow(session)
+    time.sleep(0.001)
+
+
+def found(session: Session, denoised: DenoisedPicture, samples: int) -> Image:
+    """The picture of so many samples."""
+    for _ in range(20_000):
+        frame(session, denoised)
+        if denoised.found and denoised.found.samples == samples and not denoised.is_under_way:
+            return denoised.found
+    pytest.fail(denoised.told(session))
+
+
+def expected(session: Session, samples: int) -> Image:
+    """What a render without a window shows."""
+    settings = settings_for(session.settings, samples=samples, denoise="auto")
+    renderer = Renderer(session.scene, settings, session.context)
+    return renderer.render().image()
+
+
+def assert_same(image: Image, other: Image) -> None:
+    assert image.denoising
+    assert other.denoising
+    np.testing.assert_array_equal(image.denoising.radiance, other.denoising.radiance)
+    np.testing.assert_array_equal(image.denoising.error_map, other.denoising.error_map)
+    assert image.denoising.error == other.denoising.error
+
+
+def test_it_is_what_a_render_makes(session: Session, denoised: DenoisedPicture) -> None:
+    """To the bit, at each doubling that there is time for, and at the end."""
+    last = found(session, denoised, 256)
+    assert session.is_done
+    assert_same(last, expected(session, 256))
+    name = with_filter(Settings(denoise="auto")).denoise
+    assert name in FILTERS
+    assert f"256 samples by {name}: error" in denoised.told(session)
+
+
+def test_an_edit_begins_anew(session: Session, denoised: DenoisedPicture) -> None:
+    session.edit(samples=64)
+    first = found(session, denoised, 64)
+    session.edit(bounces=2)
+    frame(session, denoised)
+    assert denoised.found is None
+    assert_same(found(session, denoised, 64), expected(session, 64))
+    assert first.recipe
+    assert first.recipe.settings.bounces != 2
+
+
+def test_a_picture_that_is_there_is_the_first_half(
+    session: Session, denoised: DenoisedPicture
+) -> None:
+    """It is filtered once a fifth of its samples came later, and not before."""
+    while session.samples < 160:
+        session.advance(0.05, 160 - session.samples)
+    while not (session.samples > 160 and denoised.is_under_way):
+        assert denoised.found is None
+        frame(session, denoised)
+    for _ in range(20_000):
+        frame(session, denoised)
+        if denoised.found:
+            break
+    assert denoised.found
+    assert 200 <= denoised.found.samples < 232
+    assert denoised.found.denoising
+    plain = denoised.found.denoising.error
+    assert 0 < plain < 0.5
+
+
+def test_without_samples_to_come_it_says_what_to_do(
+    session: Session, denoised: DenoisedPicture
+) -> None:
+    while not session.is_done:
+        session.advance(0.05, 64)
+    for _ in range(4):
+        frame(session, denoised)
+    assert denoised.found is None
+    assert not denoised.is_under_way
+    assert "restart" in denoised.told(session)
+
+
+def test_relit_lamps_are_told(context: Context, denoised: DenoisedPicture) -> None:
+    scene = load("lamps")
+    session = Session(scene, settings_for(scene.render, **SIZE, samples=64), context)
+    found(session, denoised, 64)
+    dimmed = scene.model_copy(
+        update={
+            "materials": {
+                name: material.model_copy(update={"emission": tuple(0.5 * e for e in color)})
+                if any(color := getattr(material, "emission", (0.0,)))
+                else material
+                for name, material in scene.materials.items()
+            }
+        }
+    )
+    session.edit(dimmed)
+    frame(session, denoised)
+    assert denoised.found is None
+    assert "no lamp is relit" in denoised.told(session)
+    session.release()

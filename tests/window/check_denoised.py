@@ -1,0 +1,55 @@
+"""The picture denoised in the window: beside the frames, with its error, and never in files."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.settings import settings_for
+from tests.window.check_views import views
+from tests.window.hand import Hand, check
+
+SIDE = 96
+SAMPLES = 1024  # more than pass while a view is chosen
+
+
+@check
+def the_picture_is_denoised_with_its_error_told_and_saved_plain(hand: Hand) -> None:
+    show, session = hand.window.app.show, hand.session
+    hand.there(lambda: session.edit(width=SIDE, height=SIDE, samples=SAMPLES))
+    hand.ctx.set_ref("Controls")
+    hand.ctx.combo_click("view/denoised")
+    hand.settle()
+    assert show.drawn == "picture", "nothing is filtered yet"
+    assert "Denoised from" in show.notice(session)
+    hand.until(lambda: show.drawn == "denoised")
+    hand.session.paused = True
+    hand.ctx.yield_(2)
+    hand.until(lambda: show.is_done(session))
+    assert f"{session.samples} samples by" in show.notice(session), "the last one, too"
+    assert "in 95 of 100 cases" in show.notice(session)
+    denoised = hand.pixels()[..., :3].astype(int)
+    saved = hand.there(session.image)
+    assert saved.denoising is None
+    assert saved.recipe
+    assert saved.recipe.settings == settings_for(session.settings, aov=())
+    (plain,) = views(hand, "picture")
+    assert roughness(plain.astype(int)) > 2 * roughness(denoised)
+    assert abs(plain.mean() - denoised.mean()) < 2, "as bright, and as the screen shows it"
+
+
+def roughness(codes: NDArray[Any]) -> float:
+    """Mean of second differences across, in codes: noise more than edges."""
+    return float(np.abs(codes[:, :-2] - 2 * codes[:, 1:-1] + codes[:, 2:]).mean())
+
+
+@check
+def a_drag_shows_the_plain_picture_until_it_is_denoised_anew(hand: Hand) -> None:
+    show, session = hand.window.app.show, hand.session
+    hand.there(lambda: session.edit(width=SIDE, height=SIDE, samples=SAMPLES))
+    (before,) = views(hand, "denoised")
+    hand.there(lambda: session.edit(bounces=1))
+    hand.ctx.yield_(3)
+    assert show.drawn == "picture"
+    hand.until(lambda: show.drawn == "denoised")
+    assert (hand.pixels()[..., :3] != before).mean() > 0.2
