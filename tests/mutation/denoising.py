@@ -111,6 +111,13 @@ DENOISING = [
         "view/test_denoised_picture.py::test_it_is_what_a_render_makes",
     ),
     mutant(
+        "a denoiser is recommended whatever the limit of bounces leaves out",
+        "analysis/method_choice/denoised.py",
+        "math.hypot(found.error_high, bias.most)",
+        "found.error_high",
+        "analysis/test_denoised_choice.py::test_what_longer_paths_leave_out_counts",
+    ),
+    mutant(
         "noise of colours counts as a difference",
         NLM,
         "np.square(color[here] - color[there]) - 2 * np.minimum(a, b)",

@@ -5,6 +5,7 @@ Modules, each importing only what stands above it:
 - work: what a sample costs, counted
 - trial: bias, variance and work of the methods, measured on a small frame
 - search: the choice of bounces and method
+- denoised: whether fewer samples suffice once they are denoised
 - advice: the result in words, for the commands
 - caustics: whether particles from lamps are worth their work, and how many
 """

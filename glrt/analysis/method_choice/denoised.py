@@ -1,0 +1,64 @@
+"""Whether fewer samples reach an error once they are denoised, for `inspect --error`.
+
+The method and bounces are those that were chosen, on a frame that is larger than theirs: what a
+filter gains grows with the picture, whose edges it blurs.
+"""
+
+import math
+from contextlib import ExitStack
+from typing import Any, NamedTuple
+
+from glrt.analysis.method_choice.trial import Candidate
+from glrt.denoise.filters import least_samples
+from glrt.gpu.context import Context
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+
+MOST_PIXELS = 192  # of either edge of the frame
+WORTH = 2  # times fewer samples than a plain picture takes, at least
+
+
+class DenoisedChoice(NamedTuple):
+    """A denoised picture that is surely below an error."""
+
+    by: str
+    samples: int
+    error: float  # with what the limit of bounces leaves out
+    high: float  # below which it is in 95 of 100 cases
+    size: tuple[int, int]  # of the frame on which it was measured
+
+
+def denoised_choice(
+    scene: Scene, chosen: Candidate, error: float, context: Context
+) -> DenoisedChoice | None:
+    """The fewest samples, of doublings, that reach the error denoised, or None.
+
+    None also where half of the samples of a plain picture do not suffice.
+    """
+    plain, bias = chosen.samples_to(error) or 0, chosen.bias
+    samples = least_samples(chosen.settings.block)
+    if WORTH * samples > plain:
+        return None
+    renderer = Renderer(scene, _on_small_frame(chosen.settings, plain), context)
+    with ExitStack() as held:
+        held.callback(renderer.release)
+        while WORTH * samples <= plain:
+            found = renderer.render(samples).image().denoising
+            assert found
+            told, high = (
+                math.hypot(found.error, bias.value),
+                math.hypot(found.error_high, bias.most),
+            )
+            if high <= error:
+                return DenoisedChoice(renderer.settings.denoise, samples, told, high, renderer.size)
+            samples *= 2
+    return None
+
+
+def _on_small_frame(settings: Settings, samples: int) -> Settings:
+    """The whole picture, with fewer pixels."""
+    scale = min(1.0, MOST_PIXELS / max(settings.size))
+    width, height = (max(1, round(scale * side)) for side in settings.size)
+    own: dict[str, Any] = {"width": width, "height": height, "samples": samples, "crop": None}
+    return settings_for(settings, **own, denoise="auto", aov=())
