@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.error.estimate import DARK
+from glrt.rendering.false_colors import ERROR
 from glrt.settings import settings_for
 from tests.window.check_views import views
 from tests.window.hand import Hand, check
@@ -29,6 +31,16 @@ def the_picture_is_denoised_with_its_error_told_and_saved_plain(hand: Hand) -> N
     assert f"{session.samples} samples by" in show.notice(session), "the last one, too"
     assert "in 95 of 100 cases" in show.notice(session)
     denoised = hand.pixels()[..., :3].astype(int)
+    (errors,) = views(hand, "denoised error")
+    found = show.denoised.found
+    assert found
+    scale = 255 * ERROR.color(np.geomspace(ERROR.low, ERROR.high, 500))
+    apart = np.abs(errors[:, :, None].astype(int) - scale).max(axis=3).min(axis=2)
+    assert apart.max() <= 2, "colours of the scale alone"
+    known, light = found.denoised(), found.denoised().radiance
+    relative = np.square(known.error_map) / (np.square(light) + DARK * light.mean() ** 2)
+    wanted = 255 * ERROR.color(np.sqrt(relative.mean(axis=-1)))
+    assert np.abs(errors - wanted).max() < 4
     saved = hand.there(session.image)
     assert saved.denoising is None
     assert saved.recipe

@@ -14,6 +14,7 @@ import moderngl
 import numpy as np
 
 from glrt.denoise.filters import least_samples, with_filter
+from glrt.error.estimate import DARK
 from glrt.image.image import Image
 from glrt.methods.light_layers import are_trivial
 from glrt.rendering.halver import Halver
@@ -75,12 +76,17 @@ class DenoisedPicture:
 
     @contextmanager
     def texture(self, gl: moderngl.Context) -> Iterator[moderngl.Texture]:
-        """What was found, as the display pass takes it."""
+        """What was found, as the display pass takes it; `a`: the relative error about a pixel."""
         assert self.found
-        radiance = self.found.denoised().radiance
-        height, width = radiance.shape[:2]
+        shown = self.found.denoised()
+        radiance, height, width = shown.radiance, *shown.radiance.shape[:2]
+        squares = np.square(radiance) + DARK * radiance.mean(dtype=np.float64) ** 2
+        parts = np.divide(
+            np.square(shown.error_map), squares, np.zeros_like(squares), where=squares > 0
+        )
+        error = np.sqrt(parts.mean(axis=-1))
         texture = gl.texture(
-            (width, height), 4, np.dstack([radiance, radiance[..., :1]]), dtype="f4"
+            (width, height), 4, np.dstack([radiance, error]).astype(np.float32), dtype="f4"
         )
         try:
             yield texture

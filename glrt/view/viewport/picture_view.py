@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 import moderngl
 
 from glrt.rendering.aov_view import AovView
-from glrt.rendering.false_colors import FalseColors, Scale
+from glrt.rendering.false_colors import FalseColors, Scale, Told
+from glrt.rendering.film import Film
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED, SurfaceView
 from glrt.view.state.costs import traced_bounces
@@ -14,7 +15,14 @@ from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import Session
 from glrt.view.viewport.difference import GROWTH, Difference, difference_of
 from glrt.view.viewport.picture import Picture
-from glrt.view.viewport.views import View, aov_of, gathered_for, number_of, scale_of
+from glrt.view.viewport.views import (
+    View,
+    aov_of,
+    gathered_for,
+    is_filtered,
+    number_of,
+    scale_of,
+)
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
@@ -59,7 +67,7 @@ class PictureView:
         if session.refused and session.refused == gathered_for(self.view):
             self.view = "picture"
         session.aovs, session.refused = gathered_for(self.view), ()
-        is_denoised = self.view == "denoised"
+        is_denoised = is_filtered(self.view)
         session.stop = self.denoised.stop(session) if is_denoised else None
         self.bounces = traced_bounces(session)
         renderer = session.renderer
@@ -145,7 +153,7 @@ class PictureView:
             return NO_HISTORY.format(number, of)
         if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
             return HISTORY.format(session.moving.end)
-        if self.view == "denoised":
+        if is_filtered(self.view):
             return self.denoised.told(session)
         if self.view == "picture":
             return ""
@@ -181,7 +189,7 @@ class PictureView:
 
     def _possible(self, session: Session) -> View:
         """The view as wanted, or the picture where that cannot be told."""
-        if self.view == "denoised":
+        if is_filtered(self.view):
             return self.view if self.denoised.fits(session) else "picture"
         if aov := aov_of(self.view):
             is_there = session.renderer and session.renderer.aov_mean(aov)
@@ -212,10 +220,8 @@ class PictureView:
             self.picture.draw(shown, session.settings, session.is_preview)
             return self._draw_surface(session, renderer) if session.is_preview else None
 
-        if view == "denoised":
-            with self.denoised.texture(renderer.context.gl) as shown:
-                return self.picture.draw(shown, session.settings)
-
+        if is_filtered(view):
+            return self._draw_filtered(session, film, view)
         aov = aov_of(view)
         mean = renderer.aov_mean(aov) if aov else None
         number = number_of(view)
@@ -235,6 +241,14 @@ class PictureView:
                 self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)
 
         return self.picture.paint(film.size, paint)
+
+    def _draw_filtered(self, session: Session, film: Film, view: View) -> None:
+        """The denoised picture, or its error."""
+        with self.denoised.texture(session.context.gl) as found:
+            if view == "denoised":
+                return self.picture.draw(found, session.settings)
+            told, draw = Told(found, -1.0), self.colors.draw_history
+            return self.picture.paint(film.size, lambda: draw(film, found, told, self.scale))
 
     def _measure(self, session: Session, light: moderngl.Texture, other: moderngl.Texture) -> None:
         """Take the numbers of the difference, which takes longer than to draw it: now and then."""

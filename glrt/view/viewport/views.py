@@ -16,7 +16,8 @@ from glrt.rendering.false_colors import (
 from glrt.scene.camera import Camera
 from glrt.settings import GUIDES, Aov
 
-FilmView = Literal["picture", "denoised", "error", "dropped", "difference", "history", "weight"]
+Filtered = Literal["denoised", "denoised error"]
+FilmView = Literal["picture", Filtered, "error", "dropped", "difference", "history", "weight"]
 View = FilmView | Aov
 VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 
@@ -24,6 +25,8 @@ HELP = (
     "picture: as it will be saved\n"
     "denoised: without its noise, as --denoise makes it, and how wrong that is; files have the "
     "picture\n"
+    "denoised error: of the denoised picture, about each pixel: noise, and what the filter gets "
+    "wrong\n"
     "error: the estimated relative error of each pixel\n"
     "dropped: where samples were not finite and were left out\n"
     "difference: from the kept picture, at equal seeds and samples; what did not change shows no "
@@ -37,6 +40,7 @@ HELP = (
 )
 TITLES: dict[View, str] = {
     "denoised": "denoised; files have the plain picture",
+    "denoised error": "error of the denoised picture, about a pixel",
     "error": "estimated relative error of a pixel",
     "dropped": "samples dropped, not finite",
     "difference": "luminance against the kept picture",
@@ -69,7 +73,12 @@ def told_limit(limit: int | None) -> str:
 def gathered_for(view: View) -> tuple[Aov, ...]:
     """The AOVs that a view needs."""
     aov = aov_of(view)
-    return GUIDES if view == "denoised" else (aov,) if aov else ()
+    return GUIDES if is_filtered(view) else (aov,) if aov else ()
+
+
+def is_filtered(view: View) -> bool:
+    """Whether a view shows what a denoiser makes."""
+    return view in get_args(Filtered)
 
 
 def aov_of(view: View) -> Aov | None:
@@ -84,7 +93,7 @@ def number_of(view: View) -> Number | None:
 
 def has_scale(view: View) -> bool:
     """Whether a view has false colours, and so a legend with numbers."""
-    return view == "bounces" or not gathered_for(view)
+    return view in ("bounces", "denoised error") or not gathered_for(view)
 
 
 def scale_of(view: View, most: float, bounces: int) -> Scale:
@@ -94,14 +103,14 @@ def scale_of(view: View, most: float, bounces: int) -> Scale:
     """
     if view == "bounces":
         return scale_of_bounces(bounces)
-    scales: dict[View, Scale] = {"error": ERROR, "dropped": DROPPED}
+    scales: dict[View, Scale] = {"error": ERROR, "denoised error": ERROR, "dropped": DROPPED}
     scales |= {"history": HISTORY, "weight": WEIGHT}
     return scales.get(view) or symmetric(DIFFERENCE, most)
 
 
 def ticks_of(view: View, scale: Scale) -> dict[float, str]:
     """The numbers of a scale that are written out, and how."""
-    if view == "error":
+    if view in ("error", "denoised error"):
         return {0.001: "0.1 %", 0.01: "1 %", 0.1: "10 %", 1.0: "100 %"}
     if view == "dropped":
         return {1.0: "1", 10.0: "10", 100.0: "100", 1000.0: "1000"}
