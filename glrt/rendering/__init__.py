@@ -53,6 +53,8 @@ Modules, each importing only what stands above it:
 - reprojection: what was shown of one view, brought to another
 - resolver: what makes a picture of film and history
 - taa: temporal antialiasing
+- more_samples: more samples of some pixels
+- ataa: adaptive temporal antialiasing
 - wrls: weighted recursive least squares
 - temporal: what the screen shows while the camera moves
 - stopping: render to a limit of samples, time or error

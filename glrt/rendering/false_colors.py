@@ -45,7 +45,7 @@ YELLOW_TO_RED = _colors(
 )
 
 
-Number = Literal["history", "weight"]
+Number = Literal["history", "weight", "mask"]
 
 
 class Told(NamedTuple):
@@ -82,6 +82,7 @@ ERROR = Scale(VIRIDIS, 0.001, 1.0)
 DROPPED = Scale(YELLOW_TO_RED, 1.0, 1000.0)
 HISTORY = Scale(VIRIDIS, 1.0, 64.0)
 WEIGHT = Scale(VIRIDIS, 0.001, 1.0)
+MASK = Scale(VIRIDIS, 1.0, 3.0, is_logarithmic=False)
 DIFFERENCE = Scale(BLUE_WHITE_RED, -0.5, 0.5, is_logarithmic=False)
 
 

@@ -47,6 +47,7 @@ SURFACES = RenderPass(
     {"compute": ("surfaces.comp",), "fragment": ("trace.vert", "surfaces.frag")},
     ("position", "normal"),
 )
+MORE = RenderPass({"compute": ("more.comp",)}, ("more",), {"BLOCK": 1, "LAYERS": 0})
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 

@@ -1,8 +1,11 @@
 """What a render tells of itself: samples, kernels, seconds."""
 
+from collections.abc import Mapping
+
 import moderngl
 
 from glrt.gpu.glsl import Source
+from glrt.gpu.program import Resource
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Film
 from glrt.rendering.particle_tracer import Losses
@@ -41,6 +44,11 @@ class Progress:
     def device_scene(self) -> DeviceScene:
         """The scene in the driver's memory, until the next edit: for passes beside the picture."""
         return self._tracer.device_scene
+
+    @property
+    def probe_resources(self) -> Mapping[str, Resource]:
+        """The blocks and textures of probes that a kernel of paths reads; none without probes."""
+        return self._tracer.probes.resources
 
     @property
     def tier(self) -> Tier:

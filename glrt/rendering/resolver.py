@@ -4,6 +4,7 @@ from typing import NamedTuple, Protocol
 
 import moderngl
 
+from glrt.rendering.renderer import Renderer
 from glrt.rendering.surfaces import Surfaces
 
 
@@ -14,6 +15,7 @@ class Fresh(NamedTuple):
     mean: moderngl.Texture  # a: finite samples of each pixel
     samples: int
     end: float  # samples from which on it is shown alone
+    source: Renderer | None = None  # of more samples under the same weights; None: there are none
 
 
 class Resolver(Protocol):

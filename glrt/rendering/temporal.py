@@ -15,9 +15,11 @@ from typing import Literal, NamedTuple, get_args
 
 import moderngl
 
+from glrt.errors import RenderError
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.program import TILE
-from glrt.methods.light_layers import Weights
+from glrt.methods.light_layers import Weights, are_trivial
+from glrt.rendering.ataa import Ataa
 from glrt.rendering.drawn_pass import DrawnPass
 from glrt.rendering.false_colors import Number, Told
 from glrt.rendering.renderer import Renderer
@@ -27,7 +29,7 @@ from glrt.rendering.surfaces import SurfacePass, Surfaces
 from glrt.rendering.taa import Taa
 from glrt.rendering.wrls import Predictor, Wrls
 
-Mode = Literal["reset", "reproject", "taa", "wrls"]
+Mode = Literal["reset", "reproject", "taa", "ataa", "wrls"]
 
 END = 64.0  # samples of a film from which on history is not shown, at the latest
 
@@ -108,6 +110,8 @@ def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
             return Reproject(gl)
         case "taa":
             return Taa(gl)
+        case "ataa":
+            return Ataa(gl)
         case "wrls":
             return Wrls(gl, way.predictor)
 
@@ -186,8 +190,12 @@ class Temporal:
 
         `history`: samples that a pixel stands for, with those of the film; by `wrls` the views that
         its model has seen. `weight`: by `wrls` that of the film in the fit, from 0 to 1.
+        `mask`: by `ataa` what a pixel shows where the mean over views fails (temporal/ataa.glsl).
         """
         shown, resolver = self.show(renderer, weights), self._resolver
+        if number == "mask":
+            mask = resolver.mask if shown and isinstance(resolver, Ataa) else None
+            return Told(mask, 0.0) if mask else None
         if shown and isinstance(resolver, Wrls):
             return Told(shown, 1.0) if number == "history" else Told(resolver.predictions, 0.0)
         return Told(shown, renderer.samples) if shown and number == "history" else None
@@ -206,17 +214,29 @@ class Temporal:
             self._resolver.release()
 
     def _find(self, renderer: Renderer) -> None:
+        if isinstance(self._resolver, Ataa) and renderer.pipeline == "fragment":
+            raise RenderError(
+                "temporal ataa lists the pixels that it traces: that takes compute shaders, and "
+                "the pipeline is fragment. temporal taa does without."
+            )
         self._pass.fill(renderer, self.surfaces)
 
     def _resolved(
         self, resolver: Resolver, renderer: Renderer, weights: Weights | None
     ) -> moderngl.Texture:
         with self._gl:
-            light = renderer.weighed(weights or renderer.plan.weights)
+            weighed = weights or renderer.plan.weights
+            light = renderer.weighed(weighed)
+            source = renderer if is_whole(renderer, weighed) else None
             end = self.end if self._is_brought else 0.0
-            fresh = Fresh(light, renderer.film.mean, renderer.samples, end)
+            fresh = Fresh(light, renderer.film.mean, renderer.samples, end, source)
             self._resolved_at = renderer.samples, weights
             return resolver.show(self.surfaces, fresh)
+
+
+def is_whole(renderer: Renderer, weights: Weights) -> bool:
+    """Whether paths alone, as the kernel sums them, are what is shown."""
+    return are_trivial(weights) and renderer.settings.caustics == "off"
 
 
 def is_lit_alike(renderer: Renderer, before: Surfaces) -> bool:

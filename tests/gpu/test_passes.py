@@ -18,11 +18,11 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
-    *("edges", "reproject", "evidence", "fade", "taa"),
+    *("edges", "reproject", "evidence", "fade", "taa", "ataa_mask", "ataa"),
     *("bring_models", "reconstruct", "predict", "predictions"),
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
-TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa")  # by tests/temporal
+TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa", "ataa")  # by tests/temporal
 PROBES = {  # by tests/shaders/test_probe_kernels.py
     *("probe_rays.comp", "probe_light.comp", "probe_distances.comp", "probe_place.comp"),
     *("probes/blend.glsl", "probes/first_met.glsl", "probes/place.glsl", "probes/solids.glsl"),
@@ -48,6 +48,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
         *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
+        *("ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
         *DISPLAY_STAGES,
         *PROBES,
     }

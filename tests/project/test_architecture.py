@@ -31,7 +31,7 @@ ENTRIES = {
     "paths.comp",
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
-    *("evidence.frag", "taa.frag"),
+    *("evidence.frag", "taa.frag", "ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
     *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
     *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
 }
@@ -42,7 +42,9 @@ NOT_OF_A_PATH = {
     "aov.glsl",
     "structs/scene.glsl",
 } | {"shapes/all_shapes.glsl", "surfaces.glsl", "passes/reprojection.glsl"}
-NOT_OF_A_PATH |= {f"temporal/{name}.glsl" for name in ("least_squares", "wrls", "wrls_rows", "taa")}
+NOT_OF_A_PATH |= {
+    f"temporal/{name}.glsl" for name in ("least_squares", "wrls", "wrls_rows", "taa", "ataa")
+}
 PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"} | {
     "3.402823466e38",  # the largest float: no distance is beyond it
     "1.17549435e-38",  # the smallest normal float: a way of no length, which changes no digit

@@ -21,7 +21,7 @@ SKY: dict[str, Any] = {
     "background": {"bottom": [0.1, 0.2, 0.3], "top": [3.0, 2.0, 1.0]}
 }  # noise on a wall
 PIXEL = 1.0 / 12
-HISTORIES: list[Mode] = ["reproject", "taa", "wrls"]
+HISTORIES: list[Mode] = ["reproject", "taa", "ataa", "wrls"]
 
 
 def settings(scene: Scene, **more: object) -> Settings:

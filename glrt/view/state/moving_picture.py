@@ -15,6 +15,7 @@ from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Settings, settings_for
 from glrt.view.state.edited import State
 
+OWN_NUMBERS: dict[Number, Mode] = {"weight": "wrls", "mask": "ataa"}
 MOST_SEED = 0xFFFFFFFF
 GOLDEN = 0x9E3779B1  # from one seed to the next: far from those that users choose
 
@@ -103,7 +104,7 @@ class MovingPicture:
 
     def tells(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
         """Whether there is a number of the history that is shown."""
-        is_one = number == "history" or self._wanted.mode == "wrls"
+        is_one = number == "history" or self._wanted.mode == OWN_NUMBERS[number]
         return is_one and self.is_shown(renderer, wanted)
 
     def told(self, renderer: Renderer, weights: Weights, number: Number) -> Told | None:

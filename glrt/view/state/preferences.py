@@ -46,7 +46,8 @@ class Preferences(Frozen):
         "reproject",
         description="while the camera moves; reset: the picture begins anew; reproject: what was "
         "shown follows the surfaces, until the new picture has samples enough; taa: an "
-        "exponential mean of what was shown, kept near the new picture; wrls: a line through "
+        "exponential mean of what was shown, kept near the new picture; ataa: that, with more "
+        "samples where it fails; wrls: a line through "
         "all that each pixel saw, and a mean of its neighbours",
     )
     predictor: Annotated[Predictor, Editable(FREE)] = Field(

@@ -27,6 +27,11 @@ from glrt.view.viewport.views import (
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
 NO_HISTORY = "The view {} is there while light of earlier views is shown, by temporal {}"
+OF_NUMBERS = {
+    "history": "reproject, taa, ataa or wrls",
+    "weight": "wrls alone",
+    "mask": "ataa alone",
+}
 HISTORY = "with light of earlier views, until there are {} samples"
 
 
@@ -149,7 +154,7 @@ class PictureView:
         if aov_of(self.view) and self.drawn != self.view:
             return f"The view {self.view} comes with its first sample"
         if (number := number_of(self.view)) and self.drawn != self.view:
-            of = "wrls alone" if number == "weight" else "reproject, taa or wrls"
+            of = OF_NUMBERS[number]
             return NO_HISTORY.format(number, of)
         if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
             return HISTORY.format(session.moving.end)

@@ -8,6 +8,7 @@ from glrt.rendering.false_colors import (
     DROPPED,
     ERROR,
     HISTORY,
+    MASK,
     WEIGHT,
     Number,
     Scale,
@@ -17,7 +18,7 @@ from glrt.scene.camera import Camera
 from glrt.settings import GUIDES, Aov
 
 Filtered = Literal["denoised", "denoised error"]
-FilmView = Literal["picture", Filtered, "error", "dropped", "difference", "history", "weight"]
+FilmView = Literal["picture", Filtered, "error", "dropped", "difference", Number]
 View = FilmView | Aov
 VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 
@@ -34,6 +35,8 @@ HELP = (
     "history: while light of earlier views is shown, the samples that each pixel stands for (by "
     "temporal wrls, views); grey where it has none\n"
     "weight: by temporal wrls, how much the new samples count\n"
+    "mask: by temporal ataa, where history fails; dark: filtered, green: traced beside history, "
+    "yellow: traced; grey where history does\n"
     "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
     "gathered while they are shown\n"
     "bounces: how often the paths of a pixel scatter before they end, in the mean"
@@ -46,6 +49,7 @@ TITLES: dict[View, str] = {
     "difference": "luminance against the kept picture",
     "history": "samples (wrls: views) of history; grey: none",
     "weight": "weight of the new samples; grey: no sample",
+    "mask": "history fails: 1 filtered, 2 and 3 traced; grey: it does",
     "albedo": "albedo of the first surface",
     "normal": "normal, x y z as red green blue around grey",
     "depth": "depth, grey at {focus:.3g}, where the camera focuses",
@@ -104,7 +108,7 @@ def scale_of(view: View, most: float, bounces: int) -> Scale:
     if view == "bounces":
         return scale_of_bounces(bounces)
     scales: dict[View, Scale] = {"error": ERROR, "denoised error": ERROR, "dropped": DROPPED}
-    scales |= {"history": HISTORY, "weight": WEIGHT}
+    scales |= {"history": HISTORY, "weight": WEIGHT, "mask": MASK}
     return scales.get(view) or symmetric(DIFFERENCE, most)
 
 
