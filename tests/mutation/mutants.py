@@ -5,6 +5,7 @@ copy of the tree and runs its test, which must fail.
 """
 
 from tests.mutation.aovs import AOVS
+from tests.mutation.ataa import ATAA
 from tests.mutation.comparing import COMPARING
 from tests.mutation.denoising import DENOISING
 from tests.mutation.editor import EDITOR
@@ -59,5 +60,6 @@ MUTANTS = [
     *JUDGING,
     *TEMPORAL,
     *TAA,
+    *ATAA,
     *WRLS,
 ]
