@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - image: a picture and its files: EXR, PNG, NPY
 - differences: what differs between two recipes, in words
 - moments: means and variances of disjoint samples, put together
+- layer_sums: layers under weights, over two halves of the observations
 - film_moments: what a picture has gathered on each of its films
 - halves: the first samples of a picture, and the rest of them
 - merge: parts put together

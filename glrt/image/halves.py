@@ -11,6 +11,8 @@ from glrt.image.image import Image
 from glrt.image.moments import Moments, without
 from glrt.settings import GUIDES
 
+Light = tuple[Pixels, Pixels]
+
 
 def halves_of(first: Image, whole: Image) -> tuple[Half, Half]:
     """What the first samples of a render tell, and what the rest of them do.
@@ -20,14 +22,33 @@ def halves_of(first: Image, whole: Image) -> tuple[Half, Half]:
     samples are; they need not be of one size.
     """
     share = first.samples / whole.samples
-    films = [RADIANCE, *([PARTICLES] if whole.particles else [])]
-    sums = zip(*(_parts(film, first, whole) for film in films), strict=True)
     guides = zip(*(_parts(guide, first, whole) for guide in GUIDES), strict=True)
     halves = [
-        Half(*_summed(moments), part, *map(_guide, found))
-        for moments, found, part in zip(sums, guides, (share, 1 - share), strict=True)
+        Half(*light, part, *map(_guide, found))
+        for light, found, part in zip(_light(first, whole), guides, (share, 1 - share), strict=True)
     ]
     return halves[0], halves[1]
+
+
+def _light(first: Image, whole: Image) -> Iterator[Light]:
+    """Mean and variance of the first samples, and of the rest.
+
+    Those of the films add, as the films are independent.
+    """
+    films = [_of_film(RADIANCE, first, whole)]
+    if whole.particles:
+        films.append(_of_film(PARTICLES, first, whole))
+    for halves in zip(*films, strict=True):
+        means, variances = zip(*halves, strict=True)
+        yield np.sum(means, axis=0, dtype=np.float32), np.sum(variances, axis=0, dtype=np.float32)
+
+
+def _of_film(film: str, first: Image, whole: Image) -> tuple[Light, Light]:
+    if film == RADIANCE and first.sums and whole.sums:
+        early, late = first.sums, whole.sums.without(first.sums)
+        return (early.mean, early.variance), (late.mean, late.variance)
+    before, after = (_mean_and_variance(part) for part in _parts(film, first, whole))
+    return before, after
 
 
 def _parts(film: str, first: Image, whole: Image) -> tuple[Moments, Moments]:
@@ -37,13 +58,7 @@ def _parts(film: str, first: Image, whole: Image) -> tuple[Moments, Moments]:
     return early, without(all_, early)
 
 
-def _summed(films: tuple[Moments, ...]) -> tuple[Pixels, Pixels]:
-    """Mean of a sum of films and its variance, which add as the films are independent."""
-    means, variances = zip(*map(_mean_and_variance, films), strict=True)
-    return np.sum(means, axis=0, dtype=np.float32), np.sum(variances, axis=0, dtype=np.float32)
-
-
-def _mean_and_variance(film: Moments) -> Iterator[Pixels]:
+def _mean_and_variance(film: Moments) -> Light:
     """The latter is 0 where a pixel has too few observations, as where its samples were dropped."""
     mean, observations = film.mean.astype(np.float32), film.observations[..., 0]
     part = np.broadcast_to(film.part, film.mean.shape)
@@ -51,8 +66,7 @@ def _mean_and_variance(film: Moments) -> Iterator[Pixels]:
     error = error_of_mean(
         mean, *(x.astype(np.float32) for x in (film.variance, observations, part, share))
     )
-    yield mean
-    yield np.square(np.nan_to_num(error, nan=0.0))
+    return mean, np.square(np.nan_to_num(error, nan=0.0))
 
 
 def _guide(film: Moments) -> Guide:

@@ -17,6 +17,7 @@ from glrt.errors import SceneError, UsageError
 from glrt.image import aovs, denoised_channels, particle_film
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels
+from glrt.image.layer_sums import LayerSums
 from glrt.image.particle_film import ParticleFilm
 from glrt.image.picture_files import check_name, read_exr, read_png_metadata
 from glrt.image.recipe import Recipe
@@ -37,8 +38,9 @@ class Image:
     observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
     recipe. `film_state` is what a render needs to continue from it, if that is known; `particles`
     are the two films of which a picture with particles is the sum. `aovs` are those that the
-    settings asked for, by name. `denoising` is the picture filtered, if that was asked for. Raises
-    ValueError for arrays of another shape or type.
+    settings asked for, by name. `denoising` is the picture filtered, if that was asked for. `sums`
+    are those of a film of layers, for a denoiser; files do not hold them. Raises ValueError for
+    arrays of another shape or type.
     """
 
     radiance: Pixels
@@ -49,6 +51,7 @@ class Image:
     aovs: AovImages = field(default_factory=dict)
     particles: ParticleFilm | None = None
     denoising: Denoised | None = None
+    sums: LayerSums | None = None
 
     def __post_init__(self) -> None:
         for pixels in (self.radiance, self.stderr):

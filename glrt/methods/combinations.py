@@ -82,8 +82,8 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.INDEPENDENT, Way.CLASSIC, Way.PROBES),
     ),
     Way.DENOISE: (
-        *(Way.CROP, Way.RESUME, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.CLASSIC),
-        *(Way.PROBES, Way.PARTICLES, Way.PILOT),
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
+        *(Way.CLASSIC, Way.PROBES, Way.PARTICLES, Way.PILOT),
     ),
     Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
@@ -125,7 +125,6 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.ERROR, Way.MERGED}): _LENGTH,
     frozenset({Way.DENOISE, Way.PART}): "it compares halves of all samples: render without parts",
     frozenset({Way.DENOISE, Way.MERGED}): "its parts do not tell halves of all samples",
-    frozenset({Way.DENOISE, Way.LAYERS}): "layers keep no variance of each half",
     frozenset({Way.DENOISE, Way.AUTO}): "it chooses by the error of plain pictures: name a method",
 }
 _UNTRIED = "nobody has tried the two together"

@@ -66,7 +66,7 @@ class Halver:
             first = self._first_half(image.samples, settings.block)
             found = denoise(halves_of(first, image), settings.denoise) if first else None
             image = replace(image, denoising=found)
-        return replace(image, aovs={name: image.aovs[name] for name in settings.aov})
+        return replace(image, sums=None, aovs={name: image.aovs[name] for name in settings.aov})
 
     def _first_half(self, samples: int, block: int) -> Image | None:
         """The kept picture nearest to the middle, with observations enough on either side."""

@@ -14,6 +14,7 @@ from glrt.denoise.filters import with_filter
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
 from glrt.image.image import Image
+from glrt.image.layer_sums import LayerSums
 from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
@@ -26,7 +27,7 @@ from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolv
 from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.tracer import Tracer
-from glrt.rendering.weighting import Mixer, Reading, mixed, read_row
+from glrt.rendering.weighting import Mixer, Reading, gathered, mixed, read_row
 from glrt.scene.own_trees import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, SettingOptions, Settings, settings_for
@@ -192,7 +193,7 @@ class Renderer(Progress):
         self._check_part(target)
         while self.lacks(target):
             if self._halver.wants(self.settings, self.samples, target):
-                self._halver.keep(self.plain_image())
+                self._halver.keep(self.image_for_halves())
             stop = self._halver.next_stop(self.settings, self.samples, target)
             self._work(stop - self.samples, HEADLESS)
             if goes_on and not goes_on(self):
@@ -201,21 +202,31 @@ class Renderer(Progress):
 
     def image(self, weights: Weights | None = None) -> Image:
         """The picture so far, with its standard error and its recipe; `weights` show it so."""
-        image = self.plain_image(weights)
-        return self._halver.finished(image)
+        if self.settings.denoise == "none":
+            return self._halver.finished(self.plain_image(weights))
+        done = self._halver.finished(self.image_for_halves(weights))
+        return replace(done, film_state=None) if self.plan.layers else done
 
-    def plain_image(self, weights: Weights | None = None, beside_layers: bool = False) -> Image:
-        """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too.
-
-        `beside_layers`: with the state of a film that keeps layers, from which none goes on.
-        """
+    def plain_image(self, weights: Weights | None = None) -> Image:
+        """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too."""
         weights = weights or self.plan.weights
         with self.context.gl:
             aovs = self._tracer.aov_images()
-            mean, noise, state = mixed(self.film, weights, beside_layers)
+            mean, noise, state = mixed(self.film, weights)
             waiting = self._tracer.with_particles(mean, noise, weights, waits=True)
         radiance, stderr, films = waiting
         return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)
+
+    def image_for_halves(self, weights: Weights | None = None) -> Image:
+        """The same with what a denoiser needs of films that keep layers, too: not to go on from."""
+        image = self.plain_image(weights)
+        if image.film_state:
+            return image
+        with self.context.gl:
+            known = gathered(self.film, weights or self.plan.weights)
+        if isinstance(known, LayerSums):
+            return replace(image, sums=known)
+        return replace(image, film_state=known)
 
     def reading(self, weights: Weights, x: int, y: int) -> Reading:
         """What the pixel in column x and row y holds, (0, 0) upper left: in this context."""

@@ -9,6 +9,7 @@ from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 from glrt.image.film_state import FilmState, empty_state, keep
+from glrt.image.layer_sums import LayerSums
 from glrt.methods.light_layers import MOST_LAYERS, NONE, Weights, are_trivial
 from glrt.rendering.film import Exposure, Film, standard_error
 from glrt.rendering.pass_film import Array
@@ -30,17 +31,14 @@ def read_row(film: Film, weights: Weights, y: int) -> tuple[Exposure, Array, Arr
     return row, *_mixed(row, weights)
 
 
-def mixed(
-    film: Film, weights: Weights, beside_layers: bool = False
-) -> tuple[Array, Array, FilmState | None]:
+def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]:
     """Radiance and its standard error, (H, W, 3) float32 each, of a film under weights.
 
-    And what the film has gathered beside them: None if they do not tell its mean, or, but for
-    `beside_layers`, not alone.
+    And what the film has gathered beside them: None if they do not tell its mean, or not alone.
     """
     width, height = film.size
     radiance, error = np.empty((2, height, width, 3), np.float32)
-    is_all = are_trivial(weights) and (beside_layers or not film.extent.layers)
+    is_all = are_trivial(weights) and not film.extent.layers
     film_state = empty_state(height, width) if is_all else None
     for rows in film.bands():
         exposure = film.read(rows)
@@ -48,6 +46,25 @@ def mixed(
         if film_state:
             keep(film_state, rows, exposure.state(film.samples))
     return radiance, error, film_state
+
+
+def gathered(film: Film, weights: Weights) -> FilmState | LayerSums:
+    """What a denoiser needs of a film under weights, from which no render goes on.
+
+    The state of what is shown; of weighed layers, sums over halves of the observations.
+    """
+    width, height = film.size
+    factors = np.array(weights, np.float32)
+    bands = [film.read(rows) for rows in film.bands()]
+    if film.extent.layers and not are_trivial(weights):
+        sums = (_sums(band, factors) for band in bands)
+        return LayerSums(*(np.concatenate(part, axis=1) for part in zip(*sums, strict=True)))
+    state, factor = empty_state(height, width), factors[0]
+    for rows, band in zip(film.bands(), bands, strict=True):
+        own = band.state(film.samples)
+        own = own._replace(variance=own.variance * factor**2, part=own.part * factor)
+        keep(state, rows, own)
+    return state
 
 
 def _mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
@@ -62,14 +79,16 @@ def _mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
     factors = np.array(weights, np.float32)
     if not film.layers.size:
         return film.mean * factors[0], standard_error(film) * factors[0]
-    counts = film.layers[:, :1, :, :, 3:].astype(np.float64)  # halves, 1, H, W, 1
-    sums = (film.layers[..., :3] * factors[:, None, None, :]).sum(axis=1, dtype=np.float64)
-    first, second = counts[0, 0], counts[1, 0]
-    total = np.maximum(first + second, 1)
-    mean = (sums[0] * first + sums[1] * second) / total
-    error = np.abs(sums[0] - sums[1]) * np.sqrt(first * second) / total
+    sums = _sums(film, factors)
+    error = np.sqrt(sums.variance)
     error[film.observations < 2] = np.nan
-    return mean.astype(np.float32), error.astype(np.float32)
+    return sums.mean, error
+
+
+def _sums(film: Exposure, factors: Array) -> LayerSums:
+    counts = film.layers[:, 0, :, :, 3:].astype(np.float64)
+    weighted = film.layers[..., :3] * factors[:, None, None, :]
+    return LayerSums(weighted.sum(axis=1, dtype=np.float64), counts)
 
 
 class Mixer:

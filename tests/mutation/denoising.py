@@ -118,6 +118,27 @@ DENOISING = [
         "analysis/test_denoised_choice.py::test_what_longer_paths_leave_out_counts",
     ),
     mutant(
+        "of layers the rest keeps the light of the first samples",
+        "image/layer_sums.py",
+        "sums = self.means * self.counts - first.means * first.counts",
+        "sums = self.means * counts",
+        "image/test_layer_sums.py::test_the_rest_is_what_its_own_observations_make",
+    ),
+    mutant(
+        "halves of layers are taken to be of one size",
+        "image/layer_sums.py",
+        "* share[0] * share[1]",
+        "/ 4",
+        "image/test_layer_sums.py::test_the_variance_is_right_on_average_for_halves_of_any_size",
+    ),
+    mutant(
+        "a dimmed lamp leaves the variance of a half as it was",
+        "rendering/weighting.py",
+        "variance=own.variance * factor**2",
+        "variance=own.variance",
+        "view/test_denoised_picture.py::test_relit_lamps_are_denoised_by_their_weights",
+    ),
+    mutant(
         "noise of colours counts as a difference",
         NLM,
         "np.square(color[here] - color[there]) - 2 * np.minimum(a, b)",

@@ -12,7 +12,9 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.settings import Settings, settings_for
+from glrt.scene.materials import Light
+from glrt.scene.scene import Scene
+from glrt.settings import Cost, Settings, settings_for
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.session import Session
 
@@ -120,22 +122,40 @@ def test_without_samples_to_come_it_says_what_to_do(
     assert "restart" in denoised.told(session)
 
 
-def test_relit_lamps_are_told(context: Context, denoised: DenoisedPicture) -> None:
-    scene = load("lamps")
-    session = Session(scene, settings_for(scene.render, **SIZE, samples=64), context)
-    found(session, denoised, 64)
-    dimmed = scene.model_copy(
-        update={
-            "materials": {
-                name: material.model_copy(update={"emission": tuple(0.5 * e for e in color)})
-                if any(color := getattr(material, "emission", (0.0,)))
-                else material
-                for name, material in scene.materials.items()
-            }
-        }
-    )
-    session.edit(dimmed)
+@pytest.mark.parametrize("name", ["cornell", "lamps"], ids=["one film", "a film with layers"])
+def test_relit_lamps_are_denoised_by_their_weights(
+    name: str, context: Context, denoised: DenoisedPicture
+) -> None:
+    """The weighted sum: as bright as a render of the dimmed scene, and its error is known."""
+    scene = load(name)
+    session = Session(scene, settings_for(scene.render, **SIZE, samples=256), context)
+    while session.samples < 16:
+        session.advance(0.05, 1)
+    session.edit(dimmed(scene))
     frame(session, denoised)
-    assert denoised.found is None
-    assert "no lamp is relit" in denoised.told(session)
+    assert session.last_cost is Cost.RELIGHT
+    last = found(session, denoised, 256)
     session.release()
+    renderer = Renderer(dimmed(scene), session.settings, context, samples=4096, seed=9)
+    truth = renderer.render().image().radiance.astype(np.float64)
+    renderer.release()
+    assert last.denoising
+    assert last.sums is None
+    shown = last.denoising.radiance
+    assert shown.mean() == pytest.approx(truth.mean(), rel=0.03)
+    scale = np.square(truth) + 0.01 * truth.mean() ** 2
+    error = float(np.sqrt((np.square(shown - truth) / scale).mean()))
+    plain = float(np.sqrt((np.square(last.radiance - truth) / scale).mean()))
+    assert error < plain
+    assert last.denoising.error == pytest.approx(error, rel=0.35)
+
+
+def dimmed(scene: Scene) -> Scene:
+    """With lamps of a quarter of their light."""
+    materials = {
+        name: material.model_copy(update={"emission": tuple(e / 4 for e in material.emission)})
+        if isinstance(material, Light)
+        else material
+        for name, material in scene.materials.items()
+    }
+    return scene.model_copy(update={"materials": materials})

@@ -16,7 +16,7 @@ import numpy as np
 from glrt.denoise.filters import least_samples, with_filter
 from glrt.error.estimate import DARK
 from glrt.image.image import Image
-from glrt.methods.light_layers import are_trivial
+from glrt.methods.light_layers import Weights
 from glrt.rendering.halver import Halver
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Denoise, Settings, settings_for
@@ -48,7 +48,7 @@ class DenoisedPicture:
     def stop(self, session: Session) -> int | None:
         """How many samples the picture is to have when it is kept next; None: it need not be."""
         renderer = session.renderer
-        if not renderer or session.is_preview or not are_trivial(session.weights):
+        if not renderer or session.is_preview:
             return None
         settings, samples = self._filtered(renderer.settings), renderer.samples
         if self._halver.wants(settings, samples, NO_END):
@@ -64,11 +64,10 @@ class DenoisedPicture:
         if self._task and self._task.done():
             self.found, self._task = self._task.result(), None
         renderer = session.renderer
-        is_at_hand = renderer and not session.is_preview and not session.is_behind
-        if not renderer or not is_at_hand or not are_trivial(session.weights):
+        if not renderer or session.is_preview or session.is_behind:
             return
         if not renderer.lacks(renderer.samples):  # guides lag behind where they begin late
-            self._take(renderer, session.is_done)
+            self._take(renderer, session.weights, session.is_done)
 
     def fits(self, session: Session) -> bool:
         """Whether there is something to show, of the picture that is rendered now."""
@@ -108,8 +107,6 @@ class DenoisedPicture:
         renderer = session.renderer
         if not renderer or session.is_preview:
             return ""
-        if not are_trivial(session.weights):
-            return "The picture is denoised while no lamp is relit and all bounces are shown"
         name = self._filtered(renderer.settings).denoise
         work = f"denoising {counted(self._tried, 'sample')} by {name}" if self._task else ""
         if self.found and self.found.denoising:
@@ -124,14 +121,14 @@ class DenoisedPicture:
         wanted = max(self._next, least_samples(renderer.settings.block))
         return f"Denoised from {wanted} samples on"
 
-    def _take(self, renderer: Renderer, is_end: bool) -> None:
+    def _take(self, renderer: Renderer, weights: Weights, is_end: bool) -> None:
         settings, samples = self._filtered(renderer.settings), renderer.samples
         is_kept = self._halver.wants(settings, samples, NO_END)
         is_due = samples >= self._next > 0 or (is_end and samples > self._tried)
         is_due = is_due and self._task is None and self._halver.has_half(samples, settings.block)
         if not is_kept and not is_due:
             return
-        image = renderer.plain_image(beside_layers=True)
+        image = renderer.image_for_halves(weights)
         assert image.recipe
         image = replace(image, recipe=image.recipe.model_copy(update={"settings": settings}))
         if is_due:
