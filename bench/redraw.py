@@ -13,7 +13,7 @@ import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import WAYS, Temporal, Way
 from glrt.scene.scene import Scene
-from glrt.settings import Settings, settings_for
+from glrt.settings import Method, Settings, settings_for
 
 FRAMES, DEGREES = 48, 0.5
 LOOKS = (0, 1, 2, 4, 8, 16, 24, 32, 40, 47)  # frames; errors of others are interpolated
@@ -49,6 +49,7 @@ class Played(NamedTuple):
     mode: str  # and predictor
     errors: list[float]  # relative RMS, at LOOKS
     seconds: float  # of the process, a frame
+    samples: float  # of a pixel, a frame
 
     @property
     def mean(self) -> float:
@@ -63,6 +64,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
     parser.add_argument("--scene", nargs="+", default=SCENES)
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
+    parser.add_argument(
+        "--method", choices=get_args(Method), help="of `orbit`; default: of the scene"
+    )
     parser.add_argument("--mode", nargs="+", default=MODES, choices=WAYS)
     parsed = parser.parse_args(arguments)
     context, ways = open_context(), tuple(WAYS[mode] for mode in parsed.mode)
@@ -76,14 +80,22 @@ def main(arguments: list[str] | None = None) -> int:
         elif parsed.task == "psnr":
             print("\n".join(ratios(scene, context, ways)))
         else:
-            print("\n".join(told(scene, measure(scene, size, context, ways))))
+            print("\n".join(told(scene, measure(scene, size, context, ways, parsed.method))))
     return 0
 
 
-def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> list[Played]:
+def measure(
+    scene: str,
+    size: tuple[int, int],
+    context: Context,
+    ways: Ways,
+    method: Method | None = None,
+) -> list[Played]:
     """Each mode, one sample a frame."""
     opened = load(scene)
     settings = settings_for(opened.render, width=size[0], height=size[1])
+    if method:
+        settings = settings_for(settings, method=method)
     frames = orbit(opened, FRAMES, DEGREES)
     truth = {
         n: reference_for(frames.scenes[n], settings, context, 0.0, math.inf, samples=REFERENCE)
@@ -91,7 +103,8 @@ def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> 
     }
     found = []
     for way in ways:
-        played = play(frames, settings, context, way.mode, predictor=way.predictor)
+        more: list[float] = []
+        played = play(frames, settings, context, way.mode, predictor=way.predictor, more=more)
         errors, start = [], time.process_time()
         looked = 0.0
         for number, picture in enumerate(played):
@@ -99,7 +112,8 @@ def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> 
                 begun = time.process_time()
                 errors.append(math.sqrt(max(truth[number].squared_error(picture), 0.0)))
                 looked += time.process_time() - begun
-        found.append(Played(way.name, errors, (time.process_time() - start - looked) / FRAMES))
+        seconds = (time.process_time() - start - looked) / FRAMES
+        found.append(Played(way.name, errors, seconds, 1 + sum(more) / FRAMES))
     return found
 
 
@@ -110,11 +124,11 @@ def told(scene: str, found: list[Played]) -> Iterator[str]:
     in the time of the other.
     """
     base = found[0]
-    yield f"| {scene}, orbit of {FRAMES} frames | mean error | seconds a frame | at equal time |"
-    yield "|---|---|---|---|"
+    yield f"| {scene}, orbit of {FRAMES} frames | mean error | samples | seconds a frame | at equal time |"
+    yield "|---|---|---|---|---|"
     for one in found:
         gain = base.mean / math.sqrt(one.seconds / base.seconds) / one.mean
-        yield f"| {one.mode} | {one.mean:.3f} | {one.seconds:.3f} | {gain:.2f} times lower |"
+        yield f"| {one.mode} | {one.mean:.3f} | {one.samples:.2f} | {one.seconds:.3f} | {gain:.2f} times lower |"
 
 
 def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:

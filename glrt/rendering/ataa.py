@@ -35,6 +35,11 @@ class Ataa:
         self._is_masked = False
 
     @property
+    def more(self) -> int:
+        """Samples of this view beside the film."""
+        return self.traced * self.samples
+
+    @property
     def mask(self) -> moderngl.Texture | None:
         """Of this view, a: 0 the mean over views, 1 FXAA, 2 more samples, 3 those alone."""
         return self._mask.texture if self._is_masked else None

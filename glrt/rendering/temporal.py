@@ -156,6 +156,8 @@ class Temporal:
         with self._gl:
             for before in (self.surfaces, None):
                 self._resolver.arrive(self.surfaces, before, True)
+                if before and isinstance(self._resolver, Ataa):
+                    self._resolver.show(self.surfaces, self._fresh(renderer, weights, END))
         self.forget()
 
     def arrive(self, renderer: Renderer) -> None:
@@ -200,6 +202,12 @@ class Temporal:
             return Told(shown, 1.0) if number == "history" else Told(resolver.predictions, 0.0)
         return Told(shown, renderer.samples) if shown and number == "history" else None
 
+    @property
+    def more_samples(self) -> float:
+        """What this view took beside the film, by `ataa`: the mean over pixels."""
+        resolver, (width, height) = self._resolver, self.surfaces.size
+        return resolver.more / (width * height) if isinstance(resolver, Ataa) and width else 0.0
+
     def forget(self) -> None:
         """What was shown is no history for what comes."""
         self._is_kept = self._is_brought = False
@@ -225,13 +233,15 @@ class Temporal:
         self, resolver: Resolver, renderer: Renderer, weights: Weights | None
     ) -> moderngl.Texture:
         with self._gl:
-            weighed = weights or renderer.plan.weights
-            light = renderer.weighed(weighed)
-            source = renderer if is_whole(renderer, weighed) else None
-            end = self.end if self._is_brought else 0.0
-            fresh = Fresh(light, renderer.film.mean, renderer.samples, end, source)
+            fresh = self._fresh(renderer, weights, self.end if self._is_brought else 0.0)
             self._resolved_at = renderer.samples, weights
             return resolver.show(self.surfaces, fresh)
+
+    def _fresh(self, renderer: Renderer, weights: Weights | None, end: float) -> Fresh:
+        weights = weights or renderer.plan.weights
+        source = renderer if is_whole(renderer, weights) else None
+        light = renderer.weighed(weights)
+        return Fresh(light, renderer.film.mean, renderer.samples, end, source)
 
 
 def is_whole(renderer: Renderer, weights: Weights) -> bool:

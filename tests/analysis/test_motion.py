@@ -105,7 +105,7 @@ def test_files_hold_the_figures(tmp_path: Path) -> None:
 
 def test_the_command_refuses_modes_that_are_none(tmp_path: Path) -> None:
     with pytest.raises(
-        UsageError, match="--temporal takes reset, reproject, taa, wrls; got 'blur'"
+        UsageError, match="--temporal takes reset, reproject, taa, ataa, wrls; got 'blur'"
     ):
         run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,blur"])
 
@@ -119,7 +119,7 @@ def test_wrls_is_charted_by_each_predictor() -> None:
     arguments = Namespace(temporal="reset,wrls,reset", predictor="published,delayed")
     assert [way.name for way in _ways(arguments)] == ["reset", "wrls", "wrls delayed"]
     assert {name: way.predictor for name, way in WAYS.items()} == {
-        **dict.fromkeys(("reset", "reproject", "taa", "wrls"), "published"),
+        **dict.fromkeys(("reset", "reproject", "taa", "ataa", "wrls"), "published"),
         "wrls delayed": "delayed",
     }
 

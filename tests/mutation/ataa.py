@@ -1,6 +1,6 @@
 """Bugs of adaptive temporal antialiasing: its rules, its filter, its samples."""
 
-from tests.mutation.mutant import Mutant, edit
+from tests.mutation.mutant import Edit, Mutant, edit
 
 GLSL, FRAG, MORE = "temporal/ataa.glsl", "ataa.frag", "glrt/rendering/more_samples.py"
 TESTS = "temporal/test_ataa.py"
@@ -49,7 +49,7 @@ ATAA = [
     ),
     Mutant(
         "traced samples are those of the film again",
-        edit(MORE, "renderer.settings.seed ^ OTHER_SEED", "renderer.settings.seed"),
+        (Edit(MORE, "renderer.settings.seed ^ OTHER_SEED", "renderer.settings.seed"),),
         HIDDEN,
     ),
     Mutant(
@@ -59,10 +59,12 @@ ATAA = [
     ),
     Mutant(
         "samples are traced under other weights, too",
-        edit(
-            "glrt/rendering/temporal.py",
-            "renderer if is_whole(renderer, weighed) else None",
-            "renderer",
+        (
+            Edit(
+                "glrt/rendering/temporal.py",
+                "renderer if is_whole(renderer, weights) else None",
+                "renderer",
+            ),
         ),
         f"{TESTS}::test_other_weights_trace_nothing",
     ),

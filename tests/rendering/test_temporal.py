@@ -103,7 +103,7 @@ def test_reset_shows_the_film(context: Context, pipeline: Pipeline) -> None:
         assert same_bits(found[number], film_of(scene, context, seed=number))
 
 
-@pytest.mark.parametrize("mode", HISTORIES)
+@pytest.mark.parametrize("mode", [mode for mode in HISTORIES if mode != "ataa"])  # refused there
 def test_both_pipelines_show_the_same_bits(context: Context, mode: Mode) -> None:
     scenes = orbit(load("cornell"), 4, 2.0).scenes
     one, other = (pictures(scenes, context, mode, p) for p in ("compute", "fragment"))

@@ -103,11 +103,13 @@ def _seen(
 ) -> Iterator[Seen]:
     first = 0 if frames.name == "orbit" else BEFORE
     before = None
-    played = play(frames, settings, context, way.mode, samples, predictor=way.predictor)
+    more: list[float] = []
+    played = play(frames, settings, context, way.mode, samples, predictor=way.predictor, more=more)
     for number, picture in enumerate(played):
         is_new = frames.scenes[number] != before
         before = frames.scenes[number]
         found = SURFACES if way.mode != "reset" and is_new else 0.0
         if number in truth:
             squared = truth[number].squared_error(picture)
-            yield Seen(1 + number - first, rays + found, squared)
+            own = rays * (1 + more[-1] / samples)
+            yield Seen(1 + number - first, own + found, squared)

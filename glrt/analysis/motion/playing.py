@@ -12,6 +12,7 @@ from glrt.gpu.context import Context, Pipeline
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import Mode, Temporal
 from glrt.rendering.wrls import Predictor
+from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 Picture = NDArray[np.float32]  # (H, W, 3) radiance, row 0 on top
@@ -25,15 +26,17 @@ def play(
     samples: int = 1,
     pipeline: Pipeline = "auto",
     predictor: Predictor = "published",
+    more: list[float] | None = None,
 ) -> Iterator[Picture]:
     """What is on the screen at the end of each frame, of `samples` samples of each pixel.
 
     Frame n takes its random numbers from seed `settings.seed` + n, so that the noise of one is not
-    that of another.
+    that of another. `more` gets the samples of a pixel that each frame takes beside the film.
     """
     first = sequence.scenes[0]
     renderer = Renderer(first, settings, context, pipeline=pipeline)
     temporal = Temporal(context.gl, mode, predictor)
+    last: Scene | None = None
     try:
         for number, scene in enumerate(sequence.scenes):
             if scene != renderer.scene:
@@ -41,7 +44,11 @@ def play(
                 renderer.update(scene, seed=settings.seed + number)
                 temporal.arrive(renderer)
             renderer.render(renderer.samples + samples)
-            yield screen_of(renderer, temporal)
+            before = temporal.more_samples if scene == last else 0.0
+            picture, last = screen_of(renderer, temporal), scene
+            if more is not None:
+                more.append(temporal.more_samples - before)
+            yield picture
     finally:
         temporal.release()
         renderer.release()
