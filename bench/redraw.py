@@ -65,7 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--scene", nargs="+", default=SCENES)
     parser.add_argument("--size", type=int, nargs=2, default=(640, 480), metavar=("W", "H"))
     parser.add_argument(
-        "--method", choices=get_args(Method), help="of `orbit`; default: of the scene"
+        "--method", choices=get_args(Method), help="of `psnr`; default: of the scene"
     )
     parser.add_argument("--mode", nargs="+", default=MODES, choices=WAYS)
     parsed = parser.parse_args(arguments)
@@ -78,24 +78,16 @@ def main(arguments: list[str] | None = None) -> int:
         if parsed.task == "bias":
             print("\n".join(biases(scene, context, ways)))
         elif parsed.task == "psnr":
-            print("\n".join(ratios(scene, context, ways)))
+            print("\n".join(ratios(scene, context, ways, parsed.method)))
         else:
-            print("\n".join(told(scene, measure(scene, size, context, ways, parsed.method))))
+            print("\n".join(told(scene, measure(scene, size, context, ways))))
     return 0
 
 
-def measure(
-    scene: str,
-    size: tuple[int, int],
-    context: Context,
-    ways: Ways,
-    method: Method | None = None,
-) -> list[Played]:
+def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> list[Played]:
     """Each mode, one sample a frame."""
     opened = load(scene)
     settings = settings_for(opened.render, width=size[0], height=size[1])
-    if method:
-        settings = settings_for(settings, method=method)
     frames = orbit(opened, FRAMES, DEGREES)
     truth = {
         n: reference_for(frames.scenes[n], settings, context, 0.0, math.inf, samples=REFERENCE)
@@ -124,11 +116,13 @@ def told(scene: str, found: list[Played]) -> Iterator[str]:
     in the time of the other.
     """
     base = found[0]
-    yield f"| {scene}, orbit of {FRAMES} frames | mean error | samples | seconds a frame | at equal time |"
+    title = f"{scene}, orbit of {FRAMES} frames"
+    yield f"| {title} | mean error | samples | seconds a frame | at equal time |"
     yield "|---|---|---|---|---|"
     for one in found:
         gain = base.mean / math.sqrt(one.seconds / base.seconds) / one.mean
-        yield f"| {one.mode} | {one.mean:.3f} | {one.samples:.2f} | {one.seconds:.3f} | {gain:.2f} times lower |"
+        figures = f"{one.mean:.3f} | {one.samples:.2f} | {one.seconds:.3f}"
+        yield f"| {one.mode} | {figures} | {gain:.2f} times lower |"
 
 
 def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
@@ -154,10 +148,12 @@ def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
         yield f"{scene}, {way.name}, {samples} samples a view: {bias:+.2%}"
 
 
-def ratios(scene: str, context: Context, ways: Ways) -> Iterator[str]:
+def ratios(scene: str, context: Context, ways: Ways, method: Method | None = None) -> Iterator[str]:
     """Peak signal-to-noise ratios of the last frame, still and on an orbit, as a Markdown table."""
     opened = load(scene)
     settings = settings_for(opened.render, **FRAME)
+    if method:  # probes go with the sampler of Sobol
+        settings = settings_for(settings, method=method, sampler="sobol")
     yield f"| {scene} | PSNR, still | gain | PSNR, orbit | gain |"
     yield "|---|---|---|---|---|"
     found = [
