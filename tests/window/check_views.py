@@ -171,7 +171,7 @@ def the_zoom_is_told_with_the_key_that_ends_it(hand: Hand) -> None:
 
 @check
 def the_history_of_pixels_is_shown_while_it_counts(hand: Hand) -> None:
-    """Samples of `reproject`; weights by `wrls` alone, a mask by `ataa`, and a sentence where there is nothing."""
+    """Samples of `reproject`; weights by `wrls`, a mask by `ataa`, and a sentence without them."""
     app, session = hand.window.app, hand.session
 
     def look(temporal: str) -> None:
@@ -180,9 +180,9 @@ def the_history_of_pixels_is_shown_while_it_counts(hand: Hand) -> None:
 
     for temporal, view, colors in (
         ("reproject", "history", HISTORY),
+        ("ataa", "mask", MASK),
         ("wrls", "history", HISTORY),
         ("wrls", "weight", WEIGHT),
-        ("ataa", "mask", MASK),
     ):
         session.paused = False
         hand.there(partial(look, temporal))
