@@ -103,8 +103,13 @@ def _before_a_wall(objects: list[Table]) -> Scene:
 
 
 def _by_width(lab: Lab, scene_by: Callable[[float], Scene], parameter: str) -> Sweep:
-    """Root mean square error over some pictures of 64 samples, denoised and plain."""
-    errors: dict[str, list[float]] = {"denoised by nlm": [], "the filter alone": [], "plain": []}
+    """Root mean square error over some pictures of 64 samples: denoised, blurred, and plain."""
+    errors: dict[str, list[float]] = {
+        "denoised by nlm": [],
+        "means over 5 x 5 pixels": [],
+        "the filter alone": [],
+        "plain": [],
+    }
     for width in WIDTHS:
         scene, found = scene_by(width), []
         count = lab.count(TRUE_OF_WIDTHS, 1024)
@@ -112,9 +117,9 @@ def _by_width(lab: Lab, scene_by: Callable[[float], Scene], parameter: str) -> S
         for seed in range(PICTURES):
             with lab.rendering(scene, seed=seed, **SETTINGS) as renderer:
                 first, whole = (renderer.render(number).image() for number in (32, 64))
-            halves = halves_of(first, whole)
+            halves, blurred = halves_of(first, whole), window_mean(whole.radiance, 2)
             alone = summed(halves, _filtered(halves))
-            shown = denoise(halves, "nlm").radiance, alone, whole.radiance
+            shown = denoise(halves, "nlm").radiance, blurred, alone, whole.radiance
             found.append([_error(radiance, truths) for radiance in shown])
         for name, column in zip(errors, np.array(found).T, strict=True):
             errors[name].append(float(np.sqrt(np.mean(np.square(column)))))
