@@ -10,10 +10,10 @@ Modules, each importing only what stands above it:
 - recipe: what made a picture, as JSON
 - picture_files: channels and metadata of files, read
 - denoised_channels: a denoised picture and its error, in channels of a file
+- layer_sums: layers under weights, over two halves of the observations
 - image: a picture and its files: EXR, PNG, NPY
 - differences: what differs between two recipes, in words
 - moments: means and variances of disjoint samples, put together
-- layer_sums: layers under weights, over two halves of the observations
 - film_moments: what a picture has gathered on each of its films
 - halves: the first samples of a picture, and the rest of them
 - merge: parts put together

@@ -41,6 +41,8 @@ _ALL = (
     Case("mirrored", "A caustic that a mirror ball shows", particles.mirrored),
     Case("fireflies", "The brightest samples of a caustic", glass.fireflies),
     Case("denoised", "A denoised picture, by its samples", denoising.samples),
+    Case("thin", "Thin bars in a denoised picture", denoising.thin),
+    Case("stripes", "Stripes in a denoised picture", denoising.stripes),
     Case("sparks", "Fireflies in a denoised picture", denoising.sparks),
     Case("speed", "History while the camera moves", moving.speed),
     Case("reflection", "History of what a mirror shows", moving.reflection),

@@ -1,24 +1,30 @@
-"""Denoising: whether the filter leaves a bias, and whether fireflies fool the estimate."""
+"""Denoising: whether the filter leaves a bias, also of what is thin; fireflies in the estimate."""
 
+import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.analysis.stress.scenes import glass, lamp, matte, plane, scene_of, sphere
+from glrt.analysis.stress.scenes import Table, glass, lamp, matte, plane, quad, scene_of, sphere
 from glrt.analysis.stress.sweep import SIGMAS, Lab, Sweep
 from glrt.denoise.blend import blended
 from glrt.denoise.denoising import denoise
 from glrt.denoise.filters import FILTERS, Filtered
-from glrt.denoise.half import Guide, Half
+from glrt.denoise.half import Guide, Half, Pixels
 from glrt.denoise.risk import squared_error, summed
 from glrt.denoise.windows import window_mean
 from glrt.image.halves import halves_of
+from glrt.scene.scene import Scene
 from glrt.settings import GUIDES
 
 Floats = NDArray[np.float64]
 
 SAMPLES = (4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096)
+WIDTHS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0)  # in pixels, of bars and stripes
+PICTURES, TRUE_OF_WIDTHS = 4, 4096  # of each width; samples of its truth
+FOV, NEAR, FAR = 40.0, 2.0, 3.0  # degrees; distances of bars and of the wall
 SIDE, TRUE = 24, 1 << 15  # edge of the frame in pixels; samples a pixel, of the truth
 SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 4, "aov": GUIDES}
 WORSE = 1.3  # times the error of the plain picture, at most
@@ -49,22 +55,94 @@ def samples(lab: Lab) -> Sweep:
         for number in SAMPLES:
             whole = renderer.render(number).image()
             halves = halves_of(first, whole)
-            filters = (FILTERS["nlm"](half).radiance for half in halves)
-            alone = summed(halves, (next(filters), next(filters)))
+            alone = summed(halves, _filtered(halves))
             shown = denoise(halves, "nlm").radiance, alone, whole.radiance
             for name, radiance in zip(errors, shown, strict=True):
                 errors[name].append(_error(radiance, truths))
             first = whole
+    return _compared("samples a pixel", SAMPLES, errors)
+
+
+def thin(lab: Lab) -> Sweep:
+    """Error of dark bars and their shadows on a wall, by the width of the bars."""
+    pixel = 2 * math.tan(math.radians(FOV / 2)) * NEAR / SIDE  # edge of one, where the bars are
+
+    def bars(width: float) -> Scene:
+        places = np.linspace(-0.8, 0.8, 5)
+        thick = width * pixel
+        return _before_a_wall(
+            [quad([x, -2, -NEAR], [thick, 0, 0], [0, 4, 0], "dark") for x in places.tolist()]
+        )
+
+    return _by_width(lab, bars, "width of a bar in pixels")
+
+
+def stripes(lab: Lab) -> Sweep:
+    """Error of a wall of light and dark stripes, as a texture has them, by their width."""
+    pixel = 2 * math.tan(math.radians(FOV / 2)) * FAR / SIDE
+
+    def wall(width: float) -> Scene:
+        thick = width * pixel
+        count = math.ceil(1.2 * SIDE / width)
+        low = [-thick * count / 2, -2, 1e-3 - FAR]
+        return _before_a_wall(
+            [
+                quad([low[0] + thick * n, *low[1:]], [thick, 0, 0], [0, 4, 0], "dark")
+                for n in range(0, count, 2)
+            ]
+        )
+
+    return _by_width(lab, wall, "width of a stripe in pixels")
+
+
+def _before_a_wall(objects: list[Table]) -> Scene:
+    """What stands there, under a lamp beside the camera."""
+    own = [plane([0, 0, -FAR], [0, 0, 1], "wall"), sphere([1.5, 1.5, 0], 0.5, "lamp")]
+    materials = {"wall": matte(0.7), "dark": matte(0.1), "lamp": lamp(9.0)}
+    return scene_of([*own, *objects], materials, {"fov": FOV})
+
+
+def _by_width(lab: Lab, scene_by: Callable[[float], Scene], parameter: str) -> Sweep:
+    """Root mean square error over some pictures of 64 samples: denoised, blurred, and plain."""
+    errors: dict[str, list[float]] = {
+        "denoised by nlm": [],
+        "means over 5 x 5 pixels": [],
+        "the filter alone": [],
+        "plain": [],
+    }
+    for width in WIDTHS:
+        scene, found = scene_by(width), []
+        count = lab.count(TRUE_OF_WIDTHS, 1024)
+        truths = [lab.render(scene, count, seed=seed, **SETTINGS).radiance for seed in (8, 9)]
+        for seed in range(PICTURES):
+            with lab.rendering(scene, seed=seed, **SETTINGS) as renderer:
+                first, whole = (renderer.render(number).image() for number in (32, 64))
+            halves, blurred = halves_of(first, whole), window_mean(whole.radiance, 2)
+            alone = summed(halves, _filtered(halves))
+            shown = denoise(halves, "nlm").radiance, blurred, alone, whole.radiance
+            found.append([_error(radiance, truths) for radiance in shown])
+        for name, column in zip(errors, np.array(found).T, strict=True):
+            errors[name].append(float(np.sqrt(np.mean(np.square(column)))))
+    return _compared(parameter, WIDTHS, errors)
+
+
+def _compared(parameter: str, x: Sequence[float], errors: dict[str, list[float]]) -> Sweep:
+    """The first of the errors is that of what glrt shows, the last that of the plain picture."""
     name = next(iter(errors))
     return Sweep(
-        parameter="samples a pixel",
+        parameter=parameter,
         measure="relative RMS error",
-        x=SAMPLES,
+        x=x,
         chosen=(name, errors.pop(name)),
         others=errors,
         promise=f"at most {WORSE:g} times that of the plain picture",
         bound=[WORSE * error for error in errors["plain"]],
     )
+
+
+def _filtered(halves: tuple[Half, Half]) -> tuple[Pixels, Pixels]:
+    first, second = (FILTERS["nlm"](half).radiance for half in halves)
+    return first, second
 
 
 def _error(radiance: NDArray[np.float32], truths: list[NDArray[np.float32]]) -> float:
