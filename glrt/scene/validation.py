@@ -112,7 +112,8 @@ def _without_consequences(
 def _place(detail: ErrorDetails) -> Place:
     """Keys and indices from the top of the file, without the tags that pydantic mixes in."""
     place: Place = detail["loc"]
-    if place[-1:] == ("[key]",) or detail["type"] == "invalid_key" or _is_short_vector(detail):
+    is_key = place[-1:] == ("[key]",) and not _is_extra(detail)  # an extra may be called so
+    if is_key or detail["type"] == "invalid_key" or _is_short_vector(detail):
         place = place[:-1]
     if place[:1] in (("objects",), ("materials",)):
         place = place[:2] + place[3:]
