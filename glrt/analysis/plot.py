@@ -28,6 +28,7 @@ _STYLES = (  # colour, marker, dashes: one row for each curve of a chart
     ("#cc79a7", "D", ":"),
     ("#56b4e9", "v", (0, (5, 1, 1, 1, 1, 1))),
     ("#e69f00", "P", (0, (8, 2))),
+    ("#777777", "X", (0, (2, 1))),
 )
 _HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
