@@ -81,4 +81,3 @@ def test_words_name_samples_of_both_and_what_to_add() -> None:
     told = denoised_advice(verdict, DenoisedChoice("nlm", 128, 0.031, 0.035, (96, 96)))
     for words in ("128 samples", "5,008", "3.1 %", "below 3.5 %", "--denoise nlm --samples 128"):
         assert words in told
-    assert "not known to reach" in denoised_advice(verdict, None)

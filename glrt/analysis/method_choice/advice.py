@@ -45,15 +45,14 @@ def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> N
         context = open_context(arguments.context)
         found = denoised_choice(scene, verdict.best, verdict.error, context)
         context.gl.release()
-        print(denoised_advice(verdict, found))
+        if found:
+            print(denoised_advice(verdict, found))
 
 
-def denoised_advice(verdict: Verdict, found: DenoisedChoice | None) -> str:
-    """What is said of the same picture denoised."""
+def denoised_advice(verdict: Verdict, found: DenoisedChoice) -> str:
+    """What is said of the same picture denoised, where fewer samples suffice so."""
     best = verdict.best
     plain = (best and best.samples_to(verdict.error)) or 0
-    if found is None:
-        return "Denoised pictures are not known to reach it with half of these samples."
     (width, height), samples = found.size, _count(found.samples, "sample")
     return (
         f"Denoised by `{found.by}`, {samples} reach it, where plain pictures take {plain:,}: the "
