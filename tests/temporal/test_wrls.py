@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import pairwise
-from typing import Any, get_args
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -13,7 +13,6 @@ from glrt.analysis.motion.playing import play, read_texture
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.false_colors import Number
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.resolver import Fresh
 from glrt.rendering.temporal import Mode, Temporal
@@ -142,7 +141,7 @@ def test_numbers_of_the_history_are_told(context: Context) -> None:
         temporal.arrive(renderer)
         renderer.step(1)
     twin.add(np.full((1, 3), 0.5))
-    history, weight = (temporal.told(renderer, number) for number in get_args(Number))
+    history, weight = temporal.told(renderer, "history"), temporal.told(renderer, "weight")
     assert history
     assert weight
     seen, weights = textures_of(context, history.texture, weight.texture)
