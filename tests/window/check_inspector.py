@@ -115,3 +115,18 @@ def the_panel_inspects(hand: Hand) -> None:
     press(hand, imgui.Key.i)
     assert not app.inspects
     ctx.item_close("Inspect")
+
+
+@check
+def what_lies_below_the_histogram_stays_while_there_is_none(hand: Hand) -> None:
+    """A click there would meet another row where the first look at a picture came between."""
+    app, ctx = hand.window.app, hand.ctx
+    ctx.item_open("//Controls/Inspect")
+    hand.until(lambda: app.progress.last is not None)
+    ctx.yield_(2)
+    below = ctx.item_info("//Controls/Paths of a pixel").rect_full.min.y
+    hand.there(app.restart)
+    ctx.yield_(2)
+    assert app.progress.last is None
+    assert ctx.item_info("//Controls/Paths of a pixel").rect_full.min.y == below
+    ctx.item_close("//Controls/Inspect")

@@ -26,6 +26,7 @@ PIXEL = switch(
     Cost.FREE,
 )
 _ZERO = np.zeros(1)
+HEIGHT = 7  # of the histogram, in em
 
 
 def draw_inspector(app: App) -> None:
@@ -44,12 +45,13 @@ def draw_inspector(app: App) -> None:
         _histogram(last.histogram, app.session.settings.exposure)
     else:
         imgui.text_disabled("histogram: from two observations on")
+        imgui.dummy(ImVec2(0, hello_imgui.em_size(HEIGHT)))  # what lies below stays where it is
 
 
 def _histogram(shown: Histogram, exposure: float) -> None:
     """Shares of pixels by how far they are from white, in EV."""
     stops = shown.stops + exposure
-    size = ImVec2(-1, hello_imgui.em_size(7))
+    size = ImVec2(-1, hello_imgui.em_size(HEIGHT))
     flags = implot.Flags_.no_menus | implot.Flags_.no_legend | implot.Flags_.no_mouse_text
     if not implot.begin_plot("##histogram", size, int(flags)):
         return
