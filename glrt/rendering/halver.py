@@ -5,14 +5,18 @@ the difference. Where a render ends is not always known, so copies are kept at e
 and of these the one nearest to the middle serves.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
-from glrt.denoise.denoising import denoise
+from glrt.denoise.denoising import Denoised, denoise
 from glrt.denoise.filters import LEAST
+from glrt.denoise.half import Half
 from glrt.errors import UsageError
 from glrt.image.halves import halves_of
 from glrt.image.image import Image
 from glrt.settings import Settings
+
+Filtering = Callable[[tuple[Half, Half], str], Denoised | None]
 
 KEPT = 3  # copies held at once: more than half as far as the render can be
 
@@ -58,13 +62,16 @@ class Halver:
         """Keep the picture as it is now."""
         self._kept = [*self._kept, image][-KEPT:]
 
-    def finished(self, image: Image) -> Image:
-        """The picture denoised if that is asked for, with the AOVs that are asked for alone."""
+    def finished(self, image: Image, by: Filtering = denoise) -> Image:
+        """The picture denoised if that is asked for, with the AOVs that are asked for alone.
+
+        `by` filters; where it has no result the picture is not denoised.
+        """
         assert image.recipe
         settings = image.recipe.settings
         if settings.denoise != "none":
             first = self._first_half(image.samples, settings.block)
-            found = denoise(halves_of(first, image), settings.denoise) if first else None
+            found = by(halves_of(first, image), settings.denoise) if first else None
             image = replace(image, denoising=found)
         return replace(image, sums=None, aovs={name: image.aovs[name] for name in settings.aov})
 

@@ -156,8 +156,7 @@ class Temporal:
         with self._gl:
             for before in (self.surfaces, None):
                 self._resolver.arrive(self.surfaces, before, True)
-                if before and isinstance(self._resolver, Ataa):
-                    self._resolver.show(self.surfaces, self._fresh(renderer, weights, END))
+                self._resolver.show(self.surfaces, self._fresh(renderer, weights, END))
         self.forget()
 
     def arrive(self, renderer: Renderer) -> None:

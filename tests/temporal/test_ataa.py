@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from glrt.analysis.motion.playing import read_texture, screen_of
+from glrt.analysis.motion.playing import read_texture
 from glrt.errors import RenderError
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.evaluate import Probe
@@ -23,6 +23,7 @@ from tests.support.images import same_bits
 from tests.support.moving import FOV, drawn, noise, two_walls, wall
 from tests.temporal.ataa_twin import failure, fxaa
 from tests.temporal.twins import Array
+from tests.temporal.views import views
 
 SIZE = (16, 12)
 PIXEL = 1.0 / SIZE[1]
@@ -56,13 +57,7 @@ def played(
     temporal._resolver = ataa
     seen = []
     try:
-        for seed, scene in enumerate(scenes):
-            if seed:
-                temporal.leave(renderer)
-                renderer.update(scene, seed=seed)
-                temporal.arrive(renderer)
-            renderer.step(1)
-            shown = screen_of(renderer, temporal)
+        for shown in views(renderer, temporal, scenes):
             mask = np.zeros(SIZE[::-1])
             if ataa.mask:
                 with context.gl:

@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from glrt.analysis.motion.playing import read_texture, screen_of
+from glrt.analysis.motion.playing import read_texture
 from glrt.gpu.context import Context
 from glrt.gpu.evaluate import Probe
 from glrt.rendering.renderer import Renderer
@@ -19,6 +19,7 @@ from glrt.settings import settings_for
 from tests.support.images import same_bits
 from tests.support.moving import drawn, noise, two_walls, view, wall
 from tests.temporal.twins import Array, effective_samples, taa_shown, taa_weights
+from tests.temporal.views import views
 
 SIZE = (16, 12)
 PIXEL = 1.0 / SIZE[1]
@@ -83,13 +84,8 @@ def screens(options: TaaOptions, scenes: list[Scene], context: Context) -> tuple
     temporal = Temporal(context.gl, "taa")
     temporal._resolver = Taa(context.gl, options)
     shown, films = [], []
-    for seed, scene in enumerate(scenes):
-        if seed:
-            temporal.leave(renderer)
-            renderer.update(scene, seed=seed)
-            temporal.arrive(renderer)
-        renderer.step(1)
-        shown.append(screen_of(renderer, temporal))
+    for picture in views(renderer, temporal, scenes):
+        shown.append(picture)
         films.append(renderer.image().radiance)
     temporal.release()
     renderer.release()

@@ -1,5 +1,6 @@
 """The view of the denoised picture: what `--denoise` makes, at doublings; no window is opened."""
 
+import sys
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -15,10 +16,12 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.materials import Light
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings, settings_for
+from glrt.view.state import denoise_process
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.session import Session
 
 SIZE: dict[str, Any] = {"width": 32, "height": 32}
+SLEEPS = "import time; time.sleep(10**6)"
 
 
 @pytest.fixture(params=["cornell", "lamps"], ids=["one film", "a film with layers"])
@@ -120,6 +123,26 @@ def test_without_samples_to_come_it_says_what_to_do(
     assert denoised.found is None
     assert not denoised.is_under_way
     assert "restart" in denoised.told(session)
+
+
+def test_a_filter_that_is_under_way_is_ended_and_not_waited_for(
+    session: Session, denoised: DenoisedPicture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It would take days."""
+    monkeypatch.setattr(denoise_process, "COMMAND", [sys.executable, "-c", SLEEPS])
+    while not denoised.is_under_way:
+        frame(session, denoised)
+    denoised.release()
+    assert denoised.found is None
+
+
+def test_a_filter_that_fails_is_told(
+    session: Session, denoised: DenoisedPicture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(denoise_process, "COMMAND", [sys.executable, "-c", "raise MemoryError"])
+    while "ended without a picture" not in denoised.told(session):
+        frame(session, denoised)
+    assert not denoised.fits(session)
 
 
 @pytest.mark.parametrize("name", ["cornell", "lamps"], ids=["one film", "a film with layers"])

@@ -5,7 +5,6 @@ filter gains grows with the picture, whose edges it blurs.
 """
 
 import math
-from contextlib import ExitStack
 from typing import Any, NamedTuple
 
 from glrt.analysis.method_choice.trial import Candidate
@@ -41,18 +40,17 @@ def denoised_choice(
     if WORTH * samples > plain:
         return None
     renderer = Renderer(scene, _on_small_frame(chosen.settings, plain), context)
-    with ExitStack() as held:
-        held.callback(renderer.release)
+    try:
         while WORTH * samples <= plain:
             found = renderer.render(samples).image().denoising
             assert found
-            told, high = (
-                math.hypot(found.error, bias.value),
-                math.hypot(found.error_high, bias.most),
-            )
+            high = math.hypot(found.error_high, bias.most)
             if high <= error:
-                return DenoisedChoice(renderer.settings.denoise, samples, told, high, renderer.size)
+                by, told = renderer.settings.denoise, math.hypot(found.error, bias.value)
+                return DenoisedChoice(by, samples, told, high, renderer.size)
             samples *= 2
+    finally:
+        renderer.release()
     return None
 
 

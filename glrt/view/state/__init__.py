@@ -24,6 +24,7 @@ Modules, each importing only what stands above it:
 - moving_picture: what is shown beside the film while the camera moves
 - path_explorer: the paths of a pixel
 - session: the scene, its settings and the renderer that follows them
+- denoise_process: a filter in a process of its own
 - denoised_picture: the picture filtered while it is rendered on
 - costs: what an edit costs at present
 - reference_image: the picture kept to compare with

@@ -1,4 +1,4 @@
-"""The picture denoised while it is rendered on, by a thread beside the window's frames.
+"""The picture denoised while it is rendered on, by a process beside the window's frames.
 
 It is filtered when its samples have doubled, and once they are all there; in between the last one
 stays. A picture that is there already has no half of its samples to judge the rest by: it is
@@ -21,6 +21,7 @@ from glrt.rendering.halver import Halver
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Denoise, Settings, settings_for
 from glrt.text import counted
+from glrt.view.state.denoise_process import DenoiseProcess
 from glrt.view.state.session import Session
 
 FEWER = 1.25  # factor from the samples of the first half to those of the first picture
@@ -31,10 +32,10 @@ class DenoisedPicture:
     """What a filter made last of the picture under way."""
 
     def __init__(self, by: Denoise = "auto") -> None:
-        """By a filter, oidn where it is installed. No thread is started before one is needed."""
+        """By a filter, oidn where it is installed. Nothing is started before it is needed."""
         self._by: Denoise = by
         self._threads = ThreadPoolExecutor(1, "denoise")
-        self._halver = Halver()
+        self._halver, self._process = Halver(), DenoiseProcess()
         self._of: object = None  # what its halves are of
         self._task: Future[Image] | None = None
         self._tried = self._next = 0  # samples of the last picture to be filtered, of the next
@@ -93,12 +94,14 @@ class DenoisedPicture:
             texture.release()
 
     def rest(self) -> None:
-        """Forget everything; what is being filtered is not waited for."""
-        self._halver, self._task, self.found = Halver(), None, None
+        """Forget everything, and filter no more."""
+        self._process.end()
+        self._halver, self._process = Halver(), DenoiseProcess()
+        self._task = self.found = None
         self._of, self._tried, self._next = None, 0, 0
 
     def release(self) -> None:
-        """End the thread once it is done."""
+        """End the process and the thread that waits for it."""
         self.rest()
         self._threads.shutdown(cancel_futures=True)
 
@@ -116,6 +119,8 @@ class DenoisedPicture:
             return f"{shown}; {work}" if work else shown
         if work:
             return work.capitalize()
+        if self.found:
+            return f"The denoiser {name} ended without a picture"
         if session.is_done:
             return "Denoising compares samples to come with those that are there: restart"
         wanted = max(self._next, least_samples(renderer.settings.block))
@@ -133,7 +138,7 @@ class DenoisedPicture:
         image = replace(image, recipe=image.recipe.model_copy(update={"settings": settings}))
         if is_due:
             self._tried, self._next = samples, 2 * samples
-            self._task = self._threads.submit(self._halver.finished, image)
+            self._task = self._threads.submit(self._halver.finished, image, self._process.run)
         if is_kept:
             self._halver.keep(image)
             first = max(least_samples(settings.block), int(FEWER * samples))

@@ -80,7 +80,10 @@ class PictureView:
         is_ahead = kept and renderer and kept.samples(renderer) < session.samples
         session.waits = self.holds or bool(is_ahead)
         session.advance(seconds / 2 if kept else seconds, count)
-        self.denoised.follow(session) if is_denoised else self.denoised.rest()
+        if is_denoised:
+            self.denoised.follow(session)
+        else:
+            self.denoised.rest()
         if kept and session.renderer:
             is_alone = session.is_done or session.waits
             kept.catch_up(session.renderer, max(seconds, LONGER) if is_alone else seconds / 2)
@@ -117,7 +120,7 @@ class PictureView:
             self.scale,
             self.mean,
             kept,
-            id(self.denoised.found),
+            self.denoised.found,
         )
         if content != self._content:
             self._draw(session, renderer, view, other)
@@ -154,8 +157,7 @@ class PictureView:
         if aov_of(self.view) and self.drawn != self.view:
             return f"The view {self.view} comes with its first sample"
         if (number := number_of(self.view)) and self.drawn != self.view:
-            of = OF_NUMBERS[number]
-            return NO_HISTORY.format(number, of)
+            return NO_HISTORY.format(number, OF_NUMBERS[number])
         if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
             return HISTORY.format(session.moving.end)
         if is_filtered(self.view):

@@ -25,7 +25,7 @@ VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 HELP = (
     "picture: as it will be saved\n"
     "denoised: without its noise, as --denoise makes it, and how wrong that is; files have the "
-    "picture\n"
+    "plain picture\n"
     "denoised error: of the denoised picture, about each pixel: noise, and what the filter gets "
     "wrong\n"
     "error: the estimated relative error of each pixel\n"
@@ -36,7 +36,7 @@ HELP = (
     "temporal wrls, views); grey where it has none\n"
     "weight: by temporal wrls, how much the new samples count\n"
     "mask: by temporal ataa, where history fails; dark: filtered, green: traced beside history, "
-    "yellow: traced; grey where history does\n"
+    "yellow: traced alone; grey where history is shown\n"
     "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
     "gathered while they are shown\n"
     "bounces: how often the paths of a pixel scatter before they end, in the mean"
@@ -49,7 +49,7 @@ TITLES: dict[View, str] = {
     "difference": "luminance against the kept picture",
     "history": "samples (wrls: views) of history; grey: none",
     "weight": "weight of the new samples; grey: no sample",
-    "mask": "history fails: 1 filtered, 2 and 3 traced; grey: it does",
+    "mask": "no history: 1 filtered, 2 and 3 traced; grey: history",
     "albedo": "albedo of the first surface",
     "normal": "normal, x y z as red green blue around grey",
     "depth": "depth, grey at {focus:.3g}, where the camera focuses",
