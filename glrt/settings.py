@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 
 from glrt.errors import UsageError
 
-Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi"]
+Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather"]
 Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -74,7 +74,8 @@ class RenderSettings(Frozen):
         description="how lamps are found; naive: by scattering alone; nee: by sampling a lamp at "
         "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
         "whitted, cook: lighting models before path tracing, which leave light out; ddgi: direct "
-        "light as mis finds it, and indirect light from a grid of probes",
+        "light as mis finds it, and indirect light from a grid of probes; gather: the same after "
+        "one more matte surface, to which paths are traced (final gathering)",
     )
 
 
@@ -122,8 +123,8 @@ class Settings(RenderSettings):
     )
     probes: Annotated[int, Editable(Cost.RESTART, "probes", (2, 8))] = Field(
         0,
-        description="probes along each edge of the grid of method ddgi, 2 to 16; 0: as [probes] of "
-        "the scene says, or 5",
+        description="probes along each edge of the grid of methods ddgi and gather, 2 to 16; 0: as "
+        "[probes] of the scene says, or 5",
         ge=0,
         le=16,
     )

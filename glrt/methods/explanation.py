@@ -105,6 +105,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
 def _by_settings(needs: Needs, settings: Settings) -> list[Feature]:
     return [
         Feature("probes", needs.has_probes, f"method {settings.method}"),
+        Feature("final gather", needs.final_gather, f"method {settings.method}"),
         Feature("particles", needs.has_particles, f"caustics {settings.caustics}"),
         Feature("linked spheres", needs.linked != 0, _links(needs, settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),

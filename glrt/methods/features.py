@@ -89,6 +89,7 @@ class Needs:
     targets: int  # balls around other smooth shapes at which some of them are aimed
     linked: int  # smooth spheres through which some of them are linked: a bit for each
     has_probes: bool  # indirect light from a grid of them
+    final_gather: bool  # over one more matte surface, to which paths are traced
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
@@ -121,7 +122,7 @@ def everything() -> dict[str, bool | int]:
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
-_IMAGE = ("has_environment", "sample_sky", "has_probes")
+_IMAGE = ("has_environment", "sample_sky", "has_probes", "final_gather")
 _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
@@ -180,6 +181,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         targets=len(targets_of(scene)) if follows_particles and settings.aimed else 0,
         linked=link_bits(scene) if follows_particles and settings.linked else 0,
         has_probes=traits.has_probes,
+        final_gather=traits.gathers,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,

@@ -22,16 +22,19 @@ def omissions(scene: Scene, settings: Settings) -> list[str]:
 
 
 def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
-    """What probes do not hold."""
-    if settings.bounces < 2 or not scene.visible:
+    """What probes do not hold of the light that paths leave to them."""
+    gathers = METHODS[settings.method].gathers
+    if settings.bounces < 2 + gathers or not scene.visible:
         return
     kinds = {material.type for material in contents_of(scene).materials.values()}
     if "lambertian" not in kinds:
         return
     cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(scene, settings).cell)
-    yield f"of indirect light what is finer than its probes, {cell} apart"
+    light = "light over three matte surfaces or more" if gathers else "indirect light"
+    yield f"of {light} what is finer than its probes, {cell} apart"
     if kinds & {"metal", "dielectric"}:
-        yield "light over mirrors or through glass onto matte surfaces"
+        lit = "matte surfaces that light others" if gathers else "matte surfaces"
+        yield f"light over mirrors or through glass onto {lit}"
 
 
 def _omissions(scene: Scene, method: str) -> Iterator[str]:

@@ -21,6 +21,7 @@ class Traits:
     has_lens: bool = True
     has_rough: bool = True  # metal and glass; else they are smooth
     has_probes: bool = False  # indirect light from a grid of them
+    gathers: bool = False  # their light over one more matte surface, to which paths are traced
 
     @property
     def uses_lamps(self) -> bool:
@@ -42,6 +43,9 @@ METHODS: dict[str, Traits] = {
     "whitted": Traits(model=3, has_lens=False, has_rough=False),
     "cook": Traits(model=4, chooses_lights=True),
     "ddgi": Traits(samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True),
+    "gather": Traits(
+        samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True, gathers=True
+    ),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing
 # Those whose picture, however many samples it has, is not the light of the scene.

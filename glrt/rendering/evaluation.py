@@ -13,6 +13,7 @@ from glrt.methods.contents import Contents, contents_of
 from glrt.methods.features import everything
 from glrt.methods.particles import ball_around
 from glrt.methods.probe_grid import grid_of
+from glrt.methods.table import METHODS
 from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
@@ -90,7 +91,7 @@ def resources_of(
         around: Any = {"tree": tree, "glass": glass, "sky_density": density}
         around["bounds"] = ball_around(scene)
         settings = settings or settings_for(scene.render)
-        if settings.method == "ddgi":
+        if METHODS[settings.method].has_probes:
             around["grid"] = grid_of(scene, settings)
         frame = pack_frame(scene, settings, counts, 0, 1, **around)
     sky: dict[str, Resource] = {}

@@ -16,6 +16,7 @@ from glrt.gpu.context import Context
 from glrt.gpu.program import Images, Resource
 from glrt.methods.light_layers import Plan
 from glrt.methods.probe_grid import Grid
+from glrt.methods.table import METHODS
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import AnyKernel, ready
 from glrt.rendering.pack_probes import (
@@ -92,7 +93,8 @@ class ProbeTracer:
         """
         assert scene.grid
         self._context, self._scene, self.grid = context, scene, scene.grid
-        shorter = max(plan.settings.bounces - 1, 0)  # what they light scatters once more
+        # What they light scatters once more on its way to the camera, or twice.
+        shorter = max(plan.settings.bounces - 1 - METHODS[plan.settings.method].gathers, 0)
         settings = plan.settings.model_copy(update={"bounces": shorter})
         self._plan, self._is_used = replace(plan, settings=settings), shorter > 0
         self._sees, self._set, self._done = False, -1, 0

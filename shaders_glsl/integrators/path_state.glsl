@@ -15,6 +15,7 @@ struct Path {
     float way;        // from there to the last hole
     float rho;        // what particles are weighed against (integrators/particle_weights.glsl); 0: they do not come
     Chain chain;      // of what it met first
+    bool asks_probes; // whether the next matte surface does
     bool is_last;     // whether its next segment is its last, for light beyond it is that of probes
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
@@ -22,8 +23,9 @@ struct Path {
 Path start_path(Ray ray) {
     precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
+    bool asks_probes = !FINAL_GATHER || FROM_PROBES;
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, start_chain(ray),
-                false, NO_LAYERS);
+                asks_probes, false, NO_LAYERS);
 }
 
 // Light of a lamp that is `length` scattering events from the camera; `group` is its layer. What a probe sees shine

@@ -93,9 +93,14 @@ ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
 }
 
 // Light that reaches a matte surface over others, in place of following the path further: it ends with the segment
-// that finds its direct light. Beyond the grid, and where no probe is of use, paths go on.
+// that finds its direct light. Beyond the grid, and where no probe is of use, paths go on; those of a final gather
+// also where they meet the first matte surface.
 void gather_from_probes(precise inout Path path, Vertex vertex, vec3 position, precise inout Sampler rng) {
     if (vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;
+    if (!path.asks_probes) {
+        path.asks_probes = true;
+        return;
+    }
     precise float share = share_of_probes(position);
     if (share < 1.0) {
         if (next_1d(rng) >= share) return;

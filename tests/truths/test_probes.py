@@ -23,6 +23,7 @@ from tests.truths.test_invariance import mixture
 Floats = NDArray[Any]
 
 WAY: dict[str, Any] = {"method": "ddgi", "sampler": "sobol", "probes": 2}
+GATHERS = {"ddgi": 0, "gather": 1}  # matte surfaces on a path before probes are asked
 ROOMS = {"sphere": [sphere([0, 0, 0], 1, "glow")], "planes": room_of_planes("glow")}
 OFF_CENTER = {"position": [0.31, -0.17, 0.23], "look_at": [-0.6, 0.5, -1.0], "fov": 90}
 
@@ -68,39 +69,66 @@ def directions(side: int) -> Floats:
 # --- pictures ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("bounces", [0, 1])
-def test_direct_light_is_that_of_mis_to_the_bit(context: Context, bounces: int) -> None:
+@pytest.mark.parametrize(
+    ("method", "bounces"), [("ddgi", 0), ("ddgi", 1), ("gather", 0), ("gather", 1), ("gather", 2)]
+)
+def test_light_that_probes_do_not_bring_is_that_of_mis_to_the_bit(
+    context: Context, method: str, bounces: int
+) -> None:
     ways = {"bounces": bounces, "sampler": "sobol"}
-    probes = rendered(mixture(), context, 16, **{**WAY, **ways})
+    probes = rendered(mixture(), context, 16, **{**WAY, **ways, "method": method})
     assert same(probes, rendered(mixture(), context, 16, method="mis", **ways))
 
 
+@pytest.mark.parametrize("method", GATHERS)
 @pytest.mark.parametrize("name", ROOMS)
-def test_two_bounces_in_a_closed_room_are_exact(context: Context, name: str) -> None:
-    """1 + a + a^2."""
-    image = rendered(room(name, 0.5), context, 16, bounces=2, **WAY)
-    np.testing.assert_allclose(image.radiance, 1.75, rtol=1e-5)
+def test_as_many_bounces_as_probes_bring_one_of_are_exact_in_a_closed_room(
+    context: Context, name: str, method: str
+) -> None:
+    """1 + a + a^2; a gather takes a^3 from them."""
+    bounces = 2 + GATHERS[method]
+    image = rendered(room(name, 0.5), context, 16, **{**WAY, "method": method}, bounces=bounces)
+    np.testing.assert_allclose(image.radiance, 2 - 0.5**bounces, rtol=1e-5)
 
 
+@pytest.mark.parametrize("method", GATHERS)
 @pytest.mark.parametrize("albedo", [0.5, 0.95])
 @pytest.mark.parametrize("name", ROOMS)
 def test_a_closed_room_has_the_light_of_all_bounces(
-    context: Context, name: str, albedo: float
+    context: Context, name: str, albedo: float, method: str
 ) -> None:
     """1 / (1 - a), less what does not come in so many updates: light of each is a (1 + E)."""
-    image = rendered(room(name, albedo), context, 16, bounces=3, **WAY)
+    bounces = 3 + GATHERS[method]
+    image = rendered(room(name, albedo), context, 16, **{**WAY, "method": method}, bounces=bounces)
     held = 0.0  # by the probes, as radiance
     for update in range(UPDATES):
         kept = kept_light(update)
         held = kept * held + (1 - kept) * albedo * (1 + held)
-    np.testing.assert_allclose(image.radiance, 1 + albedo + albedo * held, rtol=1e-4)
+    expected = 1 + albedo + albedo * held
+    if method == "gather":
+        expected = 1 + albedo * expected
+    np.testing.assert_allclose(image.radiance, expected, rtol=1e-4)
     np.testing.assert_allclose(image.radiance, 1 / (1 - albedo), rtol=0.01)
 
 
-def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context) -> None:
-    expected = rendered(mixture(), context, 16, **WAY)
+def test_a_matte_surface_in_a_mirror_is_the_first_one_of_a_gather(context: Context) -> None:
+    """After the mirror two surfaces are traced, so that the third bounce is the last one."""
+    mirror = quad([-9, -9, -0.5], [18, 0, 0], [0, 18, 0], "mirror")
+    things = [*room_of_planes("wall"), sphere([0.2, 0.4, 0.5], 0.2, "lamp"), mirror]
+    materials = {"wall": MATTE, "lamp": lamp(4.0), "mirror": {"type": "metal", "color": [1, 1, 1]}}
+    scene = scene_of(things, materials, {"position": [0, 0, 0], "look_at": [0, 0, -1], "fov": 60})
+    ways = {**WAY, "bounces": 3}
+    expected = rendered(scene, context, 16, **{**ways, "method": "mis"})
+    assert same(rendered(scene, context, 16, **{**ways, "method": "gather"}), expected)
+    assert not same(rendered(scene, context, 16, **ways), expected)
+
+
+@pytest.mark.parametrize("method", GATHERS)
+def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, method: str) -> None:
+    way = {**WAY, "method": method}
+    expected = rendered(mixture(), context, 16, **way)
     for power in (-9, -1, 4, 10):
-        assert same(rendered(mixture(2.0**power), context, 16, **WAY), expected), power
+        assert same(rendered(mixture(2.0**power), context, 16, **way), expected), power
 
 
 def test_the_picture_of_other_samples_at_once_has_the_same_bits(context: Context) -> None:

@@ -12,7 +12,7 @@ EXPLANATIONS: dict[str, str] = {
         "by these alone; mis weighs both ways by p^2 / (p^2 + q^2), where q is the density of the "
         "other one. phong, blinn, whitted and cook are models from before path tracing: they leave "
         "light out. ddgi takes light that has come over several surfaces from a grid of probes, "
-        "which blurs it."
+        "which blurs it; gather does so one matte surface later."
     ),
     "sampler": (
         "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "
