@@ -24,6 +24,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
 - denoised: what a denoiser gains, and whether it knows its error
 - denoised_sheet: the picture of docs/explanation/denoising.md
+- probe_floors: what methods with probes miss at any number of samples, and their noise
 - particle_checks: pictures with particles against those without, and their errors
 - calibration: the estimated error of pictures against their true error
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
@@ -55,6 +56,7 @@ What they share:
 - cold_start: time and memory of a process to its first picture
 - contact_sheet: pictures in rows
 - screens: virtual X servers
+- truth: two renders of a scene that pictures are judged by
 - fooling_scenes: random scenes whose estimated error is likely to be wrong
 - dice: random numbers that are the same on every machine
 - placing: random positions without overlaps

@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -51,17 +50,7 @@ def _make(given: argparse.Namespace) -> None:
     renderer.render().image()
     codes = [renderer.display(), *(aov_codes(renderer, aov) for aov in SHOWN)]
     renderer.release()
-    with tempfile.TemporaryDirectory() as folder:
-        save_sheet(_saved(codes, Path(folder)), given.output)
-
-
-def _saved(pictures: list[NDArray[np.uint8]], folder: Path) -> list[Path]:
-    from PIL import Image
-
-    paths = [folder / f"{number}.png" for number in range(len(pictures))]
-    for path, codes in zip(paths, pictures, strict=True):
-        Image.fromarray(codes).save(path)
-    return paths
+    save_sheet(codes, given.output)
 
 
 if __name__ == "__main__":

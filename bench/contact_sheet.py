@@ -25,13 +25,13 @@ _JPEG = [{"quality": quality, "subsampling": 0} for quality in (92, 88, 84, 80, 
 _TRIES: dict[str, list[dict[str, Any]]] = {"JPEG": _JPEG, "PNG": [{"optimize": True}]}
 
 
-def save_sheet(pictures: Sequence[Path], file: Path, most_bytes: int = MOST_BYTES) -> None:
-    """Write a contact sheet of picture files, JPEG or PNG by suffix, smaller than `most_bytes`.
+def save_sheet(pictures: Sequence[Path | Codes], file: Path, most_bytes: int = MOST_BYTES) -> None:
+    """Write a contact sheet of pictures or files, JPEG or PNG by suffix, below `most_bytes`.
 
     Quality is reduced first, then width. Raises `UsageError` for another suffix, `RenderError` if
     no sheet is small enough or the file cannot be written.
     """
-    encodings = _encodings(_sheet([_opened(path) for path in pictures]), _format(file))
+    encodings = _encodings(_sheet([_opened(one) for one in pictures]), _format(file))
     data = next((data for data in encodings if len(data) < most_bytes), None)
     if data is None:
         raise RenderError(
@@ -56,10 +56,12 @@ def _format(file: Path) -> str:
         ) from None
 
 
-def _opened(path: Path) -> Codes:
+def _opened(one: Path | Codes) -> Codes:
     from PIL import Image
 
-    with Image.open(path) as picture:
+    if not isinstance(one, Path):
+        return one
+    with Image.open(one) as picture:
         return np.asarray(picture.convert("RGB"))
 
 

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.program import at_least, exit_code_of, machine, parser_of
+from bench.truth import Truth, truth_of
 from glrt.denoise.filters import FILTERS, with_filter
-from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
@@ -27,7 +27,6 @@ from glrt.settings import Settings
 
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend", "methods/caustic")
 BY_PARTICLES = ("methods/caustic",)  # truths that paths alone find slowly
-TRUTH_SEED = 1000  # of the first of two; pictures take seeds from 0
 SAMPLES = 64
 BLOCK = 32  # pixels a side of the blocks in which harm is looked for
 SIGMAS = 3.0  # beyond which a block is worse for certain
@@ -42,23 +41,6 @@ HEAD = (
 )
 
 Floats = NDArray[np.float64]
-
-
-class Truth(NamedTuple):
-    """Two independent renders, (H, W, 3) each."""
-
-    first: Floats
-    second: Floats
-
-    def squares(self, radiance: NDArray[np.float32]) -> Floats:
-        """Squared errors of a picture, (H, W, 3): right on average, negative at times."""
-        picture = radiance.astype(np.float64)
-        return (picture - self.first) * (picture - self.second)
-
-    def relative(self, radiance: NDArray[np.float32]) -> float:
-        """Squared relative error of a picture."""
-        mean = (self.first + self.second) / 2
-        return float((self.squares(radiance) / (mean**2 + DARK * mean.mean() ** 2)).mean())
 
 
 class Found(NamedTuple):
@@ -83,25 +65,6 @@ class Found(NamedTuple):
         percent = [f"{100 * error:.2f} %" for error in (self.plain, self.denoised)]
         ratios = f"{self.gain:.2f}", f"{self.estimate / self.denoised:.2f}", f"± {self.spread:.2f}"
         return [self.scene, *percent, *ratios, f"{self.worse} of {self.blocks}"]
-
-
-def truth_of(name: str, size: int, samples: int, context: Context, folder: Path | None) -> Truth:
-    """Two renders of half of the samples each; from the folder where they were made before."""
-    kept = folder / f"{name.replace('/', '-')}-{size}-{samples}.npz" if folder else None
-    if kept and kept.is_file():
-        with np.load(kept) as file:
-            return Truth(*(file[key].astype(np.float64) for key in ("first", "second")))
-    options: dict[str, Any] = {"width": size, "height": size, "samples": samples // 2}
-    options["caustics"] = "on" if name in BY_PARTICLES else "off"
-    halves = []
-    for seed in (TRUTH_SEED, TRUTH_SEED + 1):
-        renderer = Renderer(load(name), None, context, "baked", seed=seed, **options)
-        halves.append(renderer.render().image().radiance)
-        renderer.release()
-    if kept:
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        np.savez(kept, first=halves[0], second=halves[1])
-    return Truth(*(half.astype(np.float64) for half in halves))
 
 
 def pictures(name: str, by: str, size: int, seeds: int, context: Context) -> Iterator[Image]:
@@ -180,7 +143,9 @@ def _run(given: argparse.Namespace) -> None:
     for by in given.by:
         found = []
         for name in given.scenes:
-            truth = truth_of(name, given.size, given.truth, context, given.truths)
+            caustics = "on" if name in BY_PARTICLES else "off"
+            ways: Any = {"size": given.size, "samples": given.truth, "caustics": caustics}
+            truth = truth_of(name, context, given.truths, **ways)
             images = pictures(name, by, given.size, given.seeds, context)
             found.append(judged(name, images, truth))
             print(f"{by} {' '.join(found[-1].row)}", file=sys.stderr, flush=True)

@@ -5,7 +5,6 @@ The error is a share of the radiance, from 0 (black) to 20 % and more (white).
 
 import argparse
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -52,18 +51,7 @@ def _make(given: argparse.Namespace) -> None:
     check_sheet(given.output)
     options: dict[str, Any] = {"width": SIZE, "height": SIZE, "samples": SAMPLES}
     images = [render(load(name), denoise=given.by, **options) for name in SCENES]
-    with tempfile.TemporaryDirectory() as folder:
-        paths = _saved([codes for image in images for codes in panels(image)], Path(folder))
-        save_sheet(paths, given.output, MOST_BYTES)
-
-
-def _saved(pictures: list[Codes], folder: Path) -> list[Path]:
-    from PIL import Image as Pillow
-
-    paths = [folder / f"{number}.png" for number in range(len(pictures))]
-    for codes, path in zip(pictures, paths, strict=True):
-        Pillow.fromarray(codes).save(path)
-    return paths
+    save_sheet([codes for image in images for codes in panels(image)], given.output, MOST_BYTES)
 
 
 if __name__ == "__main__":

@@ -96,7 +96,7 @@ def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> 
     found = []
     for way in ways:
         more: list[float] = []
-        played = play(frames, settings, context, way.mode, predictor=way.predictor, more=more)
+        played = play(frames, settings, context, way, more=more)
         errors, start = [], time.process_time()
         looked = 0.0
         for number, picture in enumerate(played):
@@ -133,7 +133,7 @@ def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
     opened = load(scene)
     settings = settings_for(opened.render, width=64, height=48)
     for way, samples in itertools.product(ways, STILL_SAMPLES):
-        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, *way)
+        renderer, temporal = Renderer(opened, settings, context), Temporal(context.gl, way)
         shown, films = [], []
         for seed in range(STILL_VIEWS):
             temporal.leave(renderer)
@@ -170,7 +170,7 @@ def _ratios(scenes: tuple[Scene, ...], settings: Settings, context: Context, way
     renderer = Renderer(scenes[-1], settings, context, seed=MOST_SEED)
     truth = expose_and_encode(renderer.render(1024).image().radiance, 0.0, "none")
     renderer.update(scenes[0])
-    temporal = Temporal(context.gl, *way)
+    temporal = Temporal(context.gl, way)
     for number, scene in enumerate(scenes):
         temporal.leave(renderer)
         renderer.update(scene, seed=number)
@@ -199,7 +199,7 @@ def _frames_of(scene: str, context: Context, ways: Ways) -> list[NDArray[np.uint
     opened = load(scene)
     settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
     swing: Sequence = orbit(opened, SWING, 1.5)
-    played = [play(swing, settings, context, way.mode, predictor=way.predictor) for way in ways]
+    played = [play(swing, settings, context, way) for way in ways]
     return [
         np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in row])
         for row in zip(*played, strict=True)

@@ -29,7 +29,7 @@ class Way(StrEnum):
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
     CLASSIC = "a classic lighting model"
-    PROBES = "--method ddgi"
+    PROBES = "a method with probes"
     PARTICLES = "--caustics on"
     PILOT = "--caustics auto"
     DENOISE = "--denoise"
@@ -48,7 +48,7 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
-    Way.PROBES: "`--method ddgi`: indirect light from probes",
+    Way.PROBES: "`--method ddgi`, `gather`: indirect light from probes",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
     Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",

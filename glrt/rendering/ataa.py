@@ -14,7 +14,8 @@ from glrt.rendering.resolver import Fresh
 from glrt.rendering.surfaces import Surfaces
 from glrt.rendering.taa import PUBLISHED, UNLIMITED
 
-SAMPLES = 8  # more, of a pixel where the mean fails; 2 to 16 in the paper
+SAMPLES = 8  # more, of a pixel where the mean fails
+MORE = range(2, 17)  # that may be chosen: as in the paper
 
 
 class Ataa:

@@ -19,7 +19,7 @@ from glrt.errors import RenderError
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.program import TILE
 from glrt.methods.light_layers import Weights, are_trivial
-from glrt.rendering.ataa import Ataa
+from glrt.rendering.ataa import SAMPLES, Ataa
 from glrt.rendering.drawn_pass import DrawnPass
 from glrt.rendering.false_colors import Number, Told
 from glrt.rendering.renderer import Renderer
@@ -89,14 +89,19 @@ class Way(NamedTuple):
 
     mode: Mode = "reproject"
     predictor: Predictor = "published"  # of wrls
+    traced: int = SAMPLES  # of ataa: samples more of a pixel where history fails
 
     @property
     def name(self) -> str:
         """For tables and charts."""
-        is_told = self.mode == "wrls" and self.predictor != "published"
-        return f"{self.mode} {self.predictor}" if is_told else self.mode
+        if self.mode == "wrls" and self.predictor != "published":
+            return f"{self.mode} {self.predictor}"
+        if self.mode == "ataa" and self.traced != SAMPLES:
+            return f"{self.mode} {self.traced}"
+        return self.mode
 
 
+USUAL_WAY = Way()
 _ALL = [Way(mode, predictor) for mode in get_args(Mode) for predictor in get_args(Predictor)]
 WAYS = {way.name: way for way in reversed(_ALL)}  # a name alone: the published predictor
 
@@ -111,7 +116,7 @@ def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
         case "taa":
             return Taa(gl)
         case "ataa":
-            return Ataa(gl)
+            return Ataa(gl, way.traced)
         case "wrls":
             return Wrls(gl, way.predictor)
 
@@ -119,15 +124,13 @@ def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
 class Temporal:
     """Follows a renderer; `reset` shows its film alone, and costs nothing."""
 
-    def __init__(
-        self, gl: moderngl.Context, mode: Mode = "reproject", predictor: Predictor = "published"
-    ) -> None:
-        """Nothing is compiled or allocated before it is needed; `predictor` is that of `wrls`."""
+    def __init__(self, gl: moderngl.Context, way: Way = USUAL_WAY) -> None:
+        """Nothing is compiled or allocated before it is needed."""
         self.end = END  # samples of the film from which on it is shown alone
         self._gl = gl
         self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, of the one before
         self._pass = SurfacePass(gl)
-        self._resolver = resolver_of(gl, Way(mode, predictor))
+        self._resolver = resolver_of(gl, way)
         self._is_prepared = False  # whether all passes are compiled
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one

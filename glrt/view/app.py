@@ -8,6 +8,7 @@ from pathlib import Path
 
 from glrt.errors import GlrtError
 from glrt.gpu.glsl import files_anew
+from glrt.rendering.temporal import Way
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.scene.values import Vector
@@ -227,7 +228,8 @@ class App(CameraMoves):
         """A frame's work: edits, samples, and what is shown of them."""
         try:
             count = self.preferences.samples_per_frame
-            self.session.moving.use(self.preferences.temporal, self.preferences.predictor)
+            chosen = self.preferences
+            self.session.moving.use(Way(chosen.temporal, chosen.predictor, chosen.traced))
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)
             self.show.draw(self.session)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from glrt.analysis.motion.measure import BEFORE, FRAMES, Seen, Track, looks_of, tracks_of
+from glrt.analysis.motion.playing import play
 from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
 from glrt.analysis.motion.sequences import light_step, orbit, turned
 from glrt.cli.chart import _ways
@@ -116,12 +117,38 @@ def test_the_command_refuses_predictors_that_are_none(tmp_path: Path) -> None:
 
 
 def test_wrls_is_charted_by_each_predictor() -> None:
-    arguments = Namespace(temporal="reset,wrls,reset", predictor="published,delayed")
+    arguments = Namespace(temporal="reset,wrls,reset", predictor="published,delayed", traced="8")
     assert [way.name for way in _ways(arguments)] == ["reset", "wrls", "wrls delayed"]
     assert {name: way.predictor for name, way in WAYS.items()} == {
         **dict.fromkeys(("reset", "reproject", "taa", "ataa", "wrls"), "published"),
         "wrls delayed": "delayed",
     }
+
+
+def test_ataa_is_charted_by_each_number_of_samples() -> None:
+    arguments = Namespace(temporal="taa,ataa", predictor="published", traced="2,8,16")
+    first, *ways = _ways(arguments)
+    assert first.mode == "taa"
+    assert [(way.name, way.traced) for way in ways] == [("ataa 2", 2), ("ataa", 8), ("ataa 16", 16)]
+
+
+def test_the_command_refuses_numbers_of_samples_that_ataa_does_not_take(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=r"--traced takes 2, 3, .*, 16; got '17'"):
+        run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "ataa", "--traced", "2,17"])
+
+
+def test_ataa_traces_as_many_samples_as_are_asked_for(context: Context) -> None:
+    """More of each pixel of a mask that is found by the same samples of the film."""
+    scene = load("cornell")
+    settings = settings_for(scene.render, width=24, height=24, bounces=2, sampler="independent")
+    taken = []
+    for traced in (2, 16):
+        more: list[float] = []
+        frames = orbit(scene, 4, 1.0)
+        assert [*play(frames, settings, context, Way("ataa", traced=traced), more=more)]
+        taken.append(more[1])
+    assert 0 < taken[0] < 2
+    assert taken[1] == 8 * taken[0]
 
 
 @pytest.mark.slow

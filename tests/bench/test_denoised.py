@@ -7,7 +7,8 @@ import pytest
 from PIL import Image as Pillow
 
 from bench import denoised, denoised_sheet
-from bench.denoised import Found, Truth, blocks_of, certain, judged, pictures, report, truth_of
+from bench.denoised import Found, blocks_of, certain, judged, pictures, report
+from bench.truth import Truth, truth_of
 from glrt.denoise.denoising import Denoised
 from glrt.gpu.context import Context
 from glrt.image.image import Image
@@ -85,7 +86,7 @@ def test_the_sheet_has_three_pictures_of_each_scene(
 @pytest.mark.parametrize("name", ["cornell", "lamps", "methods/caustic"])
 def test_a_denoised_picture_is_better_and_knows_how_good_it_is(context: Context, name: str) -> None:
     """64 x 64 pixels, 16 seeds. Under a caustic the estimate misses light that no sample found."""
-    truth = truth_of(name, 64, 8192, context, None)
+    truth = truth_of(name, context, None, size=64, samples=8192)
     found = judged(name, pictures(name, "nlm", 64, 16, context), truth)
     assert found.gain > 1.5
     assert 0.75 < found.estimate / found.denoised < 1.25 or name == "methods/caustic"

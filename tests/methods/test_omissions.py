@@ -57,6 +57,27 @@ def test_an_omission_is_told_of_the_methods_that_make_it(
     assert found == methods
 
 
+@pytest.mark.parametrize(
+    ("method", "bounces", "light", "lit"),
+    [
+        ("ddgi", 1, "", ""),
+        ("ddgi", 2, "indirect light", ""),
+        ("gather", 2, "", ""),
+        ("gather", 3, "light over three matte surfaces or more", " that light others"),
+    ],
+)
+def test_what_probes_blur_is_told_from_the_bounces_on_that_they_light(
+    method: str, bounces: int, light: str, lit: str
+) -> None:
+    scene = scene_of([BALL, LAMP, sphere([2, 0, -3], 1, "glass")], MATERIALS)
+    found = omissions(scene, settings_for(scene.render, method=method, bounces=bounces))
+    assert [told.split(" what is finer")[0] for told in found[:1]] == [f"of {light}"][: bool(light)]
+    assert (
+        found[1:]
+        == [f"light over mirrors or through glass onto matte surfaces{lit}"][: bool(light)]
+    )
+
+
 def test_a_lens_is_told_of_the_methods_without_one() -> None:
     scene = scene_of([BALL], MATERIALS, {"defocus_angle": 1.0}, **SKY)
     told = {

@@ -31,7 +31,7 @@ PROBES = [
     Mutant(
         "probes count the lamps that they see, which direct light has",
         edit("integrators/path_state.glsl", "if (FROM_PROBES && length == 0) return;", ""),
-        f"{TRUTHS}::test_two_bounces_in_a_closed_room_are_exact",
+        f"{TRUTHS}::test_as_many_bounces_as_probes_bring_one_of_are_exact_in_a_closed_room",
     ),
     Mutant(
         "the hysteresis of probes is the share of what is new",
@@ -84,7 +84,7 @@ PROBES = [
         edit(
             "probes/query.glsl", "path.depth + 2 > frame.bounces", "path.depth + 1 > frame.bounces"
         ),
-        f"{TRUTHS}::test_two_bounces_in_a_closed_room_are_exact",
+        f"{TRUTHS}::test_as_many_bounces_as_probes_bring_one_of_are_exact_in_a_closed_room",
     ),
     Mutant(
         "probes light what they do not see",
@@ -115,5 +115,38 @@ PROBES = [
             ),
         ),
         f"{GRID}::test_the_box_of_the_scene_file_is_divided_into_cells",
+    ),
+    Mutant(
+        "a gather asks probes at the first matte surface",
+        edit(
+            "integrators/path_state.glsl",
+            "asks_probes = !FINAL_GATHER || FROM_PROBES;",
+            "asks_probes = true;",
+        ),
+        f"{TRUTHS}::test_a_matte_surface_in_a_mirror_is_the_first_one_of_a_gather",
+    ),
+    Mutant(
+        "rays from probes of a gather gather, too",
+        edit(
+            "integrators/path_state.glsl",
+            "asks_probes = !FINAL_GATHER || FROM_PROBES;",
+            "asks_probes = !FINAL_GATHER;",
+        ),
+        f"{TRUTHS}::test_a_closed_room_has_the_light_of_all_bounces",
+    ),
+    Mutant(
+        "probes of a gather light each other one bounce too early",
+        (Edit(HOST, " - METHODS[plan.settings.method].gathers", ""),),
+        f"{TRUTHS}::test_as_many_bounces_as_probes_bring_one_of_are_exact_in_a_closed_room",
+    ),
+    Mutant(
+        "a mirror is the first surface of a gather",
+        edit(
+            "probes/query.glsl",
+            "if (vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;",
+            "if (path.depth > 0) path.asks_probes = true;\n"
+            "    if (vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;",
+        ),
+        f"{TRUTHS}::test_a_matte_surface_in_a_mirror_is_the_first_one_of_a_gather",
     ),
 ]

@@ -10,7 +10,7 @@ from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import END, OTHER_LIGHT, Mode, Reproject, Temporal, is_lit_alike
+from glrt.rendering.temporal import END, OTHER_LIGHT, Mode, Reproject, Temporal, Way, is_lit_alike
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, scene_of, sphere
@@ -32,7 +32,7 @@ def pictures(
     scenes: tuple[Scene, ...], context: Context, mode: Mode, pipeline: Pipeline = "auto"
 ) -> list[np.ndarray]:
     sequence = Sequence("test", scenes)
-    return [*play(sequence, settings(scenes[0]), context, mode, 1, pipeline)]
+    return [*play(sequence, settings(scenes[0]), context, Way(mode), 1, pipeline)]
 
 
 def film_of(scene: Scene, context: Context, samples: int = 1, **more: object) -> np.ndarray:
@@ -117,7 +117,7 @@ def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(
     """The film has the bits of a render without history; in the end the screen has them, too."""
     scenes = orbit(load("cornell"), 6, 2.0).scenes
     renderer = Renderer(scenes[0], settings(scenes[0]), context)
-    temporal = Temporal(context.gl, mode)
+    temporal = Temporal(context.gl, Way(mode))
     for number, scene in enumerate(scenes[1:], 1):
         renderer.render(2)
         temporal.leave(renderer)

@@ -11,7 +11,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.methods.light_layers import Layering
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Mode, Temporal
+from glrt.rendering.temporal import Mode, Temporal, Way
 from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
 from tests.support.images import same_bits
@@ -44,7 +44,7 @@ def test_the_screen_has_history_and_the_film_has_none(
     usual = {"width": 16, "height": 12, "bounces": 3, "sampler": "independent"}
     settings = settings_for(scenes[0].render, **{**usual, **changes})
     renderer = Renderer(scenes[0], settings, context, layering=layering)
-    temporal = Temporal(context.gl, mode)
+    temporal = Temporal(context.gl, Way(mode))
     for number, scene in enumerate(scenes[1:], 1):
         renderer.render(2)
         temporal.leave(renderer)

@@ -15,7 +15,7 @@ from glrt.methods.light_layers import Layering
 from glrt.rendering.ataa import Ataa
 from glrt.rendering.more_samples import OTHER_SEED
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Temporal
+from glrt.rendering.temporal import Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
@@ -53,7 +53,7 @@ def played(
     options = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent", **more}
     settings = settings_for(scenes[0].render, **options)
     renderer = Renderer(scenes[0], settings, context, pipeline=pipeline, layering=layering)
-    temporal, ataa = Temporal(context.gl, "ataa"), Ataa(context.gl, SAMPLES)
+    temporal, ataa = Temporal(context.gl, Way("ataa")), Ataa(context.gl, SAMPLES)
     temporal._resolver = ataa
     seen = []
     try:

@@ -13,7 +13,7 @@ from glrt.gpu.evaluate import Probe
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.resolver import Fresh
 from glrt.rendering.taa import ANY, Taa, TaaOptions
-from glrt.rendering.temporal import Temporal
+from glrt.rendering.temporal import Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.images import same_bits
@@ -81,7 +81,7 @@ def screens(options: TaaOptions, scenes: list[Scene], context: Context) -> tuple
     """What is shown of views of a sample each, and the films: (frames, H, W, 3) both."""
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}
     renderer = Renderer(scenes[0], settings_for(scenes[0].render, **size), context)
-    temporal = Temporal(context.gl, "taa")
+    temporal = Temporal(context.gl, Way("taa"))
     temporal._resolver = Taa(context.gl, options)
     shown, films = [], []
     for picture in views(renderer, temporal, scenes):

@@ -15,7 +15,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.resolver import Fresh
-from glrt.rendering.temporal import Mode, Temporal
+from glrt.rendering.temporal import Mode, Temporal, Way
 from glrt.rendering.wrls import Predictor, Wrls
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -134,7 +134,7 @@ def test_numbers_of_the_history_are_told(context: Context) -> None:
     twin = FactoredWrls(np.full((1, 3), 0.5), frames=1)
     scene = wall()
     settings = settings_for(scene.render, width=SIZE[0], height=SIZE[1], sampler="independent")
-    renderer, temporal = Renderer(scene, settings, context), Temporal(context.gl, "wrls")
+    renderer, temporal = Renderer(scene, settings, context), Temporal(context.gl, Way("wrls"))
     for number in range(3):
         temporal.leave(renderer)
         renderer.update(scene, seed=number)
@@ -159,7 +159,7 @@ def test_other_ways_tell_the_samples_of_their_history(context: Context, mode: Mo
     """Of a wall that goes by two pixels: two samples, and one where nothing was seen before."""
     scenes = wall(), wall(2 * PIXEL)
     settings = settings_for(scenes[0].render, width=SIZE[0], height=SIZE[1], sampler="independent")
-    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, mode)
+    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, Way(mode))
     renderer.step(1)
     temporal.leave(renderer)
     renderer.update(scenes[1], seed=1)
@@ -233,7 +233,7 @@ def test_a_wall_that_becomes_brighter_is_followed(context: Context, predictor: P
     scenes = (*[wall()] * 8, *[bright.model_copy(update={"title": str(n)}) for n in range(8)])
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}
     settings = settings_for(scenes[0].render, **size)
-    shown = [*play(Sequence("step", scenes), settings, context, "wrls", predictor=predictor)]
+    shown = [*play(Sequence("step", scenes), settings, context, Way("wrls", predictor))]
     assert shown[7] == pytest.approx(0.5, rel=1e-3)
     first, last = shown[8] / 1.5, shown[15] / 1.5
     if predictor == "published":
@@ -249,11 +249,11 @@ def test_an_orbit_is_clearer(context: Context, predictor: Predictor) -> None:
     scene = load("cornell")
     frames = orbit(scene, 24, 1.0)
     settings = settings_for(scene.render, width=24, height=24, sampler="independent")
-    truth = [*play(Sequence("still", frames.scenes[23:]), settings, context, "reset", 512)][-1]
+    truth = [*play(Sequence("still", frames.scenes[23:]), settings, context, Way("reset"), 512)][-1]
     squared = []
     ways: list[tuple[Mode, Predictor]] = [("reset", "published"), ("wrls", predictor)]
     for mode, way in ways:
-        *_, last = play(frames, settings, context, mode, 2, predictor=way)
+        *_, last = play(frames, settings, context, Way(mode, way), 2)
         dark = truth.max(axis=2) < 3
         squared.append(float(np.square(np.minimum(last, 1) - np.minimum(truth, 1))[dark].mean()))
     assert squared[1] < 0.5 * squared[0]
@@ -268,5 +268,5 @@ def test_a_view_under_other_light_is_right_once_it_has_samples(
     scenes = (*[wall()] * 16, *[dim] * 4)
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}
     settings = settings_for(scenes[0].render, **size)
-    *_, last = play(Sequence("step", scenes), settings, context, "wrls", predictor=predictor)
+    *_, last = play(Sequence("step", scenes), settings, context, Way("wrls", predictor))
     assert last == pytest.approx(0.125, rel=0.02)

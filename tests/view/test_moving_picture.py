@@ -11,7 +11,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering import surfaces, wrls
 from glrt.rendering.drawn_pass import DrawnPass
-from glrt.rendering.temporal import END, Mode, Temporal
+from glrt.rendering.temporal import END, Mode, Temporal, Way
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
 from glrt.view.state.controls import replaced
@@ -44,7 +44,7 @@ def moving(context: Context, clock: Clock) -> Iterator[Session]:
     scene = load("lamps")
     settings = settings_for(scene.render, width=24, height=16, bounces=2, samples=96)
     session = Session(scene, settings, context, clock)
-    session.moving.use("reproject")
+    session.moving.use(Way("reproject"))
     with context.gl:
         start(session)
         session.advance(0.01, count=8)
@@ -91,7 +91,7 @@ def test_the_first_edit_waits_for_no_shader(
             if not prepares:
                 patch.setattr(Temporal, "prepare", lambda *_: None)
             session = Session(scene, settings, context, Clock())
-            session.moving.use(mode)
+            session.moving.use(Way(mode))
             start(session)
             while not session.is_done:
                 session.advance(0.01)
@@ -161,7 +161,7 @@ def test_a_picture_begun_anew_has_no_history(moving: Session) -> None:
 
 
 def test_reset_shows_none(moving: Session) -> None:
-    moving.moving.use("reset")
+    moving.moving.use(Way("reset"))
     walk(moving)
     assert not is_shown(moving)
 
@@ -187,7 +187,7 @@ def test_without_room_for_models_the_picture_goes_on_without_history(
     def refuse(*_: object) -> None:
         raise RenderError("no room")
 
-    moving.moving.use("wrls")
+    moving.moving.use(Way("wrls"))
     monkeypatch.setattr(wrls.Wrls, "_sized", refuse)
     walk(moving)
     assert "temporal reset" in moving.problem
@@ -201,7 +201,7 @@ def test_without_room_to_show_a_picture_it_is_told_once(
     def refuse(*_: object) -> None:
         raise RenderError("no room")
 
-    moving.moving.use("wrls", "delayed")
+    moving.moving.use(Way("wrls", "delayed"))
     walk(moving)
     assert is_shown(moving)
     monkeypatch.setattr(wrls.Wrls, "_sized", refuse)

@@ -4,6 +4,7 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.temporal import Way
 from glrt.view.panels.plots import figures
 from glrt.view.state.controls import replaced
 from tests.window.gestures import lines_told, replaced_fov
@@ -43,7 +44,7 @@ def history_of_earlier_views_is_marked_in_the_picture(hand: Hand) -> None:
 
     def move() -> None:
         app.preferences = replaced(app.preferences, temporal="reproject")
-        session.moving.use("reproject")
+        session.moving.use(Way("reproject"))
         app.turn(0.01, 0.0, about_camera=False)
 
     hand.there(move)

@@ -1,4 +1,4 @@
-"""The method ddgi in the window: its control, and what an edit of a lamp costs there."""
+"""Methods with probes in the window: their control, and what an edit of a lamp costs there."""
 
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost
@@ -23,6 +23,11 @@ def probes_light_the_picture_of_the_method_ddgi(hand: Hand) -> None:
     assert session.settings.probes == 2
     assert session.last_cost is Cost.RESTART
     assert not session.problem
+    move(hand, "method/gather", None)
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert (session.settings.method, session.settings.probes) == ("gather", 2)
+    assert not session.problem
+    assert hand.pixels()[..., :3].mean() > 20
 
 
 @check
@@ -45,4 +50,4 @@ def what_does_not_go_with_probes_is_refused_by_name(hand: Hand) -> None:
     hand.until(lambda: session.samples > 0)
     hand.there(lambda: session.edit(sampler="independent"))
     hand.until(lambda: bool(session.problem))
-    assert "--method ddgi" in str(session.problem)
+    assert "a method with probes" in str(session.problem).lower()

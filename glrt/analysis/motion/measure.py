@@ -104,7 +104,7 @@ def _seen(
     first = 0 if frames.name == "orbit" else BEFORE
     before = None
     more: list[float] = []
-    played = play(frames, settings, context, way.mode, samples, predictor=way.predictor, more=more)
+    played = play(frames, settings, context, way, samples, more=more)
     for number, picture in enumerate(played):
         is_new = frames.scenes[number] != before
         before = frames.scenes[number]

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from glrt.analysis.motion.sequences import Sequence
 from glrt.gpu.context import Context, Pipeline
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Mode, Temporal
-from glrt.rendering.wrls import Predictor
+from glrt.rendering.temporal import Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -22,10 +21,9 @@ def play(
     sequence: Sequence,
     settings: Settings,
     context: Context,
-    mode: Mode,
+    way: Way,
     samples: int = 1,
     pipeline: Pipeline = "auto",
-    predictor: Predictor = "published",
     more: list[float] | None = None,
 ) -> Iterator[Picture]:
     """What is on the screen at the end of each frame, of `samples` samples of each pixel.
@@ -35,7 +33,7 @@ def play(
     """
     first = sequence.scenes[0]
     renderer = Renderer(first, settings, context, pipeline=pipeline)
-    temporal = Temporal(context.gl, mode, predictor)
+    temporal = Temporal(context.gl, way)
     last: Scene | None = None
     try:
         for number, scene in enumerate(sequence.scenes):

@@ -2,14 +2,16 @@
 
 import math
 import statistics
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from glrt.analysis.motion.playing import Picture, play
-from glrt.analysis.motion.sequences import Sequence, with_camera
-from glrt.analysis.stress.scenes import glass, lamp, matte, plane, scene_of, sphere
+from glrt.analysis.motion.sequences import Sequence as Frames
+from glrt.analysis.motion.sequences import with_camera
+from glrt.analysis.stress.scenes import glass, lamp, matte, plane, quad, scene_of, sphere
 from glrt.analysis.stress.sweep import Lab, Sweep
 from glrt.rendering.temporal import WAYS, Way
 from glrt.scene.scene import Scene
@@ -22,6 +24,7 @@ SAMPLES = 16  # of a frame
 MODES = ("reproject", "taa", "ataa", "wrls", "wrls delayed", "reset")
 CHOSEN, NAIVE = "reproject", "history that stays in its pixels"
 WORSE = 1.1  # times the error of `reset`, at most
+Lights = tuple[float, ...]
 SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 4, "sampler": "independent"}
 
 
@@ -72,15 +75,11 @@ def _sideways(lab: Lab, scene: Scene) -> Sweep:
     """Of a camera 3.5 units before the plane through 0."""
     tall = 2 * 3.5 * float(np.tan(np.radians(20)))  # what the picture shows of that plane
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
-    count = lab.count(TRUE, 512)
     for pixels in SPEEDS:
         step = pixels * tall / SIDE
         places = [(frame - FRAMES + 1) * step for frame in range(FRAMES)]
-        moves = Sequence("pan", tuple(_aside(scene, place) for place in places))
-        truths = [
-            np.asarray(lab.render(moves.scenes[-1], count, seed=seed, **SETTINGS).radiance, float)
-            for seed in (8, 9)
-        ]
+        moves = Frames("pan", tuple(_aside(scene, place) for place in places))
+        truths = _truths(lab, moves.scenes[-1])
         squares: dict[str, list[float]] = {name: [] for name in errors}
         for place in range(lab.count(PLACES, 1)):
             shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place) for mode in MODES}
@@ -89,24 +88,48 @@ def _sideways(lab: Lab, scene: Scene) -> Sweep:
             for name, picture in pictures.items():
                 squares[name].append(_squared(picture, truths))
         for name, found in squares.items():
-            errors[name].append(math.sqrt(max(statistics.fmean(found), 0.0)))
+            errors[name].append(_root(found))
     return Sweep(
         parameter="speed of the camera, in pixels a frame",
         measure=f"relative RMS error after {FRAMES} frames",
         x=SPEEDS,
-        chosen=(CHOSEN, errors[CHOSEN]),
-        others={name: errors[name] for name in errors if name != CHOSEN},
         promise=f"at most {WORSE:g} times that of reset",
         bound=[WORSE * error for error in errors["reset"]],
+        **_curves(errors),
     )
 
 
 FACTORS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 10.0)
+FLICKERS = (0.1, 0.25, 0.5, 0.8, 1.0)
 STILL, AFTER = 16, 2  # frames of a sample before the light changes, and after it
+BANDS = (1, 2, 4, 8, 16)  # pixels
+BEFORE = 8  # frames of a sample before the edge moves
 
 
 def step(lab: Lab) -> Sweep:
-    """Error of what is on the screen two frames after all light changed, by how much it did.
+    """Error of what is on the screen two frames after all light changed, by how much it did."""
+    return Sweep(
+        parameter="factor of all light",
+        measure=f"relative RMS error {AFTER} frames of one sample later",
+        x=FACTORS,
+        promise="none",
+        **_lit(lab, FACTORS, lambda factor: (*[1.0] * STILL, *[factor] * AFTER)),
+    )
+
+
+def flicker(lab: Lab) -> Sweep:
+    """Error of what is on the screen while all light changes with each frame, to and fro."""
+    return Sweep(
+        parameter="factor of all light in every other frame",
+        measure=f"relative RMS error after {STILL} frames of one sample",
+        x=FLICKERS,
+        promise="none",
+        **_lit(lab, FLICKERS, lambda factor: (1.0, factor) * (STILL // 2)),
+    )
+
+
+def _lit(lab: Lab, factors: tuple[float, ...], lights: Callable[[float], Lights]) -> dict[str, Any]:
+    """Curves of the error of the last frame; `lights` has the factor of all light of each frame.
 
     A matte ball on a floor, a still camera. Other light is as bright everywhere: so one reference
     serves all factors.
@@ -120,29 +143,59 @@ def step(lab: Lab) -> Sweep:
         {"floor": matte(0.7), "matte": matte(0.5), "lamp": lamp(9.0)},
         {"position": [0, 1.2, 3.0], "look_at": [0, 0.4, 0], "fov": 40},
     )
-    count = lab.count(TRUE, 512)
-    truths = [
-        np.asarray(lab.render(scene, count, seed=seed, **SETTINGS).radiance, float)
-        for seed in (8, 9)
-    ]
+    truths = _truths(lab, scene)
     errors: dict[str, list[float]] = {mode: [] for mode in MODES}
-    for factor in FACTORS:
-        dimmed = scene.model_copy(update={"lights": {"lamp": factor}})
-        frames = Sequence("step", (*[scene] * STILL, *[dimmed] * AFTER))
-        scaled = [factor * truth for truth in truths]
+    for factor in factors:
+        dimmed = {f: scene.model_copy(update={"lights": {"lamp": f}}) for f in lights(factor)}
+        frames = Frames("light", tuple(dimmed[f] for f in lights(factor)))
+        scaled = [lights(factor)[-1] * truth for truth in truths]
         for mode in MODES:
             squares = [
                 _squared(_shown(lab, frames, WAYS[mode], 100 * place, 1)[-1], scaled)
                 for place in range(lab.count(PLACES, 1))
             ]
-            errors[mode].append(math.sqrt(max(statistics.fmean(squares), 0.0)))
+            errors[mode].append(_root(squares))
+    return _curves(errors)
+
+
+def uncovered(lab: Lab) -> Sweep:
+    """Error of what the edge of a near wall has just uncovered, by the width of that band.
+
+    The camera looks past the edge of a wall at distance 1 to a wall at distance 3, and goes
+    sideways: d units uncover 2 d units of the far wall.
+    """
+    scene = scene_of(
+        [
+            quad([-9, -9, -1], [9, 0, 0], [0, 18, 0], "near"),
+            plane([0, 0, -3], [0, 0, 1], "far"),
+            plane([0, -1, 0], [0, 1, 0], "far"),
+            sphere([1.2, 1.4, -1.6], 0.5, "lamp"),
+        ],
+        {"near": matte(0.3), "far": matte(0.8), "lamp": lamp(9.0)},
+        {"position": [0, 0, 0], "look_at": [0, 0, -3], "fov": 40},
+    )
+    truths = _truths(lab, scene)
+    errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
+    for width in BANDS:
+        band = slice(SIDE // 2, SIDE // 2 + width)
+        aside = width / SIDE * 2 * math.tan(math.radians(20)) * 3 / 2
+        moves = Frames("pan", (*[_aside(scene, -aside)] * BEFORE, scene))
+        squares: dict[str, list[float]] = {name: [] for name in errors}
+        for place in range(lab.count(PLACES, 1)):
+            shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place, 1) for mode in MODES}
+            pictures = {NAIVE: np.mean(shown["reset"][-2:], axis=0)}
+            pictures |= {mode: screens[-1] for mode, screens in shown.items()}
+            for name, picture in pictures.items():
+                squares[name].append(_squared(picture, truths, band))
+        for name, found in squares.items():
+            errors[name].append(_root(found))
     return Sweep(
-        parameter="factor of all light",
-        measure=f"relative RMS error {AFTER} frames of one sample later",
-        x=FACTORS,
-        chosen=(CHOSEN, errors[CHOSEN]),
-        others={name: errors[name] for name in errors if name != CHOSEN},
-        promise="none",
+        parameter="width of what is uncovered, in pixels",
+        measure="relative RMS error there, after one sample",
+        x=BANDS,
+        promise=f"at most {WORSE:g} times that of reset",
+        bound=[WORSE * error for error in errors["reset"]],
+        **_curves(errors),
     )
 
 
@@ -155,14 +208,30 @@ def _aside(scene: Scene, by: float) -> Scene:
     return with_camera(scene, camera.model_copy(update=places))
 
 
-def _shown(lab: Lab, moves: Sequence, way: Way, seed: int, samples: int = SAMPLES) -> list[Picture]:
+def _shown(lab: Lab, moves: Frames, way: Way, seed: int, samples: int = SAMPLES) -> list[Picture]:
     settings = settings_for(moves.scenes[0].render, seed=seed, **SETTINGS)
-    return [*play(moves, settings, lab.context, way.mode, samples, predictor=way.predictor)]
+    return [*play(moves, settings, lab.context, way, samples)]
 
 
-def _squared(picture: Any, truths: list[Any]) -> float:
-    """Against two renders, whose noise is independent."""
+def _truths(lab: Lab, scene: Scene) -> list[Any]:
+    """Two renders, whose noise is independent."""
+    count = lab.count(TRUE, 512)
+    return [
+        lab.render(scene, count, seed=seed, **SETTINGS).radiance.astype(float) for seed in (8, 9)
+    ]
+
+
+def _squared(picture: Any, truths: list[Any], columns: slice = slice(None)) -> float:
     first, second = truths
     mean = (first + second) / 2
     scale = mean**2 + 0.01 * mean.mean() ** 2
-    return float(((picture - first) * (picture - second) / scale).mean())
+    return float(((picture - first) * (picture - second) / scale)[:, columns].mean())
+
+
+def _root(squares: list[float]) -> float:
+    return math.sqrt(max(statistics.fmean(squares), 0.0))
+
+
+def _curves(errors: dict[str, list[float]]) -> dict[str, Any]:
+    others = {name: found for name, found in errors.items() if name != CHOSEN}
+    return {"chosen": (CHOSEN, errors[CHOSEN]), "others": others}

@@ -40,7 +40,7 @@ DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 PREFERENCES = controls_of(Preferences)
-MOVING = ("mode", "temporal", "predictor")
+MOVING = ("mode", "temporal", "predictor", "traced")
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value

@@ -11,7 +11,6 @@ from glrt.methods.light_layers import Weights
 from glrt.rendering.false_colors import Number, Told
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.temporal import END, Mode, Temporal, Way
-from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Settings, settings_for
 from glrt.view.state.edited import State
 
@@ -26,8 +25,8 @@ class MovingPicture:
     def __init__(self, gl: moderngl.Context, mode: Mode = "reset") -> None:
         """Nothing is compiled or allocated before it is needed."""
         self._gl = gl
-        self._temporal = Temporal(gl, mode)
         self._wanted = Way(mode)
+        self._temporal = Temporal(gl, self._wanted)
         self._begun = 0
 
     def begin(self) -> None:
@@ -53,12 +52,11 @@ class MovingPicture:
         is_needed = self._wanted.mode != "reset"
         return (seed + self._begun * GOLDEN) & MOST_SEED if is_needed else seed
 
-    def use(self, mode: Mode, predictor: Predictor = "published") -> None:
-        """Another mode begins without history."""
-        wanted = Way(mode, predictor)
-        if wanted != self._wanted:
+    def use(self, way: Way) -> None:
+        """Another way begins without history."""
+        if way != self._wanted:
             self._temporal.release()
-            self._temporal, self._wanted = Temporal(self._gl, *wanted), wanted
+            self._temporal, self._wanted = Temporal(self._gl, way), way
 
     def leave(self, renderer: Renderer, weights: Weights) -> str:
         """Before an edit; returns what the driver refused, "" for nothing."""
@@ -90,7 +88,7 @@ class MovingPicture:
 
     def _left_out(self, error: RenderError) -> str:
         self._temporal.release()
-        self._temporal = Temporal(self._gl, "reset")
+        self._temporal = Temporal(self._gl, Way("reset"))
         return f"{error} History of earlier views is left out (temporal reset)."
 
     def forget(self) -> None:
