@@ -68,4 +68,9 @@ ATAA = [
         ),
         f"{TESTS}::test_other_weights_trace_nothing",
     ),
+    Mutant(
+        "eight samples are traced, whatever is asked for",
+        (Edit("glrt/rendering/temporal.py", "Ataa(gl, way.traced)", "Ataa(gl)"),),
+        "analysis/test_motion.py::test_ataa_traces_as_many_samples_as_are_asked_for",
+    ),
 ]
