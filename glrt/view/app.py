@@ -1,6 +1,7 @@
 """The state that the parts of the window share, and the commands of buttons and keys."""
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import InitVar, dataclass, field
 from functools import partial
@@ -64,6 +65,7 @@ class App(CameraMoves):
     tour_beside: tuple[float, float] = (0.0, 0.0)  # size of the window that its box was put in
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
     frame_seconds: float = 0.0
+    sampling_seconds: float = 0.0  # of the last frame: for edits and samples
     progress: Progress = field(default_factory=Progress)
     blackness: Blackness = field(default_factory=Blackness)
     unsaved: bool = False  # preferences
@@ -230,8 +232,10 @@ class App(CameraMoves):
             count = self.preferences.samples_per_frame
             chosen = self.preferences
             self.session.moving.use(Way(chosen.temporal, chosen.predictor, chosen.traced))
+            start = time.perf_counter()
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)
+            self.sampling_seconds = time.perf_counter() - start
             self.show.draw(self.session)
             if self.show.drawn == "picture":
                 self.blackness.look(self.session, self.picture)

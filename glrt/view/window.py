@@ -64,7 +64,6 @@ class Window:
         self._version = window_version(pipeline)
         self._opened = (source, scene, settings)
         self._pipeline: Pipeline = pipeline
-        self._rendered = 0.0
         self._styled: tuple[str, float] | None = None
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
@@ -150,7 +149,7 @@ class Window:
         self._began += self._wait.wait(self._is_quiet)
         app, now = self.app, time.perf_counter()
         app.frame_seconds = now - self._began
-        app.pace.record(app.frame_seconds, self._rendered)
+        app.pace.record(app.frame_seconds, app.sampling_seconds)
         self._began = now
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
@@ -160,7 +159,6 @@ class Window:
         app.advance()
         app.look(now)
         self._poll(now)
-        self._rendered = time.perf_counter() - now
         self._told = self._tells(now)
         if self._interruption.signal:
             self.params.app_shall_exit = True

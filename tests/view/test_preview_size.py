@@ -133,6 +133,12 @@ def test_it_is_cut_where_it_takes_far_longer(clock: Clock) -> None:
     assert clock.now - start == pytest.approx(OVERRUN * FRAME)
 
 
+def test_what_an_edit_takes_is_a_part_of_that(clock: Clock) -> None:
+    """A frame that is all gone for an edit has as long again for its sample."""
+    assert work_once(clock, 0.95, edit=FRAME).samples == 1
+    assert work_once(clock, 1.05, edit=FRAME).samples == 0
+
+
 def test_further_samples_end_with_the_frame(clock: Clock) -> None:
     start = clock.now
     assert work_once(clock, 0.3).samples == 3

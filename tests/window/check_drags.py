@@ -5,8 +5,10 @@ hundreds of frames, the coarsest one four.
 """
 
 import math
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,6 +27,7 @@ from tests.window.hand import Hand, check
 STEPS = 12  # of a drag: each takes the mouse a frame or two
 SIDE = 128  # pixels of the picture: 256 tiles, of which a frame does one
 LEAST = STEPS // 3  # pictures that differ from the one before
+DRAWING, SETTLED = 0.05, 16  # seconds for a picture; frames after which the budget knows of it
 
 Place = tuple[float, float]
 
@@ -56,6 +59,24 @@ def slowly(hand: Hand, grain_read: float = math.inf) -> Iterator[None]:
         patch.setattr(grain, "MOST", grain_read)
         patch.setattr(app, "pace", NoTime(10))
         yield
+
+
+@check
+def what_it_takes_to_draw_the_picture_is_no_time_for_samples(hand: Hand) -> None:
+    """Pictures that take 50 ms more to draw leave 50 ms less, at 10 frames a second."""
+    app = hand.window.app
+    drawn = app.show.draw
+
+    def slow(*given: Any) -> None:
+        time.sleep(DRAWING)
+        drawn(*given)
+
+    hand.there(lambda: app.session.edit(samples=1 << 20))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(app, "pace", FrameBudget(10))
+        patch.setattr(app.show, "draw", slow)
+        hand.ctx.yield_(SETTLED)
+        assert app.pace.seconds <= 0.1 - 0.9 * DRAWING
 
 
 def followed(hand: Hand, places: list[Place]) -> int:

@@ -20,10 +20,10 @@ TIGHT = 0.25  # thickness from which on a wall holds
 MOST_LEAKED = 0.002
 WITHOUT = Variant({"WITHOUT_VISIBILITY": True})
 
-SHIFTS = (0.0, 0.05, 0.1, 0.15, 0.25, 0.5)  # in cells
+SHIFTS = (0.01, 0.03, 0.1, 0.15, 0.25, 0.5)  # in cells
 
 GAPS = (0.01, 0.1, 0.3, 1.0, 2.0)  # in cells
-ROUGHNESSES = (0.0, 0.2, 0.5, 1.0)
+ROUGHNESSES = (0.05, 0.2, 0.5, 1.0)
 RADII = (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
 MOST_WRONG = 0.08
 LAMP = lamp(20.0)
@@ -54,7 +54,7 @@ def in_wall(lab: Lab) -> Sweep:
     scenes = [house(TIGHT * CELL, 1, shift * CELL) for shift in SHIFTS]
     leaks = _leaks(lab, scenes)
     return Sweep(
-        parameter="from the middle of a wall to the nearest probes, in cells",
+        parameter="from a wall's middle to probes, in cells",
         measure="light behind a wall over that before it",
         x=SHIFTS,
         chosen=("ddgi", leaks.pop("ddgi")),

@@ -19,6 +19,6 @@ class FrameBudget:
         return max(LEAST * whole, whole - self._window)
 
     def record(self, frame: float, rendering: float) -> None:
-        """Learn from a frame: how long it took, and how much of that rendered."""
+        """Learn from a frame: how long it took, and how much of that edits and samples took."""
         window = max(0.0, frame - rendering)
         self._window += MEMORY * (min(window, 1.0) - self._window)

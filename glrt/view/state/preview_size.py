@@ -12,7 +12,7 @@ FINER = (
 )
 MEMORY = 0.3  # weight of the newest frame in what is learnt
 LEAST = 0.25  # of a frame's time for samples, however long edits take
-OVERRUN = 1.5  # of a frame's time for the first sample: a frame that brings none shows nothing new
+OVERRUN = 2.0  # of a frame's time to the first sample: a frame that brings none shows nothing new
 FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones take less time each
 
 
@@ -80,7 +80,7 @@ class Preview:
         start, before, held = self._clock(), renderer.work, renderer.samples
         left = max(seconds - edit, LEAST * seconds)
         if self.is_under_way and not held:
-            renderer.advance(OVERRUN * left, min(target, 1))
+            renderer.advance(max(OVERRUN * seconds - edit, LEAST * seconds), min(target, 1))
             left -= self._clock() - start
         if left > 0.0:
             renderer.advance(left, target)
