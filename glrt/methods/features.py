@@ -129,8 +129,7 @@ WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
 def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None) -> Needs:
     """The features that this scene, rendered with these settings, makes use of."""
-    found = contents or contents_of(scene)
-    traits = METHODS[settings.method]
+    found, traits = contents or contents_of(scene), METHODS[settings.method]
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
