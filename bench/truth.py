@@ -49,7 +49,8 @@ def truth_of(
     name: str, context: Context, folder: Path | None, size: int, samples: int, **settings: Any
 ) -> Truth:
     """Two renders of half of the samples each; from the folder where they were made before."""
-    kept = folder / f"{name.replace('/', '-')}-{size}-{samples}.npz" if folder else None
+    told = [name.replace("/", "-"), size, samples, *(f"{k}-{v}" for k, v in settings.items())]
+    kept = folder / f"{'-'.join(map(str, told))}.npz" if folder else None
     if kept and kept.is_file():
         with np.load(kept) as file:
             return Truth(*(file[key].astype(np.float64) for key in ("first", "second")))

@@ -24,7 +24,7 @@ from glrt.cli.process import file_names
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
-from glrt.rendering.ataa import MORE, SAMPLES
+from glrt.rendering.ataa import CHOICES, SAMPLES
 from glrt.rendering.stopping import Interruption
 from glrt.rendering.temporal import Mode, Way
 from glrt.rendering.wrls import Predictor
@@ -71,7 +71,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--traced",
         metavar="N,...",
         default=str(SAMPLES),
-        help=f"samples more of ataa of --temporal, 2 to 16 (default: {SAMPLES})",
+        help="samples that ataa of --temporal traces where history fails, "
+        f"{CHOICES[0]} to {CHOICES[-1]} (default: {SAMPLES})",
     )
     add_context(parser)
     add_files(parser)
@@ -160,7 +161,7 @@ def _temporal(
 def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
     """Modes in their order; wrls by each predictor, ataa by each number of samples."""
     predictors = _chosen("--predictor", arguments.predictor, get_args(Predictor))
-    traced = _chosen("--traced", arguments.traced, tuple(map(str, MORE)))
+    traced = _chosen("--traced", arguments.traced, tuple(map(str, CHOICES)))
     modes = _chosen("--temporal", arguments.temporal, get_args(Mode))
     found = [Way(m, by, int(more)) for m in modes for by in predictors for more in traced]
     return tuple({way.name: way for way in found}.values())

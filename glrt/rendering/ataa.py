@@ -15,7 +15,7 @@ from glrt.rendering.surfaces import Surfaces
 from glrt.rendering.taa import PUBLISHED, UNLIMITED
 
 SAMPLES = 8  # more, of a pixel where the mean fails
-MORE = range(2, 17)  # that may be chosen: as in the paper
+CHOICES = range(2, 17)  # of it: as in the paper
 
 
 class Ataa:

@@ -65,7 +65,7 @@ def test_a_small_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert denoised.main([*words, "--truths", str(tmp_path)]) == 0
     told = capsys.readouterr().out
     assert "| sky |" in told
-    assert [file.name for file in tmp_path.iterdir()] == ["sky-16-64.npz"]
+    assert [file.name for file in tmp_path.iterdir()] == ["sky-16-64-caustics-off.npz"]
     assert denoised.main([*words, "--truths", str(tmp_path)]) == 0
     assert capsys.readouterr().out == told
 

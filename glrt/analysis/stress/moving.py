@@ -80,15 +80,7 @@ def _sideways(lab: Lab, scene: Scene) -> Sweep:
         places = [(frame - FRAMES + 1) * step for frame in range(FRAMES)]
         moves = Frames("pan", tuple(_aside(scene, place) for place in places))
         truths = _truths(lab, moves.scenes[-1])
-        squares: dict[str, list[float]] = {name: [] for name in errors}
-        for place in range(lab.count(PLACES, 1)):
-            shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place) for mode in MODES}
-            pictures = {NAIVE: np.mean(shown["reset"], axis=0)}
-            pictures |= {mode: screens[-1] for mode, screens in shown.items()}
-            for name, picture in pictures.items():
-                squares[name].append(_squared(picture, truths))
-        for name, found in squares.items():
-            errors[name].append(_root(found))
+        _add_errors(lab, moves, truths, errors, SAMPLES)
     return Sweep(
         parameter="speed of the camera, in pixels a frame",
         measure=f"relative RMS error after {FRAMES} frames",
@@ -180,15 +172,7 @@ def uncovered(lab: Lab) -> Sweep:
         band = slice(SIDE // 2, SIDE // 2 + width)
         aside = width / SIDE * 2 * math.tan(math.radians(20)) * 3 / 2
         moves = Frames("pan", (*[_aside(scene, -aside)] * BEFORE, scene))
-        squares: dict[str, list[float]] = {name: [] for name in errors}
-        for place in range(lab.count(PLACES, 1)):
-            shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place, 1) for mode in MODES}
-            pictures = {NAIVE: np.mean(shown["reset"][-2:], axis=0)}
-            pictures |= {mode: screens[-1] for mode, screens in shown.items()}
-            for name, picture in pictures.items():
-                squares[name].append(_squared(picture, truths, band))
-        for name, found in squares.items():
-            errors[name].append(_root(found))
+        _add_errors(lab, moves, truths, errors, 1, band)
     return Sweep(
         parameter="width of what is uncovered, in pixels",
         measure="relative RMS error there, after one sample",
@@ -197,6 +181,26 @@ def uncovered(lab: Lab) -> Sweep:
         bound=[WORSE * error for error in errors["reset"]],
         **_curves(errors),
     )
+
+
+def _add_errors(
+    lab: Lab,
+    moves: Frames,
+    truths: list[Any],
+    errors: dict[str, list[float]],
+    samples: int,
+    columns: slice = slice(None),
+) -> None:
+    """Of the last frame by each mode, and of the mean of all frames, pixel by pixel."""
+    squares: dict[str, list[float]] = {name: [] for name in errors}
+    for place in range(lab.count(PLACES, 1)):
+        shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place, samples) for mode in MODES}
+        pictures = {NAIVE: np.mean(shown["reset"], axis=0)}
+        pictures |= {mode: screens[-1] for mode, screens in shown.items()}
+        for name, picture in pictures.items():
+            squares[name].append(_squared(picture, truths, columns))
+    for name, found in squares.items():
+        errors[name].append(_root(found))
 
 
 def _aside(scene: Scene, by: float) -> Scene:

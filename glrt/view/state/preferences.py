@@ -10,7 +10,7 @@ from pydantic import Field, ValidationError, field_validator
 
 from glrt.errors import RenderError
 from glrt.files import reason, write_text
-from glrt.rendering.ataa import SAMPLES
+from glrt.rendering.ataa import CHOICES, SAMPLES
 from glrt.rendering.temporal import Mode as Temporal
 from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Editable, Frozen
@@ -56,12 +56,12 @@ class Preferences(Frozen):
         description="of temporal wrls, what its line runs over; published: a mean that holds the "
         "new sample, quick to follow; delayed: the mean before it, calmer and later",
     )
-    traced: Annotated[int, Editable(FREE, "samples", (2, 16))] = Field(
+    traced: Annotated[int, Editable(FREE, "samples", (CHOICES[0], CHOICES[-1]))] = Field(
         SAMPLES,
         description="of temporal ataa, how often each pixel is traced where what was shown fails; "
         "a view takes longer by these",
-        ge=2,
-        le=16,
+        ge=CHOICES[0],
+        le=CHOICES[-1],
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"
