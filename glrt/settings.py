@@ -12,12 +12,13 @@ from pydantic.fields import FieldInfo
 
 from glrt.errors import UsageError
 
-Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather"]
+Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather", "resampled"]
 Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces"]
 Denoise = Literal["none", "oidn", "nlm", "auto"]
+Reuse = Literal["none", "temporal", "spatial", "both"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
@@ -75,7 +76,8 @@ class RenderSettings(Frozen):
         "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
         "whitted, cook: lighting models before path tracing, which leave light out; ddgi: direct "
         "light as mis finds it, and indirect light from a grid of probes; gather: the same after "
-        "one more matte surface, to which paths are traced (final gathering)",
+        "one more matte surface, to which paths are traced (final gathering); resampled: the same, and "
+        "the light of the first matte surface comes from one point, kept of many",
     )
 
 
@@ -127,6 +129,16 @@ class Settings(RenderSettings):
         "[probes] of the scene says, or 5",
         ge=0,
         le=16,
+    )
+    reuse: Annotated[Reuse, Editable(Cost.RECOMPILE)] = Field(
+        "both",
+        description="what method resampled takes points from beside its own: temporal: what the "
+        "sample before kept for the pixel; spatial: what it kept for pixels around; both; none",
+    )
+    unbiased: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+        True,
+        description="method resampled: weigh points of other samples by rays from where they come "
+        "from; without, edges and contacts are too dark, for fewer rays",
     )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF

@@ -16,6 +16,7 @@ layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_block;
 layout(rgba32f) uniform readonly image2D source_layers;  // a: its samples
 layout(rgba32f) uniform writeonly image2D target_layers;
+layout(rgba32f) uniform writeonly image2D target_reservoirs;
 
 layout(std430) buffer Lost { uint lost_samples; };
 
@@ -65,4 +66,7 @@ void main() {
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
     store_layers(texel, layers);
+    for (int i = 0; REUSES && i < PARTS_OF_RESERVOIR; i += 1) {
+        imageStore(target_reservoirs, texel_of_part(texel, i), part_of_reservoir(held_reservoir, i));
+    }
 }

@@ -22,6 +22,7 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
 
+NEAR = 5  # pixels that one asks for what they have kept
 NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # what the tree needs is known once it stands
 NO_LAYERS: dict[str, bool | int] = {
     "LAYERS": 0,
@@ -90,6 +91,10 @@ class Needs:
     linked: int  # smooth spheres through which some of them are linked: a bit for each
     has_probes: bool  # indirect light from a grid of them
     final_gather: bool  # over one more matte surface, to which paths are traced
+    resamples: bool  # keeps one of the points that light the first matte surface
+    reuses_own: bool  # what the sample before has kept for the pixel, too
+    reuses_near: int  # and for so many pixels around
+    unbiased: bool  # asks what of that other pixels could have found
     roulette: bool
     model: int  # of those before path tracing; 0: paths are traced
     many_lights: bool  # more than MOST_NEAR to sample
@@ -118,11 +123,11 @@ def everything() -> dict[str, bool | int]:
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
     numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0, "casters": 0}
-    numbers |= {"targets": 0, "linked": 0}
+    numbers |= {"targets": 0, "linked": 0, "reuses_near": 0}
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
-_IMAGE = ("has_environment", "sample_sky", "has_probes", "final_gather")
+_IMAGE = ("has_environment", "sample_sky", "has_probes", "final_gather", "resamples", "reuses_own")
 _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
@@ -134,6 +139,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
     follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
+    resamples = traits.resamples and not found.holed
     metals = [m for m in found.materials.values() if m.type == "metal"]
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
@@ -181,6 +187,10 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         linked=link_bits(scene) if follows_particles and settings.linked else 0,
         has_probes=traits.has_probes,
         final_gather=traits.gathers,
+        resamples=resamples,
+        reuses_own=resamples and settings.reuse in ("temporal", "both"),
+        reuses_near=NEAR if resamples and settings.reuse in ("spatial", "both") else 0,
+        unbiased=resamples and settings.unbiased,
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,

@@ -22,6 +22,7 @@ class Traits:
     has_rough: bool = True  # metal and glass; else they are smooth
     has_probes: bool = False  # indirect light from a grid of them
     gathers: bool = False  # their light over one more matte surface, to which paths are traced
+    resamples: bool = False  # the light of the first matte surface
 
     @property
     def uses_lamps(self) -> bool:
@@ -45,6 +46,14 @@ METHODS: dict[str, Traits] = {
     "ddgi": Traits(samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True),
     "gather": Traits(
         samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True, gathers=True
+    ),
+    "resampled": Traits(
+        samples_lights=True,
+        weights_both=True,
+        chooses_lights=True,
+        has_probes=True,
+        gathers=True,
+        resamples=True,
     ),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing

@@ -114,6 +114,11 @@ class DeviceScene:
         self.seconds = {"build": built - start, "pack": time.perf_counter() - built}
 
     @property
+    def keeps_reservoirs(self) -> bool:
+        """Whether a sample takes up what the one before has kept."""
+        return bool(self._constants["REUSES_OWN"] or self._constants["REUSES_NEAR"])
+
+    @property
     def shaders(self) -> list[Source]:
         """The kernel that reads this."""
         return self._shaders(self._texts)

@@ -7,10 +7,16 @@ import moderngl
 import numpy as np
 
 from glrt.errors import RenderError, UsageError
+from glrt.gpu.glsl import read
+from glrt.gpu.program import Resource
+from glrt.gpu.structs import read_constants
 from glrt.image.film_state import FilmState, error_of_mean
 from glrt.rendering.pass_film import Array, PassFilm, Size
+from glrt.rendering.pipelines import RESERVOIRS
 
 BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
+_RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
+COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
 class Extent(NamedTuple):
@@ -20,6 +26,7 @@ class Extent(NamedTuple):
     height: int
     block: int = 1  # samples of an observation
     layers: int = 0
+    reservoirs: bool = False  # what the sample before has kept, for the one that comes
 
 
 class Exposure(NamedTuple):
@@ -43,7 +50,8 @@ class Film(PassFilm):
     """RGBA32F textures for mean and variance, each twice: one is read, one written.
 
     A third pair holds the observation that has begun, if one takes more than a sample; a fourth
-    the layers, if there are any, each over two halves of the observations.
+    the layers, if there are any, each over two halves of the observations, or reservoirs
+    (shaders_glsl/probes/reservoir.glsl).
     """
 
     def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
@@ -71,6 +79,12 @@ class Film(PassFilm):
     def layers(self) -> moderngl.Texture | None:
         """The layers so far, side by side: over one half of the observations, below the other."""
         return self.sources.get("layers")
+
+    @property
+    def resources(self) -> dict[str, Resource]:
+        """What a kernel reads of it as it likes, not of its own pixel alone."""
+        held = self.sources.get("reservoirs")
+        return {RESERVOIRS: held} if held else {}
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film, or some of its rows, into memory."""
@@ -108,8 +122,8 @@ class Film(PassFilm):
             "variance": np.dstack([film_state.variance, film_state.observations]),
             "block": np.dstack([film_state.part, film_state.begun]),
         }
-        for name, texture in self.sources.items():
-            texture.write(np.ascontiguousarray(rows[name], np.float32))
+        for name in self.sources.keys() & rows:
+            self.sources[name].write(np.ascontiguousarray(rows[name], np.float32))
         self.samples = samples
 
     def _check_exposed(self) -> None:
@@ -124,7 +138,7 @@ class Film(PassFilm):
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
     def _read_layers(self, first: int, end: int) -> Array:
-        width, height, _, count = self.extent
+        width, height, _, count, _ = self.extent
         if not self.layers:
             return np.zeros((2, 0, end - first, width, 4), np.float32)
         halves = [self.read_output("layers", up + first, up + end) for up in (0, height)]
@@ -133,9 +147,10 @@ class Film(PassFilm):
 
 def _outputs(extent: Extent) -> dict[str, Size]:
     """The textures of a film and their sizes."""
-    width, height, block, layers = extent
+    width, height, block, layers, has_reservoirs = extent
     sizes = dict.fromkeys(("mean", "variance"), (width, height))
     sizes |= {"block": (width, height)} if block > 1 else {}
+    sizes |= {"reservoirs": (COLUMNS * width, ROWS * height)} if has_reservoirs else {}
     return sizes | ({"layers": (layers * width, 2 * height)} if layers else {})
 
 

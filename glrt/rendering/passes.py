@@ -16,6 +16,7 @@ from glrt.settings import OF_PATHS, Aov
 Resolved = Literal["compute", "fragment"]
 Constants = Mapping[str, bool | int]
 NO_CONSTANTS: Constants = {}
+NO_REUSE: Constants = {"REUSES_OWN": False, "REUSES_NEAR": 0}
 
 AOV_NUMBERS = read_constants(read("integrators/aov_numbers.glsl"))
 
@@ -30,14 +31,14 @@ class RenderPass(NamedTuple):
 
 RADIANCE = RenderPass(
     {"compute": ("trace.comp",), "fragment": ("trace.vert", "trace.frag")},
-    ("mean", "variance", "block", "layers"),  # the last two only where a film keeps them
+    ("mean", "variance", "block", "layers", "reservoirs"),  # the last three where a film keeps them
 )
 BOUNCES = RADIANCE._replace(
-    outputs=("mean", "variance", "block"), constants={"COUNT_BOUNCES": True, "LAYERS": 0}
+    outputs=("mean", "variance", "block"), constants={"COUNT_BOUNCES": True, "LAYERS": 0, **NO_REUSE}
 )
 PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
 SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
-PROBE_RAYS = RenderPass({"compute": ("probe_rays.comp",)}, ("rays",), {"FROM_PROBES": True})
+PROBE_RAYS = RenderPass({"compute": ("probe_rays.comp",)}, ("rays",), {"FROM_PROBES": True, "RESAMPLES": False, **NO_REUSE})
 PROBE_LIGHT = RenderPass({"compute": ("probe_light.comp",)}, ())
 PROBE_DISTANCES = RenderPass({"compute": ("probe_distances.comp",)}, ())
 PROBE_PLACES = RenderPass({"compute": ("probe_place.comp",)}, ())
@@ -47,7 +48,7 @@ SURFACES = RenderPass(
     {"compute": ("surfaces.comp",), "fragment": ("trace.vert", "surfaces.frag")},
     ("position", "normal"),
 )
-MORE = RenderPass({"compute": ("more.comp",)}, ("more",), {"BLOCK": 1, "LAYERS": 0})
+MORE = RenderPass({"compute": ("more.comp",)}, ("more",), {"BLOCK": 1, "LAYERS": 0, **NO_REUSE})
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 

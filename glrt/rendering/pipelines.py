@@ -20,6 +20,7 @@ from glrt.rendering.texel_texture import BITS, WIDTH
 Tier = Literal["generic", "baked"]
 ENVIRONMENT = "environment_image"  # the texture of the image of the sky
 SKY_TREE = "environment_tree"  # that of the tree by which it is sampled
+RESERVOIRS = "held_reservoirs"  # that of what earlier samples keep for later ones
 TEXELS = "map_texels"  # that of the images on surfaces
 MOST_BAKED = 32  # shapes
 SHAPES = (*NUMBERED, "Target")  # arrays that follow from them alone, and that are read in loops
@@ -85,6 +86,8 @@ uniform sampler2D probe_distances;
 vec4 probe_distances_at(ivec2 texel) {{ return texelFetch(probe_distances, texel, 0); }}
 uniform sampler2D probe_places;
 vec4 probe_place_at(ivec2 texel) {{ return texelFetch(probe_places, texel, 0); }}
+uniform sampler2D {RESERVOIRS};
+vec4 reservoir_part_at(ivec2 texel) {{ return texelFetch({RESERVOIRS}, texel, 0); }}
 uniform sampler2D {TEXELS};
 vec4 texel_at(int index) {{
     return texelFetch({TEXELS}, ivec2(index & {WIDTH - 1}, index >> {BITS}), 0);

@@ -47,12 +47,14 @@ class Tracer:
         self._rounds, self.most_samples = dispatch_limits(context, plan)
         self._tiers: set[Tier] = set()  # of the kernels that added samples
         self._tiles = tile_count(*plan.settings.size)
-        extent = Extent(*plan.settings.size, plan.settings.block, plan.layers)
         with ExitStack() as refused:
             earlier: DeviceScene | None = before.device_scene if before else None
             scene = DeviceScene(context, plan, options, earlier)
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
+            extent = _extent(plan, scene)
+            if extent.reservoirs:
+                self.most_samples = 1  # each takes up what the one before has kept
             known = before if before and scene.has_kernel_of(before.device_scene) else None
             probes, particles = (known.probes, known.particles) if known else (None, None)
             self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes)
@@ -293,5 +295,11 @@ class Tracer:
         return False
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        own = self.probes.resources
+        own = self.probes.resources | self.film.resources
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
+
+
+def _extent(plan: Plan, scene: DeviceScene) -> Extent:
+    """What the film of a plan holds."""
+    settings = plan.settings
+    return Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)

@@ -5,13 +5,6 @@
 // weighted by the power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not
 // followed (integrators/classic.glsl).
 
-// p_a^2 / (p_a^2 + p_b^2), written so that no square overflows to NaN; p_a is above 0.
-float power_heuristic(float p_a, float p_b) {
-    precise float ratio = p_b / p_a;
-    precise float weight = 1.0 / (1.0 + ratio * ratio);
-    return weight;
-}
-
 // Of light sampled on a lamp; `scattered`: the density with which scattering would have met it.
 float weight_of_sample(LightSample light, float scattered, float rho) {
     if (HAS_PARTICLES && rho > 0.0) return sample_beside_particles(light, scattered, rho);
@@ -219,9 +212,12 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(path, material, side > 0.0) : vec3(0.0);
     precise float lamps = total_weight(ray);
     if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface, facing);
+    bool resamples = begins_resampling(path, material);
+    if (resamples) begin_resampling(path, vertex, ray);
     if (SAMPLE_LIGHTS && !is_delta(material)) {
         precise LightSample light = sample_light(ray, lamps, rng);
-        gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
+        if (RESAMPLES_LAMPS && resamples) offer_lamp(light, facing);
+        else gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
     }
     if (SAMPLE_SKY && !is_delta(material)) {
         precise LightSample light = sample_sky(ray, rng);
@@ -242,7 +238,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return goes_on(END_ABSORBED);
     if (HAS_DIELECTRIC) path.scale *= next.scale;
-    if (ROULETTE && roulette_ends(path.throughput, rng)) return goes_on(END_BY_ROULETTE);
+    if (ROULETTE && !resamples && roulette_ends(path.throughput, rng)) return goes_on(END_BY_ROULETTE);
     ray.direction = next.direction;
     ray.inward = (side < 0.0) != next.crosses;
     path.ray = ray;
@@ -282,9 +278,12 @@ bool extend_path(precise inout Path path, precise inout Sampler rng) {
     if (HAS_NESTED && passes(path, surface, material, facing)) return true;
     if (HAS_HOLE && passes_hole(path, surface, material, hit.distance)) return true;
     precise vec3 emission = emitted(material, -path.ray.direction, facing);
-    precise vec3 light = path.scale * path.throughput * emission * share;
-    record_light(BY_SCATTERING, object_number(surface.shape), path.pdf, emission, light);
-    gather(path, light, material.layer, path.depth);
+    if (!offers_met(path, surface, emission, share)) {
+        precise vec3 light = path.scale * path.throughput * emission * share;
+        record_light(BY_SCATTERING, object_number(surface.shape), path.pdf, emission, light);
+        gather(path, light, material.layer, path.depth);
+    }
+    if (RESAMPLES) meet_second(path, surface, material);
     if (path.depth == frame.bounces || HAS_PROBES && path.is_last) return goes_on(END_BOUNCE_LIMIT);
     return scatter_path(path, surface, material, rng);
 }

@@ -25,14 +25,17 @@ int add_samples(precise inout Pixel pixel, precise inout Layers layers, ivec2 pl
     int end = index + frame.sample_count;
     precise Sampler rng = sampler_at(place, index, frame.seed);
     precise Path path = camera_path(place, rng);
+    start_resampling(rng);
     while (index < end) {
         if (extend_path(path, rng)) continue;
         if (loop_was_cut) break;
+        end_resampling(path, place, index);
         add_sample(pixel, value_of(path), index);
         if (LAYERS > 0) add_layers(layers, path, index);
         index += 1;
         rng = sampler_at(place, index, frame.seed);
         path = camera_path(place, rng);
+        start_resampling(rng);
     }
     drop_samples(pixel, index, end);
     return end - index;

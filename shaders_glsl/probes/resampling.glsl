@@ -1,0 +1,205 @@
+// Method resampled: light at the first matte surface of a path comes from one point, which is kept of some: a point on
+// a lamp, and what a scattered ray meets, lamp or matte surface, whose light is its own direct light and that of
+// probes (Majercik et al., "Dynamic Diffuse Global Illumination Resampling", 2022). REUSES_OWN: what the sample before kept for
+// this pixel is a candidate, too; REUSES_NEAR: so many pixels around are asked. All is reuse of one frame before, so
+// that a sample is one dispatch (Wyman and Panteleev, "Rearchitecting Spatiotemporal Resampling for Production", HPG
+// 2021).
+//
+// Not of these are light from the sky and the sun, from lamps with cones or one side, and what a scattered ray meets
+// that is not matte: paths bring that as they do by `gather`.
+
+const int MOST_COUNTED = 20;         // candidates that one reservoir stands for
+const float NEAR_PART = 1.0 / 48.0;  // of the height of the frame: how far pixels around lie
+const float LEAST_ALIKE = 0.9063;    // cosine between normals of pixels that are asked: 25 degrees
+const float NEXT_TO_SOURCE = 1.0 / 1024.0;  // of the way to it
+const float MOST_DEEPER = 0.1;       // the difference of their distances, relative
+const int STREAMS = 1 + (REUSES_OWN ? 1 : 0) + REUSES_NEAR;
+const bool REUSES = STREAMS > 1;
+const bool RESAMPLES_LAMPS = RESAMPLES && !IS_AIMED;
+
+const int BEFORE_FIRST = 0;   // the path has not met its first matte surface
+const int SCATTERED = 1;      // it has left that
+const int BEYOND_SECOND = 2;  // and has met another, whose light it gathers
+const int GATHERS_ALONE = 3;  // and has met something else
+
+// What one sample has found so far.
+struct Resampling {
+    int stage;
+    Receiver at;
+    vec3 factor;   // of the light that it sends on: what the path has left, times albedo / PI
+    Stream stream;
+    Source second; // the second matte surface, without its light
+    vec3 earlier;  // radiance from before that
+    Sampler rng;   // of choices: no draws of paths, which stay as they are without
+};
+
+Resampling resampling;
+Reservoir held_reservoir;  // what this sample keeps for the next one
+
+void start_resampling(Sampler rng) {
+    if (!RESAMPLES) return;
+    Sampler choices = make_sampler(pcg_hash(rng.seed ^ 0x52455341u));
+    resampling = Resampling(BEFORE_FIRST, no_receiver(), vec3(0.0), empty_stream(), no_source(), vec3(0.0), choices);
+}
+
+// Whether it begins at this vertex. Inside glass that absorbs light, a point has another light for each distance.
+bool begins_resampling(Path path, Material material) {
+    bool is_clear = path.absorption == vec3(0.0) && path.counts == 0u;
+    return RESAMPLES && resampling.stage == BEFORE_FIRST && material.kind == MATTE && is_clear;
+}
+
+void begin_resampling(Path path, Vertex vertex, Ray ray) {
+    resampling.stage = SCATTERED;
+    resampling.at = Receiver(ray.origin, vertex.frame[2], ray.origin_shape, ray.inward);
+    precise vec3 factor = path.scale * path.throughput * (vertex.material.color / PI);
+    resampling.factor = factor;
+}
+
+void offer_source(Source source, float weight) {
+    offer(resampling.stream, source, weight, 0, next_independent(resampling.rng));
+}
+
+// A point on a lamp, by its density per solid angle; `facing`: the true normal on the side of wo.
+void offer_lamp(LightSample light, vec3 facing) {
+    if (light.pdf == 0.0) return;
+    precise float cosine = dot(light.ray.direction, resampling.at.normal);
+    if (cosine <= 0.0 || dot(light.ray.direction, facing) <= 0.0) return;
+    if (occluded(light.ray, light.distance, light.shape)) return;
+    precise Surface surface = surface_at(light.ray, Hit(light.distance, light.shape));
+    precise vec3 normal = dot(surface.normal, light.ray.direction) < 0.0 ? surface.normal : -surface.normal;
+    precise float share = power_heuristic(light.pdf, cosine / PI);
+    precise float weight = share * luminance(light.radiance) * (cosine / light.pdf);
+    offer_source(Source(surface.position, normal, light.radiance, light.shape), weight);
+}
+
+// Of the surface that the scattered ray of the first matte one meets.
+Source source_met(Path path, Surface surface) {
+    precise vec3 normal = true_normal(surface);
+    if (dot(normal, path.ray.direction) > 0.0) normal = -normal;
+    return Source(surface.position, normal, vec3(0.0), surface.shape);
+}
+
+// Whether what it emits is a candidate; `share`: what points on lamps leave of it. Else the path gathers it.
+bool offers_met(Path path, Surface surface, vec3 emission, float share) {
+    if (!RESAMPLES_LAMPS || resampling.stage != SCATTERED || emission == vec3(0.0)) return false;
+    precise Source source = source_met(path, surface);
+    source.light = emission;
+    offer_source(source, share * luminance(emission) * PI);
+    return true;
+}
+
+// From a second matte surface on, the path gathers the light of that.
+void meet_second(precise inout Path path, Surface surface, Material material) {
+    if (resampling.stage != SCATTERED) return;
+    resampling.stage = GATHERS_ALONE;
+    if (material.kind != MATTE || path.depth == frame.bounces) return;
+    resampling.stage = BEYOND_SECOND;
+    resampling.second = source_met(path, surface);
+    resampling.earlier = path.radiance;
+    path.radiance = vec3(0.0);
+    path.throughput = vec3(1.0);
+    path.scale = 1.0;
+}
+
+// Whether two pixels show what is lit alike.
+bool are_alike(Receiver one, Receiver other) {
+    if (one.shape == NO_SHAPE || other.shape == NO_SHAPE) return false;
+    if (object_number(one.shape) != object_number(other.shape) || one.is_within != other.is_within) return false;
+    precise float near = length(one.position);
+    precise float far = length(other.position);
+    return dot(one.normal, other.normal) > LEAST_ALIKE && abs(near - far) < MOST_DEEPER * max(near, far);
+}
+
+// Whether something stands between a surface and a source before it. The object of the source does not where it is met
+// next to it, by rounding.
+bool is_hidden(Receiver at, Source source) {
+    precise vec3 away = source.position - at.position;
+    precise float distance = length(away);
+    precise Hit hit = closest_hit(Ray(at.position, away / distance, at.shape, at.is_within));
+    if (hit.shape == NO_SHAPE || hit.distance >= distance) return false;
+    bool is_there = object_number(hit.shape) == object_number(source.shape);
+    return !is_there || hit.distance < distance * (1.0 - NEXT_TO_SOURCE);
+}
+
+// The pixel that a stream comes from; 1 and on.
+ivec2 pixel_of_stream(ivec2 place, int stream, uint seed) {
+    if (REUSES_OWN && stream == 1) return place;
+    int most = max(int(float(frame.size.y) * NEAR_PART), 1);
+    precise Sampler rng = make_sampler(pcg_hash(seed ^ uint(stream)));
+    precise float x = next_independent(rng);
+    precise float y = next_independent(rng);
+    return place + ivec2(floor(vec2(x, y) * float(2 * most + 1))) - most;
+}
+
+// What a stream brings: of count 0 where it brings nothing.
+Reservoir reservoir_of_stream(Reservoir own, ivec2 place, int stream, uint seed) {
+    if (stream == 0) return own;
+    ivec2 pixel = pixel_of_stream(place, stream, seed);
+    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, frame.size))) return empty_reservoir();
+    precise Reservoir found = reservoir_of_pixel(pixel);
+    if (!are_alike(own.at, found.at)) return empty_reservoir();
+    found.count = min(found.count, float(MOST_COUNTED));
+    return found;
+}
+
+// One reservoir of those of this sample and of the frame before. With the target p_j of the surface that a reservoir
+// is of, 0 where it does not see y, and y from that of k, W = sum(w) / p(y) p_k(y) / sum_j(M_j p_j(y)) is unbiased; the
+// biased form takes 1 / sum_j(M_j) for the second factor, and no rays for it.
+Reservoir merged(Reservoir own, ivec2 place, precise inout Sampler rng) {
+    uint seed = pcg_hash(rng.seed);
+    precise Stream stream = empty_stream();
+    precise float count = 0.0;
+    for (int i = 0; i < STREAMS; i += 1) {
+        precise Reservoir found = reservoir_of_stream(own, place, i, seed);
+        precise float u = next_independent(rng);
+        count += found.count;
+        if (found.weight == 0.0) continue;
+        offer(stream, found.kept, target(own.at, found.kept) * found.weight * found.count, i, u);
+    }
+    precise Reservoir result = Reservoir(stream.kept, 0.0, count, own.at);
+    if (stream.sum == 0.0) return result;
+    precise float reached = 0.0;  // sum_j(M_j p_j(y))
+    precise float origin = 0.0;   // p_k(y)
+    int asked = UNBIASED ? STREAMS : 1;
+    int first = UNBIASED || stream.origin > 0 ? 0 : 1;
+    for (int i = first; i < asked; i += 1) {
+        precise Reservoir found = reservoir_of_stream(own, place, i, seed);
+        precise float value = found.count == 0.0 ? 0.0 : target(found.at, stream.kept);
+        if (value == 0.0) continue;
+        if (i == stream.origin) origin = value;
+        else if (is_hidden(found.at, stream.kept)) {
+            if (i == 0) return result;
+            continue;
+        }
+        reached += found.count * value;
+    }
+    precise float here = target(own.at, stream.kept);
+    result.weight = stream.sum / here;
+    if (UNBIASED) result.weight *= origin / reached;
+    else result.weight /= count;
+    return result;
+}
+
+// The end of a path: its light through the point that is kept.
+void end_resampling(precise inout Path path, ivec2 place, int index) {
+    if (!RESAMPLES) return;
+    held_reservoir = empty_reservoir();
+    if (resampling.stage == BEFORE_FIRST) return;
+    if (resampling.stage == BEYOND_SECOND) {
+        precise vec3 light = path.radiance;
+        path.radiance = resampling.earlier;
+        if (!is_finite(light)) path.radiance = light;
+        else if (light != vec3(0.0)) {
+            resampling.second.light = light;
+            offer_source(resampling.second, luminance(light) * PI);
+        }
+    }
+    precise Reservoir own = Reservoir(resampling.stream.kept, 0.0, 1.0, resampling.at);
+    if (resampling.stream.sum > 0.0) own.weight = resampling.stream.sum / target(own.at, own.kept);
+    precise Reservoir result = own;
+    if (REUSES && index % BLOCK > 0) result = merged(own, place, resampling.rng);
+    held_reservoir = REUSES_OWN ? result : own;
+    if (result.weight == 0.0) return;
+    precise vec3 light = resampling.factor * result.kept.light * (geometry_term(result.at, result.kept) * result.weight);
+    path.radiance += light;
+}

@@ -1,0 +1,126 @@
+// Resampled importance sampling (Talbot et al., EGSR 2005) and reservoirs (Bitterli et al., "Spatiotemporal Reservoir
+// Resampling", SIGGRAPH 2020). Of candidates y_i, which have the weights w_i = m_i p(y_i) / (density of y_i), one is
+// kept with a chance in proportion to its weight. p, the target, is no density: it is what y would bring to a
+// surface, as luminance, over albedo / PI. With W = sum(w_i) / p(y) the mean of f(y) W is the integral of f.
+//
+// Densities are over areas, so that a candidate serves other surfaces as it is.
+
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
+
+float luminance(vec3 light) {
+    precise float value = dot(light, LUMINANCE);
+    return value;
+}
+
+// A point that sends the same light to all that is before it.
+struct Source {
+    vec3 position;
+    vec3 normal;  // unit, on the side that shines
+    vec3 light;   // radiance
+    int shape;
+};
+
+// A matte surface that is lit.
+struct Receiver {
+    vec3 position;
+    vec3 normal;   // unit, towards where the path came from
+    int shape;     // NO_SHAPE: there is none
+    bool is_within;  // whether that is the inside of the shape
+};
+
+struct Reservoir {
+    Source kept;
+    float weight;  // W, per area
+    float count;   // candidates that have been seen, in units of those of one sample
+    Receiver at;
+};
+
+Source no_source() {
+    return Source(vec3(0.0), vec3(0.0), vec3(0.0), NO_SHAPE);
+}
+
+Receiver no_receiver() {
+    return Receiver(vec3(0.0), vec3(0.0), NO_SHAPE, false);
+}
+
+Reservoir empty_reservoir() {
+    return Reservoir(no_source(), 0.0, 0.0, no_receiver());
+}
+
+// cos cos / r^2 between a surface and a source; 0 where one is behind the other.
+float geometry_term(Receiver at, Source source) {
+    precise vec3 away = source.position - at.position;
+    precise float distance = length(away);
+    if (distance == 0.0) return 0.0;
+    precise vec3 direction = away / distance;
+    precise float cos_here = dot(at.normal, direction) / distance;
+    precise float cos_there = -dot(source.normal, direction) / distance;
+    if (cos_here <= 0.0 || cos_there <= 0.0) return 0.0;
+    precise float product = cos_here * cos_there;
+    return product;
+}
+
+// The target, where nothing stands between.
+float target(Receiver at, Source source) {
+    precise float value = geometry_term(at, source) * luminance(source.light);
+    return value;
+}
+
+// Candidates one after the other: the sum of their weights, and the one that is kept.
+struct Stream {
+    float sum;
+    Source kept;
+    int origin;  // the number of the candidate that is kept
+};
+
+Stream empty_stream() {
+    return Stream(0.0, no_source(), 0);
+}
+
+// `u`: uniform, of this candidate alone.
+void offer(precise inout Stream stream, Source source, float weight, int origin, float u) {
+    stream.sum += weight;
+    if (u * stream.sum < weight) {
+        stream.kept = source;
+        stream.origin = origin;
+    }
+}
+
+// How reservoirs lie in a texture: for each pixel a block of so many texels.
+const int ROWS_OF_RESERVOIR = 2;
+const int COLUMNS_OF_RESERVOIR = 3;
+const int PARTS_OF_RESERVOIR = ROWS_OF_RESERVOIR * COLUMNS_OF_RESERVOIR;
+
+ivec2 texel_of_part(ivec2 pixel, int part) {
+    ivec2 place = ivec2(part % COLUMNS_OF_RESERVOIR, part / COLUMNS_OF_RESERVOIR);
+    return ivec2(COLUMNS_OF_RESERVOIR, ROWS_OF_RESERVOIR) * pixel + place;
+}
+
+// Numbers of shapes by halves, which a float holds whatever they are.
+vec2 halves_of(int shape) {
+    return vec2(float(shape & 0xFFFF), float(shape >> 16));
+}
+
+int of_halves(vec2 halves) {
+    return int(halves.y) << 16 | int(halves.x);
+}
+
+vec4 part_of_reservoir(Reservoir held, int part) {
+    if (part == 0) return vec4(held.kept.position, held.weight);
+    if (part == 1) return vec4(held.kept.normal, held.count);
+    if (part == 2) return vec4(held.kept.light, held.at.is_within ? 1.0 : 0.0);
+    if (part == 3) return vec4(held.at.position, 0.0);
+    if (part == 4) return vec4(held.at.normal, 0.0);
+    return vec4(halves_of(held.kept.shape), halves_of(held.at.shape));
+}
+
+Reservoir reservoir_of_pixel(ivec2 pixel) {
+    precise vec4 a = reservoir_part_at(texel_of_part(pixel, 0));
+    precise vec4 b = reservoir_part_at(texel_of_part(pixel, 1));
+    precise vec4 c = reservoir_part_at(texel_of_part(pixel, 2));
+    precise vec4 d = reservoir_part_at(texel_of_part(pixel, 3));
+    precise vec4 e = reservoir_part_at(texel_of_part(pixel, 4));
+    precise vec4 f = reservoir_part_at(texel_of_part(pixel, 5));
+    precise Source kept = Source(a.xyz, b.xyz, c.xyz, of_halves(f.xy));
+    return Reservoir(kept, a.w, b.w, Receiver(d.xyz, e.xyz, of_halves(f.zw), c.w != 0.0));
+}
