@@ -12,7 +12,9 @@ from pydantic.fields import FieldInfo
 
 from glrt.errors import UsageError
 
-Method = Literal["naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather", "resampled"]
+Method = Literal[
+    "naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather", "resampled"
+]
 Sampler = Literal["sobol", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -76,8 +78,8 @@ class RenderSettings(Frozen):
         "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
         "whitted, cook: lighting models before path tracing, which leave light out; ddgi: direct "
         "light as mis finds it, and indirect light from a grid of probes; gather: the same after "
-        "one more matte surface, to which paths are traced (final gathering); resampled: the same, and "
-        "the light of the first matte surface comes from one point, kept of many",
+        "one more matte surface, to which paths are traced (final gathering); resampled: the "
+        "same, and the first matte surface is lit by one point, kept of many",
     )
 
 
@@ -125,20 +127,21 @@ class Settings(RenderSettings):
     )
     probes: Annotated[int, Editable(Cost.RESTART, "probes", (2, 8))] = Field(
         0,
-        description="probes along each edge of the grid of methods ddgi and gather, 2 to 16; 0: as "
-        "[probes] of the scene says, or 5",
+        description="probes along each edge of the grid of methods ddgi, gather and resampled, 2 "
+        "to 16; 0: as [probes] of the scene says, or 5",
         ge=0,
         le=16,
     )
     reuse: Annotated[Reuse, Editable(Cost.RECOMPILE)] = Field(
-        "both",
-        description="what method resampled takes points from beside its own: temporal: what the "
-        "sample before kept for the pixel; spatial: what it kept for pixels around; both; none",
+        "spatial",
+        description="which points method resampled chooses from, beside those of its own paths; "
+        "temporal: the one that the sample before kept for the pixel; spatial: those that it kept "
+        "for pixels around; both; none",
     )
     unbiased: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
-        description="method resampled: weigh points of other samples by rays from where they come "
-        "from; without, edges and contacts are too dark, for fewer rays",
+        description="method resampled: weigh points of other samples by rays from where those see "
+        "them; without, contacts and edges are too dark, for fewer rays",
     )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF

@@ -13,6 +13,7 @@ from glrt.image.differences import (
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
+from glrt.methods.table import reuses_points
 from glrt.settings import Cost, Settings, cost_of
 
 # Else no recipe would give the same bits again.
@@ -32,7 +33,13 @@ def recipe_to_resume(image: Image) -> Recipe:
         )
     if image.recipe.partition and len(image.recipe.partition.numbers) > 1:
         raise UsageError("it was merged: a plain render adds its samples in another order")
-    lacks_particles = image.recipe.settings.caustics == "on" and image.particles is None
+    settings = image.recipe.settings
+    if reuses_points(settings) and image.samples % settings.block:
+        raise UsageError(
+            f"it ends within a block of {settings.block} samples, which share points that it does "
+            f"not hold: with --reuse, only pictures of whole blocks can go on"
+        )
+    lacks_particles = settings.caustics == "on" and image.particles is None
     if image.film_state is None or lacks_particles:
         raise UsageError(
             "it has no film state: another renderer or an older glrt wrote it, or another program "

@@ -12,7 +12,7 @@ from itertools import combinations
 from glrt.errors import UsageError
 from glrt.methods.light_layers import Layering
 from glrt.methods.particles import refusal
-from glrt.methods.table import METHODS
+from glrt.methods.table import METHODS, reuses_points
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -30,6 +30,7 @@ class Way(StrEnum):
     INDEPENDENT = "the independent sampler"
     CLASSIC = "a classic lighting model"
     PROBES = "a method with probes"
+    REUSE = "reuse of points"
     PARTICLES = "--caustics on"
     PILOT = "--caustics auto"
     DENOISE = "--denoise"
@@ -48,7 +49,8 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
-    Way.PROBES: "`--method ddgi`, `gather`: indirect light from probes",
+    Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
+    Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
     Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",
@@ -74,25 +76,27 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         Way.INDEPENDENT,
     ),
     Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
+    Way.REUSE: (Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.PROBES),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
     ),
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.INDEPENDENT, Way.CLASSIC, Way.PROBES),
+        *(Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PROBES, Way.PARTICLES, Way.PILOT),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT),
     ),
     Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PROBES, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PROBES, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO, Way.TIME),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
+        Way.TIME,
     ),
 }
 
@@ -111,6 +115,14 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.PROBES, Way.CLASSIC}): "each is a method",
     frozenset({Way.PROBES, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.PROBES, Way.AUTO}): "it chooses among methods that leave no light out",
+    frozenset({Way.REUSE, Way.CROP}): "a sample asks pixels around, beyond the crop, too",
+    frozenset({Way.REUSE, Way.LAYERS}): "probes hold the light of all lamps in one",
+    frozenset({Way.REUSE, Way.FRAGMENT}): "compute shaders fill the probes",
+    frozenset({Way.REUSE, Way.INDEPENDENT}): "the 16 samples of a block share their probes, so "
+    "that they are one observation",
+    frozenset({Way.REUSE, Way.CLASSIC}): "each is a method",
+    frozenset({Way.REUSE, Way.PARTICLES}): "particles are weighed by the method mis alone",
+    frozenset({Way.REUSE, Way.AUTO}): "it chooses among methods that leave no light out",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
     frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
@@ -173,6 +185,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PROBES: METHODS[settings.method].has_probes,
+        Way.REUSE: reuses_points(settings),
         Way.PARTICLES: settings.caustics == "on",
         Way.DENOISE: settings.denoise != "none",
     }

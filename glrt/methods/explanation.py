@@ -15,7 +15,7 @@ from glrt.methods.contents import (
     contents_of,
 )
 from glrt.methods.features import WITHOUT_OWN_FLAG, Needs, needs_of
-from glrt.methods.table import CLASSIC
+from glrt.methods.table import CLASSIC, METHODS
 from glrt.scene.materials import TYPES, Material
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -98,19 +98,33 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         Feature("lamps in clusters", needs.many_lights, f"{lamps}; from {MOST_NEAR + 1} on"),
         Feature("both weighted", needs.weight_both, f"method {method}, {lamps}"),
         Feature("lighting model", needs.model > 0, _model(settings)),
-        *_by_settings(needs, settings),
+        *_by_settings(needs, settings, found),
     ]
 
 
-def _by_settings(needs: Needs, settings: Settings) -> list[Feature]:
+def _by_settings(needs: Needs, settings: Settings, found: Contents) -> list[Feature]:
     return [
         Feature("probes", needs.has_probes, f"method {settings.method}"),
         Feature("final gather", needs.final_gather, f"method {settings.method}"),
+        Feature("resampling", needs.resamples, _resampling(settings, found)),
+        Feature("reuse", needs.reuses_own or needs.reuses_near > 0, _reuse(settings)),
         Feature("particles", needs.has_particles, f"caustics {settings.caustics}"),
         Feature("linked spheres", needs.linked != 0, _links(needs, settings)),
         Feature("roulette", needs.roulette, _roulette(settings)),
         Feature("Sobol points", needs.block > 1, f"sampler {settings.sampler}"),
     ]
+
+
+def _resampling(settings: Settings, found: Contents) -> str:
+    method = f"method {settings.method}"
+    if METHODS[settings.method].resamples and found.holed:
+        return f"{method}, {_made_of(found.holed, 'alpha below 1')}: then it is gather"
+    return method
+
+
+def _reuse(settings: Settings) -> str:
+    form = "" if settings.reuse == "none" or settings.unbiased else ", biased"
+    return f"method {settings.method}, reuse {settings.reuse}{form}"
 
 
 def _links(needs: Needs, settings: Settings) -> str:

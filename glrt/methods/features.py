@@ -16,7 +16,7 @@ from glrt.methods.particles import (
     sun_sends_particles,
     targets_of,
 )
-from glrt.methods.table import METHODS
+from glrt.methods.table import METHODS, SPATIAL, TEMPORAL, reuses_points
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -127,7 +127,10 @@ def everything() -> dict[str, bool | int]:
     return Needs(**{**plain, **sets, **numbers}).constants()
 
 
-_IMAGE = ("has_environment", "sample_sky", "has_probes", "final_gather", "resamples", "reuses_own")
+_IMAGE = (
+    *("has_environment", "sample_sky", "has_probes", "final_gather"),
+    *("resamples", "reuses_own", "unbiased"),
+)
 _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
@@ -139,7 +142,6 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
     follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
-    resamples = traits.resamples and not found.holed
     metals = [m for m in found.materials.values() if m.type == "metal"]
     return Needs(
         shapes=frozenset(kind for kind, count in found.shapes.items() if count),
@@ -185,18 +187,28 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
         targets=len(targets_of(scene)) if follows_particles and settings.aimed else 0,
         linked=link_bits(scene) if follows_particles and settings.linked else 0,
-        has_probes=traits.has_probes,
-        final_gather=traits.gathers,
-        resamples=resamples,
-        reuses_own=resamples and settings.reuse in ("temporal", "both"),
-        reuses_near=NEAR if resamples and settings.reuse in ("spatial", "both") else 0,
-        unbiased=resamples and settings.unbiased,
+        **_of_probes(settings, found),
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
         many_lights=traits.chooses_lights and found.has_many_lights,
         clusters=found.clusters if traits.chooses_lights else 0,
         block=settings.block,
     )
+
+
+def _of_probes(settings: Settings, found: Contents) -> dict[str, Any]:
+    """The features of methods with probes."""
+    traits = METHODS[settings.method]
+    resamples = traits.resamples and not found.holed  # a ray sees through holes at random
+    reuses = resamples and reuses_points(settings)
+    return {
+        "has_probes": traits.has_probes,
+        "final_gather": traits.gathers,
+        "resamples": resamples,
+        "reuses_own": reuses and settings.reuse in TEMPORAL,
+        "reuses_near": NEAR if reuses and settings.reuse in SPATIAL else 0,
+        "unbiased": reuses and settings.unbiased,
+    }
 
 
 def _types(found: Contents, follows: bool) -> frozenset[str]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from glrt.methods.contents import contents_of
 from glrt.methods.probe_grid import grid_of
-from glrt.methods.table import CLASSIC, METHODS
+from glrt.methods.table import CLASSIC, METHODS, reuses_points
 from glrt.scene.materials import glass_of
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -32,6 +32,8 @@ def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
     cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(scene, settings).cell)
     light = "light over three matte surfaces or more" if gathers else "indirect light"
     yield f"of {light} what is finer than its probes, {cell} apart"
+    if reuses_points(settings) and not settings.unbiased:
+        yield "light at contacts and edges, of which points of other pixels tell too little"
     if kinds & {"metal", "dielectric"}:
         lit = "matte surfaces that light others" if gathers else "matte surfaces"
         yield f"light over mirrors or through glass onto {lit}"

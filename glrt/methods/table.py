@@ -6,7 +6,7 @@ docs/extending.md says how a method is added.
 from dataclasses import dataclass
 from typing import get_args
 
-from glrt.settings import Method
+from glrt.settings import Method, Reuse, Settings
 
 
 @dataclass(frozen=True)
@@ -62,3 +62,11 @@ BIASED = [name for name, traits in METHODS.items() if traits.model or traits.has
 
 if list(METHODS) != list(get_args(Method)):
     raise TypeError(f"methods have rows {list(METHODS)}, and settings {get_args(Method)}")
+
+TEMPORAL: tuple[Reuse, ...] = ("temporal", "both")  # of what the pixel has kept
+SPATIAL: tuple[Reuse, ...] = ("spatial", "both")  # of what pixels around have
+
+
+def reuses_points(settings: Settings) -> bool:
+    """Whether a sample takes up what the one before has kept."""
+    return METHODS[settings.method].resamples and settings.reuse != "none"

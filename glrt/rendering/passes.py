@@ -17,6 +17,7 @@ Resolved = Literal["compute", "fragment"]
 Constants = Mapping[str, bool | int]
 NO_CONSTANTS: Constants = {}
 NO_REUSE: Constants = {"REUSES_OWN": False, "REUSES_NEAR": 0}
+FROM_PROBES: Constants = {"FROM_PROBES": True, "RESAMPLES": False, **NO_REUSE}
 
 AOV_NUMBERS = read_constants(read("integrators/aov_numbers.glsl"))
 
@@ -34,11 +35,12 @@ RADIANCE = RenderPass(
     ("mean", "variance", "block", "layers", "reservoirs"),  # the last three where a film keeps them
 )
 BOUNCES = RADIANCE._replace(
-    outputs=("mean", "variance", "block"), constants={"COUNT_BOUNCES": True, "LAYERS": 0, **NO_REUSE}
+    outputs=("mean", "variance", "block"),
+    constants={"COUNT_BOUNCES": True, "LAYERS": 0, **NO_REUSE},
 )
 PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
 SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
-PROBE_RAYS = RenderPass({"compute": ("probe_rays.comp",)}, ("rays",), {"FROM_PROBES": True, "RESAMPLES": False, **NO_REUSE})
+PROBE_RAYS = RenderPass({"compute": ("probe_rays.comp",)}, ("rays",), FROM_PROBES)
 PROBE_LIGHT = RenderPass({"compute": ("probe_light.comp",)}, ())
 PROBE_DISTANCES = RenderPass({"compute": ("probe_distances.comp",)}, ())
 PROBE_PLACES = RenderPass({"compute": ("probe_place.comp",)}, ())

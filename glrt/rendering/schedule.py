@@ -16,10 +16,10 @@ from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.methods.contents import MESH, Contents, contents_of
-from glrt.methods.features import has_image
+from glrt.methods.features import NEAR, has_image
 from glrt.methods.light_layers import Plan
 from glrt.methods.particles import caster_bits, link_bits, sky_sends_particles, targets_of
-from glrt.methods.table import METHODS
+from glrt.methods.table import METHODS, SPATIAL, TEMPORAL, reuses_points
 from glrt.rendering.kernel_structs import CONSTANTS
 from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings, Settings
@@ -92,6 +92,14 @@ def rounds_for_particles(scene: Scene, settings: Settings) -> int:
     return (settings.bounces + 1) * (weighed + links)
 
 
+def rounds_for_reuse(scene: Scene, settings: Settings) -> int:
+    """Rounds beside those of points that other samples have kept: a ray to each."""
+    if not reuses_points(settings):
+        return 0
+    asked = 1 + (settings.reuse in TEMPORAL) + NEAR * (settings.reuse in SPATIAL)
+    return (1 + asked) + (1 + asked * (1 + rounds_of_search(scene)))
+
+
 def _levels_of_sky(scene: Scene) -> int:
     """Of the tree by which an image of the sky is sampled."""
     picture = scene.sky
@@ -148,7 +156,7 @@ def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     SceneError if not one.
     """
     scene, settings = plan.scene, plan.settings
-    more = rounds_for_particles(scene, settings)
+    more = rounds_for_particles(scene, settings) + rounds_for_reuse(scene, settings)
     iterations = iterations_per_sample(scene, settings) + more
     rounds = usable_rounds(context, iterations)
     least = iterations_per_sample(scene, settings, 0) + more

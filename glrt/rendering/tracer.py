@@ -45,14 +45,15 @@ class Tracer:
         """
         self._context, self._plan, self._options, gl = context, plan, options, context.gl
         self._rounds, self.most_samples = dispatch_limits(context, plan)
+        settings = plan.settings
         self._tiers: set[Tier] = set()  # of the kernels that added samples
-        self._tiles = tile_count(*plan.settings.size)
+        self._tiles = tile_count(*settings.size)
         with ExitStack() as refused:
             earlier: DeviceScene | None = before.device_scene if before else None
             scene = DeviceScene(context, plan, options, earlier)
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
-            extent = _extent(plan, scene)
+            extent = Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)
             if extent.reservoirs:
                 self.most_samples = 1  # each takes up what the one before has kept
             known = before if before and scene.has_kernel_of(before.device_scene) else None
@@ -74,7 +75,7 @@ class Tracer:
             self.particles: ParticleTracer | None = particles_for(context, plan, scene, particles)
             if self.particles:
                 refused.callback(self.particles.release, particles)
-            self.aovs: AovTracer = self._aovs_for(plan.settings, before)
+            self.aovs: AovTracer = self._aovs_for(settings, before)
             refused.pop_all()
         if not before:
             self.restart()
@@ -297,9 +298,3 @@ class Tracer:
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
         own = self.probes.resources | self.film.resources
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
-
-
-def _extent(plan: Plan, scene: DeviceScene) -> Extent:
-    """What the film of a plan holds."""
-    settings = plan.settings
-    return Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)

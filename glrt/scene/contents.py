@@ -35,8 +35,8 @@ class Contents(Frozen):
     )
     probes: Probes | None = Field(
         None,
-        description="the box that methods ddgi and gather put their probes into; default: around "
-        "what is seen",
+        description="the box that methods ddgi, gather and resampled put their probes into; "
+        "default: around what is seen",
     )
     materials: dict[Name, Material] = Field({}, description="materials by name")
     lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(

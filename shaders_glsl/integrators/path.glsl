@@ -189,6 +189,25 @@ void gather_sun(precise inout Path path) {
     gather(path, light, SUN_LAYER, path.depth);
 }
 
+// Direct light at a vertex, of a sample of each kind. `ray` leaves there, where all lamps have the weight `lamps`;
+// `facing` and `behind` as above; `resamples`: lamps are candidates of a reservoir.
+void gather_direct(precise inout Path path, Vertex vertex, Ray ray, float lamps, vec3 facing, vec3 behind, bool resamples,
+                   precise inout Sampler rng) {
+    if (SAMPLE_LIGHTS) {
+        precise LightSample light = sample_light(ray, lamps, rng);
+        if (RESAMPLES_LAMPS && resamples) offer_lamp(light, facing);
+        else gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
+    }
+    if (SAMPLE_SKY) {
+        precise LightSample light = sample_sky(ray, rng);
+        gather_sampled(path, vertex, light, FROM_BACKGROUND, facing, behind);
+    }
+    if (SAMPLE_SUN) {
+        precise LightSample light = sample_sun(ray, rng);
+        gather_sampled(path, vertex, light, FROM_SUN, facing, behind);
+    }
+}
+
 // Scatters at a surface, after gathering direct light there; false when the path ends.
 bool scatter_path(precise inout Path path, Surface surface, Material material, precise inout Sampler rng) {
     leave_vertex(rng.seed, path.depth + 1);
@@ -214,19 +233,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface, facing);
     bool resamples = begins_resampling(path, material);
     if (resamples) begin_resampling(path, vertex, ray);
-    if (SAMPLE_LIGHTS && !is_delta(material)) {
-        precise LightSample light = sample_light(ray, lamps, rng);
-        if (RESAMPLES_LAMPS && resamples) offer_lamp(light, facing);
-        else gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
-    }
-    if (SAMPLE_SKY && !is_delta(material)) {
-        precise LightSample light = sample_sky(ray, rng);
-        gather_sampled(path, vertex, light, FROM_BACKGROUND, facing, behind);
-    }
-    if (SAMPLE_SUN && !is_delta(material)) {
-        precise LightSample light = sample_sun(ray, rng);
-        gather_sampled(path, vertex, light, FROM_SUN, facing, behind);
-    }
+    if (!is_delta(material)) gather_direct(path, vertex, ray, lamps, facing, behind, resamples, rng);
     if (HAS_PROBES) gather_from_probes(path, vertex, surface.position, rng);
     precise Scattering next = sample_material(vertex, rng);
     record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);

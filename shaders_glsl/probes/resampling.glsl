@@ -38,8 +38,10 @@ Reservoir held_reservoir;  // what this sample keeps for the next one
 
 void start_resampling(Sampler rng) {
     if (!RESAMPLES) return;
-    Sampler choices = make_sampler(pcg_hash(rng.seed ^ 0x52455341u));
-    resampling = Resampling(BEFORE_FIRST, no_receiver(), vec3(0.0), empty_stream(), no_source(), vec3(0.0), choices);
+    precise vec3 none = vec3(0.0);
+    precise Resampling begun =
+        Resampling(BEFORE_FIRST, no_receiver(), none, empty_stream(), no_source(), none, sampler_beside(rng, 0));
+    resampling = begun;
 }
 
 // Whether it begins at this vertex. Inside glass that absorbs light, a point has another light for each distance.
@@ -122,19 +124,19 @@ bool is_hidden(Receiver at, Source source) {
 }
 
 // The pixel that a stream comes from; 1 and on.
-ivec2 pixel_of_stream(ivec2 place, int stream, uint seed) {
+ivec2 pixel_of_stream(ivec2 place, int stream) {
     if (REUSES_OWN && stream == 1) return place;
     int most = max(int(float(frame.size.y) * NEAR_PART), 1);
-    precise Sampler rng = make_sampler(pcg_hash(seed ^ uint(stream)));
+    precise Sampler rng = sampler_beside(resampling.rng, stream);
     precise float x = next_independent(rng);
     precise float y = next_independent(rng);
     return place + ivec2(floor(vec2(x, y) * float(2 * most + 1))) - most;
 }
 
 // What a stream brings: of count 0 where it brings nothing.
-Reservoir reservoir_of_stream(Reservoir own, ivec2 place, int stream, uint seed) {
+Reservoir reservoir_of_stream(Reservoir own, ivec2 place, int stream) {
     if (stream == 0) return own;
-    ivec2 pixel = pixel_of_stream(place, stream, seed);
+    ivec2 pixel = pixel_of_stream(place, stream);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, frame.size))) return empty_reservoir();
     precise Reservoir found = reservoir_of_pixel(pixel);
     if (!are_alike(own.at, found.at)) return empty_reservoir();
@@ -145,13 +147,12 @@ Reservoir reservoir_of_stream(Reservoir own, ivec2 place, int stream, uint seed)
 // One reservoir of those of this sample and of the frame before. With the target p_j of the surface that a reservoir
 // is of, 0 where it does not see y, and y from that of k, W = sum(w) / p(y) p_k(y) / sum_j(M_j p_j(y)) is unbiased; the
 // biased form takes 1 / sum_j(M_j) for the second factor, and no rays for it.
-Reservoir merged(Reservoir own, ivec2 place, precise inout Sampler rng) {
-    uint seed = pcg_hash(rng.seed);
+Reservoir merged(Reservoir own, ivec2 place) {
     precise Stream stream = empty_stream();
     precise float count = 0.0;
     for (int i = 0; i < STREAMS; i += 1) {
-        precise Reservoir found = reservoir_of_stream(own, place, i, seed);
-        precise float u = next_independent(rng);
+        precise Reservoir found = reservoir_of_stream(own, place, i);
+        precise float u = next_independent(resampling.rng);
         count += found.count;
         if (found.weight == 0.0) continue;
         offer(stream, found.kept, target(own.at, found.kept) * found.weight * found.count, i, u);
@@ -163,7 +164,7 @@ Reservoir merged(Reservoir own, ivec2 place, precise inout Sampler rng) {
     int asked = UNBIASED ? STREAMS : 1;
     int first = UNBIASED || stream.origin > 0 ? 0 : 1;
     for (int i = first; i < asked; i += 1) {
-        precise Reservoir found = reservoir_of_stream(own, place, i, seed);
+        precise Reservoir found = reservoir_of_stream(own, place, i);
         precise float value = found.count == 0.0 ? 0.0 : target(found.at, stream.kept);
         if (value == 0.0) continue;
         if (i == stream.origin) origin = value;
@@ -197,7 +198,7 @@ void end_resampling(precise inout Path path, ivec2 place, int index) {
     precise Reservoir own = Reservoir(resampling.stream.kept, 0.0, 1.0, resampling.at);
     if (resampling.stream.sum > 0.0) own.weight = resampling.stream.sum / target(own.at, own.kept);
     precise Reservoir result = own;
-    if (REUSES && index % BLOCK > 0) result = merged(own, place, resampling.rng);
+    if (REUSES && index % BLOCK > 0) result = merged(own, place);
     held_reservoir = REUSES_OWN ? result : own;
     if (result.weight == 0.0) return;
     precise vec3 light = resampling.factor * result.kept.light * (geometry_term(result.at, result.kept) * result.weight);

@@ -35,6 +35,11 @@ Sampler sampler_at(ivec2 pixel, int index, uint seed) {
     return rng;
 }
 
+// Independent numbers beside those of a sample, a row for each `number`: for choices that are no draws of its path.
+Sampler sampler_beside(Sampler self, int number) {
+    return make_sampler(pcg_hash(~self.seed + pcg_hash(uint(number))));
+}
+
 float next_independent(precise inout Sampler self) {
     self.dimension += STEP;
     return unit_float(pcg_hash(self.seed ^ self.dimension));

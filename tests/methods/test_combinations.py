@@ -68,6 +68,8 @@ NEVER_ASKED = [  # no command line does
     {Way.AUTO, Way.CLASSIC},
     {Way.AUTO, Way.PROBES},
     {Way.CLASSIC, Way.PROBES},
+    {Way.AUTO, Way.REUSE},
+    {Way.CLASSIC, Way.REUSE},
     {Way.PARTICLES, Way.PILOT},
 ]
 

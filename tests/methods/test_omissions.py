@@ -64,6 +64,7 @@ def test_an_omission_is_told_of_the_methods_that_make_it(
         ("ddgi", 2, "indirect light", ""),
         ("gather", 2, "", ""),
         ("gather", 3, "light over three matte surfaces or more", " that light others"),
+        ("resampled", 3, "light over three matte surfaces or more", " that light others"),
     ],
 )
 def test_what_probes_blur_is_told_from_the_bounces_on_that_they_light(

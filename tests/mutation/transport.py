@@ -69,17 +69,17 @@ TRANSPORT = [
         (
             Edit(
                 "shaders_glsl/integrators/path.glsl",
-                "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
+                "    if (!is_delta(material)) gather_direct(",
                 "    vec3 arrived = path.throughput;\n"
                 "    if (ROULETTE && path.depth > 0 && roulette_ends(path.throughput, rng)) {\n"
                 "        return false;\n    }\n"
                 "    vec3 raised = path.throughput;\n"
                 "    path.throughput = arrived;\n"
-                "    if (SAMPLE_LIGHTS && !is_delta(material)) {\n",
+                "    if (!is_delta(material)) gather_direct(",
             ),
             Edit(
                 "shaders_glsl/integrators/path.glsl",
-                "    if (ROULETTE && roulette_ends(path.throughput, rng)) "
+                "    if (ROULETTE && !resamples && roulette_ends(path.throughput, rng)) "
                 "return goes_on(END_BY_ROULETTE);\n",
                 "",
             ),

@@ -52,6 +52,10 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "7.62939453125e-6",  # 2^-17: how far off the tree over shapes takes a ray to be
     "9.5367431640625e-7",  # 2^-20: how far off its triangle a ray starts
     *("0.2", "0.225", "1e-6", "0.05", "0.001", "1e-3", "1.5"),  # weights of probes, and their bias
+    *("0.2126", "0.7152", "0.0722"),  # of luminance
+    *("0.9063", "0.1"),  # how alike pixels are that tell each other what lights them
+    "48.0",  # 1 / 48: how far apart they are, of the height of a frame
+    "1024.0",  # 2^-10: how near before a point of an object a ray meets that object
     *("0.25", "0.45"),  # how far probes are pushed, and what for
     "0.04",  # Schlick's reflectance of a clear coat, head-on
     "21.0",  # 1 / 21: the mean of (1 - cos)^5 over even light

@@ -93,7 +93,7 @@ PROBES = {
         "ray.direction = point.direction",
         "ray.direction = {} * point.direction",
     ),
-    "WEIGHT_BOTH": ("integrators/path.glsl", "p_b / p_a", "{} * p_b / p_a"),
+    "WEIGHT_BOTH": ("sampling/power_heuristic.glsl", "p_b / p_a", "{} * p_b / p_a"),
     "QUADS_BY_AREA": ("lights/sampling.glsl", "quad.width * quad.height", "{} * quad.width"),
     "MANY_LIGHTS": ("lights/choice.glsl", "rest < light.keep", "rest < {} * light.keep"),
     "HAS_PARTICLES": (

@@ -7,6 +7,7 @@ import pytest
 
 from glrt import Renderer, load, merge
 from glrt.cli.commands import run
+from glrt.errors import UsageError
 from glrt.image.image import Image
 from glrt.methods.combinations import Way
 from glrt.scene.scene import with_lights
@@ -25,6 +26,7 @@ OPTIONS: dict[Way, Options] = {
     Way.INDEPENDENT: ["--sampler", "independent"],
     Way.CLASSIC: ["--method", "phong"],
     Way.PROBES: ["--method", "ddgi", "--probes", "2"],
+    Way.REUSE: ["--method", "resampled", "--reuse", "both", "--probes", "2"],
     Way.PARTICLES: ["--caustics", "on"],
     Way.PILOT: ["--caustics", "auto"],
     Way.DENOISE: ["--denoise", "nlm"],
@@ -141,22 +143,16 @@ def independent_law(render: Render) -> None:
     assert_agree(one, other, within=0.4)
 
 
-def classic_law(render: Render) -> None:
-    """It is the model's picture: without noise from light that it does not follow."""
-    image = render(OPTIONS[Way.CLASSIC])
-    assert image.recipe
-    assert image.recipe.settings.method == "phong"
-    assert not same(image, render([]))
-    assert np.isfinite(image.radiance).all()
+def method_law(way: Way) -> Callable[[Render], None]:
+    def law(render: Render) -> None:
+        """It is the picture of the method: of light that it does not follow, without noise."""
+        image = render(OPTIONS[way])
+        assert image.recipe
+        assert image.recipe.settings.method == OPTIONS[way][1]
+        assert not same(image, render([]))
+        assert np.isfinite(image.radiance).all()
 
-
-def probes_law(render: Render) -> None:
-    """It is its own picture, whose observations tell the noise of the probes."""
-    image = render(OPTIONS[Way.PROBES])
-    assert image.recipe
-    assert image.recipe.settings.method == "ddgi"
-    assert not same(image, render([]))
-    assert np.isfinite(image.radiance).all()
+    return law
 
 
 def particles_law(render: Render) -> None:
@@ -211,8 +207,7 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.AOV: aov_law,
     Way.FRAGMENT: fragment_law,
     Way.INDEPENDENT: independent_law,
-    Way.CLASSIC: classic_law,
-    Way.PROBES: probes_law,
+    **{way: method_law(way) for way in (Way.CLASSIC, Way.PROBES, Way.REUSE)},
     Way.PARTICLES: particles_law,
     Way.PILOT: pilot_law,
     Way.DENOISE: denoise_law,
@@ -258,6 +253,16 @@ def resume_a_part() -> None:
     assert same(rendered("--resume", "begun.exr"), whole)
 
 
+def resume_reuse() -> None:
+    """Whole blocks of 16 samples go on; others lack the points that samples share."""
+    options = OPTIONS[Way.REUSE]
+    plain([*options, "--samples", "24"]).save("half.exr")
+    with pytest.raises(UsageError, match=r"half\.exr.*ends within a block of 16 samples"):
+        run(["render", "--resume", "half.exr", "--samples", "64", "-o", "never.exr"])
+    plain([*options, "--samples", "32"]).save("half.exr")
+    assert same(rendered("--resume", "half.exr", "--samples", "64"), plain(options))
+
+
 def resume_denoised() -> None:
     """The halves are those of one render, up to the rounding of float32."""
     whole = plain([*OPTIONS[Way.DENOISE], "--samples", "128"])
@@ -278,6 +283,7 @@ def denoised_in_time() -> None:
 
 SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
     frozenset({Way.RESUME, Way.PART}): resume_a_part,
+    frozenset({Way.RESUME, Way.REUSE}): resume_reuse,
     frozenset({Way.RESUME, Way.DENOISE}): resume_denoised,
     frozenset({Way.DENOISE, Way.TIME}): denoised_in_time,
     frozenset({Way.MERGED, Way.PART}): part_of_a_merged_picture,

@@ -35,6 +35,7 @@ from glrt.view.state.session import Session
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")
 PROBES = ("probes",)  # where the method has any
+REUSE = ("reuse", "unbiased")  # where it keeps points
 PARTICLES = ("particles", "aimed", "linked")  # where caustics are on
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
@@ -120,6 +121,8 @@ def _paths(app: App) -> None:
     _settings(app, PATHS)
     if METHODS[session.settings.method].has_probes:
         _settings(app, PROBES)
+    if METHODS[session.settings.method].resamples:
+        _settings(app, REUSE)
     if session.settings.caustics == "on":
         _settings(app, PARTICLES)
 

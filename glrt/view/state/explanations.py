@@ -12,7 +12,8 @@ EXPLANATIONS: dict[str, str] = {
         "by these alone; mis weighs both ways by p^2 / (p^2 + q^2), where q is the density of the "
         "other one. phong, blinn, whitted and cook are models from before path tracing: they leave "
         "light out. ddgi takes light that has come over several surfaces from a grid of probes, "
-        "which blurs it; gather does so one matte surface later."
+        "which blurs it; gather does so one matte surface later, and resampled keeps one of the "
+        "points that light the first matte surface."
     ),
     "sampler": (
         "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "
@@ -28,6 +29,17 @@ EXPLANATIONS: dict[str, str] = {
         "N x N x N points hold the light that arrives there, by direction. A surface is lit by the "
         "eight around it, E = sum(w E) / sum(w), by nearness and by whether they see it. 16 "
         "samples share a set of probes, which is warmed up first."
+    ),
+    "reuse": (
+        "Of points y_i with weights w_i = m_i P(y_i) / p(y_i) one is kept, with a chance of w_i / "
+        "sum(w), and counts L(y) sum(w) / P(y): the mean stays. P is the light that y would bring. "
+        "What other samples have kept is chosen from, too: less noise in one sample, which "
+        "samples and pixels then share."
+    ),
+    "unbiased": (
+        "A point y of another pixel counts P'(y) / sum(M P(y)) over all that were asked, where P "
+        "is 0 for those that do not see it: a ray for each. Without, it is 1 / sum(M), which is "
+        "too dark where some do not see y."
     ),
     "caustics": (
         "on: paths from the lamps, too, linked to the camera at matte surfaces. Each way to find "
