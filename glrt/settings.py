@@ -140,8 +140,8 @@ class Settings(RenderSettings):
     )
     unbiased: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
-        description="method resampled: weigh points of other samples by rays from where those see "
-        "them; without, contacts and edges are too dark, for fewer rays",
+        description="method resampled: send a ray to each pixel that is asked, to learn whether it "
+        "sees the same point; without, contacts and edges are too dark, for fewer rays",
     )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF

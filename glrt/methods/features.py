@@ -22,7 +22,7 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
 from glrt.settings import Settings
 
-NEAR = 5  # pixels that one asks for what they have kept
+NEAR = 8  # pixels that one asks for what they have kept
 NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # what the tree needs is known once it stands
 NO_LAYERS: dict[str, bool | int] = {
     "LAYERS": 0,

@@ -97,7 +97,7 @@ def rounds_for_reuse(scene: Scene, settings: Settings) -> int:
     if not reuses_points(settings):
         return 0
     asked = 1 + (settings.reuse in TEMPORAL) + NEAR * (settings.reuse in SPATIAL)
-    return (1 + asked) + (1 + asked * (1 + rounds_of_search(scene)))
+    return 2 * asked + asked * rounds_of_search(scene)
 
 
 def _levels_of_sky(scene: Scene) -> int:

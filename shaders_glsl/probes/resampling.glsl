@@ -134,50 +134,57 @@ ivec2 pixel_of_stream(ivec2 place, int stream) {
 }
 
 // What a stream brings: of count 0 where it brings nothing.
-Reservoir reservoir_of_stream(Reservoir own, ivec2 place, int stream) {
-    if (stream == 0) return own;
+Reservoir reservoir_of_stream(Receiver at, ivec2 place, int stream) {
     ivec2 pixel = pixel_of_stream(place, stream);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, frame.size))) return empty_reservoir();
     precise Reservoir found = reservoir_of_pixel(pixel);
-    if (!are_alike(own.at, found.at)) return empty_reservoir();
+    if (!are_alike(at, found.at)) return empty_reservoir();
     found.count = min(found.count, float(MOST_COUNTED));
     return found;
 }
 
-// One reservoir of those of this sample and of the frame before. With the target p_j of the surface that a reservoir
-// is of, 0 where it does not see y, and y from that of k, W = sum(w) / p(y) p_k(y) / sum_j(M_j p_j(y)) is unbiased; the
-// biased form takes 1 / sum_j(M_j) for the second factor, and no rays for it.
+// What is shared of a point between one stream that has the target `there` and the sample's own, with `here`: the part
+// of the stream, if all had `count` candidates that were like its own. 0 where the stream does not see the point.
+float share_of_stream(float count, float there, float here) {
+    if (there == 0.0) return 0.0;
+    precise float share = 1.0 / (1.0 + here / (count * there));
+    return share;
+}
+
+// One reservoir of those of this sample and of the frame before. Each stream is weighed with the sample's own alone
+// (pairwise weights: Bitterli, "Correlations and Reuse for Fast and Accurate Physically Based Light Transport", 2022,
+// section 9.1.3): of M_i of the M candidates of all streams, m_i = M_i / M share_i, and m = sum_i(M_i / M (1 - share_i))
+// is left for its own. So no weight is far beyond those that it is made of. A stream that does not see the own point
+// has no share of it, for which a ray is sent; the biased form sends none.
 Reservoir merged(Reservoir own, ivec2 place) {
-    precise Stream stream = empty_stream();
     precise float count = 0.0;
-    for (int i = 0; i < STREAMS; i += 1) {
-        precise Reservoir found = reservoir_of_stream(own, place, i);
-        precise float u = next_independent(resampling.rng);
-        count += found.count;
-        if (found.weight == 0.0) continue;
-        offer(stream, found.kept, target(own.at, found.kept) * found.weight * found.count, i, u);
-    }
-    precise Reservoir result = Reservoir(stream.kept, 0.0, count, own.at);
-    if (stream.sum == 0.0) return result;
-    precise float reached = 0.0;  // sum_j(M_j p_j(y))
-    precise float origin = 0.0;   // p_k(y)
-    int asked = UNBIASED ? STREAMS : 1;
-    int first = UNBIASED || stream.origin > 0 ? 0 : 1;
-    for (int i = first; i < asked; i += 1) {
-        precise Reservoir found = reservoir_of_stream(own, place, i);
-        precise float value = found.count == 0.0 ? 0.0 : target(found.at, stream.kept);
-        if (value == 0.0) continue;
-        if (i == stream.origin) origin = value;
-        else if (is_hidden(found.at, stream.kept)) {
-            if (i == 0) return result;
-            continue;
+    for (int i = 1; i < STREAMS; i += 1) count += reservoir_of_stream(own.at, place, i).count;
+    if (count == 0.0) return own;
+    precise float here = target(own.at, own.kept);
+    precise float left = 0.0;  // m of the own point
+    precise Stream stream = empty_stream();
+    for (int i = 1; i < STREAMS; i += 1) {
+        precise Reservoir found = reservoir_of_stream(own.at, place, i);
+        if (found.count == 0.0) continue;
+        precise float part = found.count / count;
+        precise float there = own.weight == 0.0 ? 0.0 : target(found.at, own.kept);
+        if (UNBIASED && there > 0.0) {
+            if (is_hidden(found.at, own.kept)) there = 0.0;
         }
-        reached += found.count * value;
+        left += part * (1.0 - share_of_stream(count, there, here));
+        precise float brought = found.weight == 0.0 ? 0.0 : target(own.at, found.kept);
+        precise float share = share_of_stream(count, target(found.at, found.kept), brought);
+        precise float u = next_independent(resampling.rng);
+        offer(stream, found.kept, part * share * brought * found.weight, i, u);
     }
-    precise float here = target(own.at, stream.kept);
-    result.weight = stream.sum / here;
-    if (UNBIASED) result.weight *= origin / reached;
-    else result.weight /= count;
+    precise float u = next_independent(resampling.rng);
+    offer(stream, own.kept, left * here * own.weight, 0, u);
+    precise Reservoir result = Reservoir(stream.kept, 0.0, 1.0 + count, own.at);
+    if (stream.sum == 0.0) return result;
+    if (stream.origin > 0) {
+        if (is_hidden(own.at, stream.kept)) return result;
+    }
+    result.weight = stream.sum / target(own.at, stream.kept);
     return result;
 }
 

@@ -32,7 +32,8 @@ def test_kernels_of_probes_compile_without_a_warning(
     ctx: moderngl.Context, features: str, render_pass: RenderPass
 ) -> None:
     assert ctx.version_code >= 430
-    constants = {**FEATURE_SETS[features], "HAS_PROBES": True}
+    reuse = {"RESAMPLES": True, "REUSES_OWN": True, "REUSES_NEAR": 2, "UNBIASED": True}
+    constants = {**FEATURE_SETS[features], "HAS_PROBES": True, **reuse}
     (compute,) = sources("compute", constants, written_for(), render_pass)
     assert imprecise(compute.text) == []
     assert computed_returns(compute.text) == []

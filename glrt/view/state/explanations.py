@@ -37,9 +37,9 @@ EXPLANATIONS: dict[str, str] = {
         "samples and pixels then share."
     ),
     "unbiased": (
-        "A point y of another pixel counts P'(y) / sum(M P(y)) over all that were asked, where P "
-        "is 0 for those that do not see it: a ray for each. Without, it is 1 / sum(M), which is "
-        "too dark where some do not see y."
+        "A point y counts m = P(y) / (P(y) + P'(y)) of what two pixels P and P' could have found "
+        "alike, and all of what the other does not see: a ray for each tells. Without these rays "
+        "the picture is too dark where points are hidden from some."
     ),
     "caustics": (
         "on: paths from the lamps, too, linked to the camera at matte surfaces. Each way to find "
