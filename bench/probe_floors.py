@@ -26,7 +26,9 @@ from glrt.methods.table import METHODS
 from glrt.rendering.renderer import Renderer
 
 SCENES = ("methods/diffuse", "methods/two_rooms", "methods/white")
-WITH_PROBES = [name for name, traits in METHODS.items() if traits.has_probes]
+WITH_PROBES = [  # `resampled` has the floor of `gather`
+    name for name, traits in METHODS.items() if traits.has_probes and not traits.resamples
+]
 PROBES = (3, 5, 8)
 FEW = (1, 16, 64)  # samples of the second table
 FEW_PROBES = 5

@@ -23,6 +23,7 @@ from tests.mutation.particles import PARTICLES
 from tests.mutation.paths import PATHS
 from tests.mutation.principled import PRINCIPLED
 from tests.mutation.probes import PROBES
+from tests.mutation.resampling import RESAMPLING
 from tests.mutation.sampling import SAMPLING
 from tests.mutation.shapes import SHAPES
 from tests.mutation.sky import SKY
@@ -41,6 +42,7 @@ MUTANTS = [
     *PARTICLE_SKY,
     *SPHERE_LINKS,
     *PROBES,
+    *RESAMPLING,
     *SHAPES,
     *MESHES,
     *INSTANCES,
