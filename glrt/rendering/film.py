@@ -86,6 +86,10 @@ class Film(PassFilm):
         held = self.sources.get("reservoirs")
         return {RESERVOIRS: held} if held else {}
 
+    def at_once(self, samples: int) -> int:
+        """How many of these one dispatch can add: one where each takes up what others keep."""
+        return 1 if self.extent.reservoirs else samples
+
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film, or some of its rows, into memory."""
         self._check_exposed()

@@ -54,8 +54,6 @@ class Tracer:
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
             extent = Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)
-            if extent.reservoirs:
-                self.most_samples = 1  # each takes up what the one before has kept
             known = before if before and scene.has_kernel_of(before.device_scene) else None
             probes, particles = (known.probes, known.particles) if known else (None, None)
             self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes)
@@ -102,7 +100,8 @@ class Tracer:
             return after, Cost.RECOMPILE
         if not after.device_scene.has_shapes_of(self.device_scene):
             self.switch.use_general()
-        self.switch.schedule.restart(after._tiles, after.most_samples, plan.settings.bounces)
+        most = after.film.at_once(after.most_samples)
+        self.switch.schedule.restart(after._tiles, most, plan.settings.bounces)
         return after, Cost.RESTART
 
     @property
@@ -213,7 +212,7 @@ class Tracer:
         while self.film.samples < target:
             self.probes.work_on(self.film.next_sample)
             wanted = self.probes.together(self.film.next_sample, target - self.film.samples)
-            self._at_once(min(self.most_samples, wanted))
+            self._at_once(min(self.film.at_once(self.most_samples), wanted))
         self._catch_up_particles()
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
@@ -268,7 +267,7 @@ class Tracer:
             self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)
 
     def _compiled(self) -> KernelSwitch:
-        schedule = Schedule(self._tiles, self.most_samples)
+        schedule = Schedule(self._tiles, self.film.at_once(self.most_samples))
         return KernelSwitch(self._context, self.device_scene.shaders, schedule, self._dispatch)
 
     def _at_once(self, samples: int) -> None:

@@ -67,6 +67,8 @@ CHANGES: dict[str, Any] = {
     "aimed": 0.2,
     "linked": 0.5,
     "probes": 3,
+    "reuse": "both",
+    "unbiased": False,
     "seed": 5,
     "exposure": 1.5,
     "tonemap": "agx",

@@ -239,8 +239,8 @@ def test_the_picture_does_not_hang_on_what_was_rendered_before(
     with rendering(scene, context, **ways) as renderer:
         expected = renderer.render().image()
         renderer.restart()
-        for _ in range(48):
-            renderer.step(1)
+        for samples in (5, 11, 1, 20, 11):
+            renderer.step(samples)
         assert same(renderer.image(), expected)
         renderer.update(seed=1)
         assert not same(renderer.render(40).image(), expected)

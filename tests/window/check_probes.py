@@ -31,6 +31,28 @@ def probes_light_the_picture_of_the_method_ddgi(hand: Hand) -> None:
 
 
 @check
+def points_are_reused_as_the_panel_says(hand: Hand) -> None:
+    """A crop, whose samples would lack those around, is refused, and changes nothing."""
+    session = hand.session
+    hand.there(lambda: session.edit(method="resampled", probes=2))
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    hand.ctx.set_ref("Controls")
+    move(hand, "reuse/both", None)
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert (session.settings.reuse, session.settings.unbiased) == ("both", True)
+    assert session.last_cost is Cost.RECOMPILE
+    move(hand, "unbiased", None)
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert not session.settings.unbiased
+    assert not session.problem
+    assert hand.pixels()[..., :3].mean() > 20
+    hand.there(lambda: session.edit(crop=(0, 0, 16, 16)))
+    hand.until(lambda: bool(session.problem))
+    assert "reuse of points" in str(session.problem).lower()
+    assert session.settings.crop is None
+
+
+@check
 def a_lamp_over_probes_restarts_the_picture(hand: Hand) -> None:
     """Their light is that of all lamps in one: it is not kept by layers."""
     session = hand.session
