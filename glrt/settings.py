@@ -219,6 +219,8 @@ class FrameOptions(TypedDict, total=False):
     aimed: float
     linked: float
     probes: int
+    reuse: Reuse
+    unbiased: bool
     seed: int
     exposure: float
     tonemap: ToneMap
