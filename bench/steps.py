@@ -25,7 +25,7 @@ def roulette(threshold: str, bounce: int = 0) -> list[Edit]:
         Edit("integrators/path.glsl", "throughput, 4.0, rng", f"throughput, 1.0 / {threshold}, rng")
     ]
     if bounce:
-        call = "if (ROULETTE && {}roulette_ends("
+        call = "if (ROULETTE && !resamples && {}roulette_ends("
         late = call.format(f"path.depth >= {bounce} && ")
         edits.append(Edit("integrators/path.glsl", call.format(""), late))
     return edits

@@ -11,7 +11,7 @@
 const int MOST_COUNTED = 20;         // candidates that one reservoir stands for
 const float NEAR_PART = 1.0 / 48.0;  // of the height of the frame: how far pixels around lie
 const float LEAST_ALIKE = 0.9063;    // cosine between normals of pixels that are asked: 25 degrees
-const float NEXT_TO_SOURCE = 1.0 / 1024.0;  // of the way to it
+const float NEXT_TO_SOURCE = 1.0 / 1024.0;  // of the way to it: how near its own object hides none
 const float MOST_DEEPER = 0.1;       // the difference of their distances, relative
 const int STREAMS = 1 + (REUSES_OWN ? 1 : 0) + REUSES_NEAR;
 const bool REUSES = STREAMS > 1;

@@ -156,6 +156,7 @@ def test_title_and_wished_samples_of_a_scene_may_change(begun: Image) -> None:
         *(("width", 25), ("height", 17), ("bounces", 3), ("method", "nee"), ("seed", 1)),
         *(("crop", (0, 0, 5, 5)), ("sampler", "independent"), ("roulette", False)),
         *(("caustics", "on"), ("particles", 1.0), ("aimed", 0.1), ("linked", 0.5), ("probes", 4)),
+        *(("reuse", "both"), ("unbiased", False)),
         *(("version", "9.9"), ("renderer", "another"), ("tier", "generic")),
         ("pipeline", "fragment"),
     ],
@@ -169,7 +170,7 @@ def test_every_setting_is_free_or_refused(begun: Image) -> None:
     """A new setting must come into one of the two lists above."""
     free = {"samples", "exposure", "tonemap", "aov", "denoise"}
     known = {"width", "height", "bounces", "method", "seed", "crop", "sampler", "roulette"}
-    known |= {"caustics", "particles", "aimed", "linked", "probes"}
+    known |= {"caustics", "particles", "aimed", "linked", "probes", "reuse", "unbiased"}
     assert set(Settings.model_fields) == free | known
 
 
