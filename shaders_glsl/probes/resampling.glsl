@@ -1,9 +1,9 @@
 // Method resampled: light at the first matte surface of a path comes from one point, which is kept of some: a point on
 // a lamp, and what a scattered ray meets, lamp or matte surface, whose light is its own direct light and that of
-// probes (Majercik et al., "Dynamic Diffuse Global Illumination Resampling", 2022). REUSES_OWN: what the sample before kept for
-// this pixel is a candidate, too; REUSES_NEAR: so many pixels around are asked. All is reuse of one frame before, so
-// that a sample is one dispatch (Wyman and Panteleev, "Rearchitecting Spatiotemporal Resampling for Production", HPG
-// 2021).
+// probes (Majercik et al., "Dynamic Diffuse Global Illumination Resampling", 2022). REUSES_OWN: what the sample before
+// kept for this pixel is a candidate, too; REUSES_NEAR: so many pixels around are asked. All is reuse of one frame
+// before, so that a sample is one dispatch (Wyman and Panteleev, "Rearchitecting Spatiotemporal Resampling for
+// Production", HPG 2021).
 //
 // Not of these are light from the sky and the sun, from lamps with cones or one side, and what a scattered ray meets
 // that is not matte: paths bring that as they do by `gather`.
@@ -152,8 +152,8 @@ float share_of_stream(float count, float there, float here) {
 }
 
 // One reservoir of those of this sample and of the frame before. Each stream is weighed with the sample's own alone
-// (pairwise weights: Bitterli, "Correlations and Reuse for Fast and Accurate Physically Based Light Transport", 2022,
-// section 9.1.3): of M_i of the M candidates of all streams, m_i = M_i / M share_i, and m = sum_i(M_i / M (1 - share_i))
+// (pairwise weights: Bitterli, "Correlations and Reuse for Fast and Accurate Physically Based Light Transport", 2022):
+// of M_i of the M candidates of all streams, m_i = M_i / M share_i, and m = sum_i(M_i / M (1 - share_i))
 // is left for its own. So no weight is far beyond those that it is made of. A stream that does not see the own point
 // has no share of it, for which a ray is sent; the biased form sends none.
 Reservoir merged(Reservoir own, ivec2 place) {

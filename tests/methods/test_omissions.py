@@ -101,3 +101,20 @@ def test_commands_say_what_is_left_out(tmp_path: Any) -> None:
     assert glrt(*command, "--quiet").stderr == ""
     assert "no indirect light" in glrt("inspect", "cornell", "--method", "cook").stdout
     assert "leaves light out" not in glrt("inspect", "cornell").stdout
+
+
+@pytest.mark.parametrize(
+    ("changes", "is_told"),
+    [
+        ({"unbiased": False}, True),
+        ({}, False),
+        ({"unbiased": False, "reuse": "none"}, False),
+        ({"unbiased": False, "method": "gather"}, False),
+    ],
+)
+def test_what_the_biased_form_of_reuse_lacks_is_told(
+    changes: dict[str, Any], is_told: bool
+) -> None:
+    scene = scene_of([BALL, LAMP], MATERIALS)
+    found = omissions(scene, settings_for(scene.render, **{"method": "resampled", **changes}))
+    assert any("at contacts and edges" in told for told in found) == is_told

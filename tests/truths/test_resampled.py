@@ -168,7 +168,7 @@ def fence() -> Scene:
 
 
 def test_points_that_neighbours_do_not_see_keep_the_mean(context: Context) -> None:
-    """The biased form is too dark there, and its picture has its name in `omissions`."""
+    """The biased form is too dark there."""
     ways: dict[str, Any] = {"bounces": 2, "reuse": "spatial"}
     truth = means(fence(), context, 96, 1000, method="mis", bounces=2)
     assert_equal_means(means(fence(), context, 96, **ways), truth, 0.02)

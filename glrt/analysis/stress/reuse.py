@@ -6,7 +6,7 @@ from glrt.analysis.stress.scenes import lamp, matte, quad, scene_of
 from glrt.analysis.stress.sweep import Lab, Sweep, mean_of
 from glrt.scene.scene import Scene
 
-HEIGHTS = (0.03, 0.1, 0.3, 0.6)  # of slats
+HEIGHTS = (0.01, 0.03, 0.1, 0.3, 0.9)  # of slats
 APART = 0.1
 SAMPLES = 512
 MOST_WRONG = 0.02
