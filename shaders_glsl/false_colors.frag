@@ -8,9 +8,10 @@ const int SHOWS_ERROR = 0;
 const int SHOWS_DROPPED = 1;
 const int SHOWS_DIFFERENCE = 2;
 const int SHOWS_HISTORY = 3;
+const int SHOWS_PROBES = 4;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
 const vec3 UNKNOWN = vec3(0.5);
-const float DIM = 0.25;  // of the picture below the marks
+const float DIM = 0.25;  // of the picture below marks, and beside balls
 
 uniform sampler2D light;      // radiance as it is weighed
 uniform sampler2D mean;       // of the film, as in trace.comp
@@ -89,6 +90,11 @@ vec3 color_of(float number) {
     return color_at(colors, log(max(number, range.x) / range.x) / log(range.y / range.x));
 }
 
+vec3 dimmed(ivec2 texel) {
+    precise float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
+    return vec3(DIM * pow(min(luminance, 1.0), 1.0 / 2.2));
+}
+
 void main() {
     ivec2 size = textureSize(mean, 0);
     ivec2 texel = min(ivec2(place * vec2(size)), size - 1);
@@ -98,10 +104,10 @@ void main() {
         if (error >= 0.0) shown = color_of(error);
     } else if (shows == SHOWS_DROPPED) {
         precise float count = most_dropped(texel);
-        precise float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
-        shown = count > 0.0 ? color_of(count) : vec3(DIM * pow(min(luminance, 1.0), 1.0 / 2.2));
-    } else if (shows == SHOWS_HISTORY) {
+        shown = count > 0.0 ? color_of(count) : dimmed(texel);
+    } else if (shows == SHOWS_HISTORY || shows == SHOWS_PROBES) {
         precise float number = texelFetch(other, texel, 0).a;
+        if (shows == SHOWS_PROBES) shown = dimmed(texel);
         if (number > least) shown = color_of(number);
     } else {
         shown = color_of(relative_difference(texel));

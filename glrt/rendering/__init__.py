@@ -33,6 +33,7 @@ Modules, each importing only what stands above it:
 - probe_weights: how much of an update probes take
 - probe_tracer: gathers what probes hold
 - probe_supply: the probes that a picture needs next
+- probe_balls: probes drawn over a picture
 - tracer: adds samples to a film, a dispatch at a time
 - path_values: paths of a pixel as values
 - path_records: what a replay writes down, read as such

@@ -1,4 +1,4 @@
-"""A number of each pixel as a colour: its error, dropped samples, difference from another, history.
+"""A number of each pixel as a colour: its error, dropped samples, difference from another, others.
 
 The error of a pixel is its share in that of the picture: the mean over pixels of its square is the
 square of `glrt.error.estimate.relative_error`.
@@ -132,6 +132,13 @@ class FalseColors:
         """A number of the history of each pixel; grey where there is none."""
         values = {"shows": SHOWS["SHOWS_HISTORY"], "least": told.least}
         self._draw(film, light, told.texture, scale, values)
+
+    def draw_distances(
+        self, film: Film, light: moderngl.Texture, balls: moderngl.Texture, scale: Scale
+    ) -> None:
+        """What `ProbeBalls` drew: the distances of probes, over a dark picture."""
+        values = {"shows": SHOWS["SHOWS_PROBES"], "least": -0.5}
+        self._draw(film, light, balls, scale, values)
 
     def release(self) -> None:
         """Free program and quad."""

@@ -53,7 +53,7 @@ class MoreSamples:
         pixels = self._gl.buffer(bytes(4 * (1 + size[0] * size[1])))
 
         def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
-            own = {**renderer.probe_resources, "List": pixels}
+            own = {**renderer.probes.resources, "List": pixels}
             scene.dispatch(kernel, self, plan, part, GROUPS, own)
 
         try:

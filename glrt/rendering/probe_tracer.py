@@ -3,6 +3,7 @@
 Where probes stand and how far they see follows from the scene alone. Light comes in sets: for each
 observation of the picture there is one from a seed of its own, so that its error tells the noise of
 probes, too. A set hangs on its number alone: it is warmed up from nothing, and then stays as it is.
+While edits follow one another, probes may also go on from what those of the picture before hold.
 """
 
 import time
@@ -48,6 +49,7 @@ UPDATES = len(WEIGHTS) + AVERAGED
 LOOKS = 24  # updates by which distances are found
 PUSHED = 4  # times that probes are moved before these
 GROUP = 64  # lanes of a work group
+FOLLOWING = 1 << 30  # the number of probes that go on: beyond that of any set
 
 _MAPS = {"probe_light": LIGHT_MAP, "probe_distances": DISTANCE_MAP, "probe_places": 1}
 _TEXELS = {name: side * side for name, side in _MAPS.items()}
@@ -86,9 +88,11 @@ class ProbeTracer:
         plan: Plan,
         scene: DeviceScene,
         before: "ProbeTracer | None" = None,
+        follows: bool = False,
     ) -> None:
         """Allocate maps, and compile, unless `before` has the same kernels.
 
+        With `follows` they go on with the maps of `before`, if these have light for as many probes.
         RenderError if the driver has no room for them.
         """
         assert scene.grid
@@ -96,11 +100,15 @@ class ProbeTracer:
         # What they light scatters once more on its way to the camera, or twice.
         shorter = max(plan.settings.bounces - 1 - METHODS[plan.settings.method].gathers, 0)
         settings = plan.settings.model_copy(update={"bounces": shorter})
-        self._plan, self._is_used = replace(plan, settings=settings), shorter > 0
+        self._plan, self.is_used = replace(plan, settings=settings), shorter > 0
         self._sees, self._set, self._done = False, -1, 0
+        self._is_placed = self.goes_on = False  # goes on: with what other probes hold
         start = time.perf_counter()
         with ExitStack() as refused:
-            self.maps = {name: _map(context, self.grid, name, refused) for name in _MAPS}
+            if before and follows and before.is_lit and before.grid.counts == self.grid.counts:
+                self._go_on(before)
+            else:
+                self.maps = {name: _map(context, self.grid, name, refused) for name in _MAPS}
             self._rays = _texture(context, (RAYS, self.grid.probes), refused)
             with context.checked("the probes"):
                 self._block = context.gl.buffer(update_block(even_directions(RAYS), LIGHT))
@@ -117,9 +125,14 @@ class ProbeTracer:
         """The maps as kernels name them that read them."""
         return dict(self.maps)
 
+    @property
+    def is_lit(self) -> bool:
+        """Whether the maps hold light of all bounces, of whichever set."""
+        return not self.is_used or self._done >= UPDATES
+
     def has_set(self, number: int) -> bool:
         """Whether the maps hold a set of probes, warmed up."""
-        return not self._is_used or (self._set == number and self._done == UPDATES)
+        return not self.is_used or (self._set == number and self._done == UPDATES)
 
     def work_on(self, number: int, seconds: float) -> None:
         """Updates of a set, for about so long."""
@@ -143,28 +156,55 @@ class ProbeTracer:
         self._scene.lost_any()  # rays that are lost are left out
         self._done += 1
 
+    def follow(self, hysteresis: float) -> None:
+        """One update of what the maps hold, of which they keep a share: light, and distances.
+
+        Places are found anew once: objects, or the room that the camera is in, may be others.
+        """
+        if not self._is_placed:
+            self._place()
+        self._see(FOLLOWING, self._done, kept=hysteresis)
+        self._set = FOLLOWING
+        self.update(FOLLOWING, hysteresis)
+
     def release(self, after: "ProbeTracer | None" = None) -> None:
-        """Free what the driver holds, but for kernels that another one has taken over."""
+        """Free what the driver holds, but for what another one has taken over."""
         self._block.release()
-        for texture in (*self.maps.values(), self._rays):
-            texture.release()
+        self._rays.release()
+        if not after or after.maps is not self.maps:
+            for texture in self.maps.values():
+                texture.release()
         if not after or after._kernels is not self._kernels:
             for kernel in self._kernels.values():
                 kernel.release()
 
+    def _go_on(self, before: "ProbeTracer") -> None:
+        """With what the probes of another scene hold; nothing is written yet."""
+        self.maps, self._sees = before.maps, before._sees
+        self._set, self._done, self.goes_on = FOLLOWING, before._done, True
+
     def _look(self) -> None:
         """Move probes out of solids, and find what they see: the same for every seed."""
-        for name in ("probe_places", "probe_distances"):
-            _clear(self.maps[name])
+        self._place()
+        _clear(self.maps["probe_distances"])
+        for step in range(LOOKS):
+            self._see(step, kept=step / (step + 1))
+        self._sees = True
+
+    def _place(self) -> None:
+        """Move probes out of solids, and tell which are of use."""
+        _clear(self.maps["probe_places"])
         for step in range(PUSHED + 1):
             purpose = PUSHES if step < PUSHED else USE
             self._block.write(update_block(even_directions(RAYS), purpose))
             self._gather("probe_places")
-        for step in range(LOOKS):
-            turned = even_directions(RAYS) @ turn(seeds(step)).T
-            self._block.write(update_block(turned, DISTANCES, kept=step / (step + 1)))
-            self._gather("probe_distances")
-        self._sees = True
+        self._is_placed = True
+
+    def _see(self, *numbers: int, kept: float) -> None:
+        """An update of distances, by rays that are turned by random numbers from these."""
+        turned = even_directions(RAYS) @ turn(seeds(*numbers)).T
+        self._block.write(update_block(turned, DISTANCES, kept=kept))
+        self._gather("probe_distances")
 
     def _gather(self, name: str) -> None:
         """Send rays, and let a map take what they bring."""

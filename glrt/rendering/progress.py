@@ -1,16 +1,14 @@
 """What a render tells of itself: samples, kernels, seconds."""
 
-from collections.abc import Mapping
-
 import moderngl
 
 from glrt.gpu.glsl import Source
-from glrt.gpu.program import Resource
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Film
 from glrt.rendering.particle_tracer import Losses
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import Tier
+from glrt.rendering.probe_supply import ProbeSupply
 from glrt.rendering.tracer import Tracer
 from glrt.settings import Aov
 
@@ -33,7 +31,7 @@ class Progress:
     @property
     def work(self) -> float:
         """Samples a pixel, and the share that is done of those in the frame that has begun."""
-        return self._tracer.work
+        return self.samples + self._tracer.switch.schedule.begun
 
     @property
     def film(self) -> Film:
@@ -46,9 +44,9 @@ class Progress:
         return self._tracer.device_scene
 
     @property
-    def probe_resources(self) -> Mapping[str, Resource]:
-        """The blocks and textures of probes that a kernel of paths reads; none without probes."""
-        return self._tracer.probes.resources
+    def probes(self) -> ProbeSupply:
+        """What lights the picture indirectly, where the method has probes."""
+        return self._tracer.probes
 
     @property
     def tier(self) -> Tier:

@@ -128,18 +128,23 @@ class Renderer(Progress):
         self,
         scene: Scene | None = None,
         layering: Layering | None = None,
+        hysteresis: float | None = None,
         **changes: Unpack[SettingOptions],
     ) -> Cost | None:
-        """Go on with another scene or other settings; returns what that cost, None for nothing."""
+        """Go on with another scene or other settings; returns what that cost, None for nothing.
+
+        With a hysteresis, probes go on from picture to picture: see ProbeSupply.
+        """
         layering = layering or self.plan.layering
         after = scene or self.scene, with_filter(settings_for(self.settings, **changes))
-        if (*after, layering) == (self.scene, self.settings, self.plan.layering):
+        is_same = hysteresis == self.probes.hysteresis
+        if is_same and (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
         check_render(*after, layering, self._part is not None, self.pipeline == "fragment")
         self._halver.restart()
         wanted = wanted_range(self._part, after[1])
         is_other_part = self._part is not None and wanted != self._samples
-        relit = None if is_other_part else self.plan.relit(*after, layering)
+        relit = self.plan.relit(*after, layering) if is_same and not is_other_part else None
         if relit:
             cost = Cost.FREE if relit == self.plan else Cost.RELIGHT
             with self.context.gl:
@@ -148,7 +153,7 @@ class Renderer(Progress):
             return cost
         plan = self.plan.followed_by(*after, layering, wanted.start)
         with self.context.gl:
-            self._tracer, cost = self._tracer.replaced_for(plan)
+            self._tracer, cost = self._tracer.replaced_for(plan, hysteresis)
         (self.scene, self.settings), self.plan = after, plan
         return cost
 
@@ -209,6 +214,7 @@ class Renderer(Progress):
 
     def plain_image(self, weights: Weights | None = None) -> Image:
         """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too."""
+        self.probes.check()
         weights = weights or self.plan.weights
         with self.context.gl:
             aovs = self._tracer.aov_images()

@@ -36,12 +36,18 @@ class Tracer:
     """Adds the samples of a plan to a film, a dispatch at a time."""
 
     def __init__(
-        self, context: Context, plan: Plan, options: KernelOptions, before: "Tracer | None" = None
+        self,
+        context: Context,
+        plan: Plan,
+        options: KernelOptions,
+        before: "Tracer | None" = None,
+        hysteresis: float | None = None,
     ) -> None:
         """Make what the plan needs; film and kernel are those of `before` where they serve it.
 
-        Raises SceneError for a scene beyond the driver, and RenderError. Then nothing is held, and
-        `before` has lost no more than the frame that it had begun.
+        With a hysteresis probes go on from those of `before`. Raises SceneError for a scene beyond
+        the driver, and RenderError. Then nothing is held, and `before` has lost no more than the
+        frame that it had begun.
         """
         self._context, self._plan, self._options, gl = context, plan, options, context.gl
         self._rounds, self.most_samples = dispatch_limits(context, plan)
@@ -56,7 +62,7 @@ class Tracer:
             extent = Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)
             known = before if before and scene.has_kernel_of(before.device_scene) else None
             probes, particles = (known.probes, known.particles) if known else (None, None)
-            self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes)
+            self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes, hysteresis)
             refused.callback(self.probes.release, probes)
             if before and before.film.extent == extent:
                 self.film: Film = before.film
@@ -78,13 +84,13 @@ class Tracer:
         if not before:
             self.restart()
 
-    def replaced_for(self, plan: Plan) -> tuple["Tracer", Cost]:
+    def replaced_for(self, plan: Plan, hysteresis: float | None = None) -> tuple["Tracer", Cost]:
         """A tracer for another plan, without samples yet; and what the change cost.
 
         It takes over this tracer's film and kernel where they fit, and frees the rest. On an error,
         which is as the constructor raises it, this tracer is unchanged.
         """
-        after = Tracer(self._context, plan, self._options, self)
+        after = Tracer(self._context, plan, self._options, self, hysteresis)
         self.device_scene.release()
         self.probes.release(after.probes)
         if self.particles:
@@ -105,11 +111,6 @@ class Tracer:
         return after, Cost.RESTART
 
     @property
-    def work(self) -> float:
-        """Samples a pixel, and the share that is done of those in the frame that has begun."""
-        return self.film.samples + self.switch.schedule.begun
-
-    @property
     def tier(self) -> str:
         """Where the kernel found its shapes; two places, where a driver may tell kernels apart.
 
@@ -125,6 +126,7 @@ class Tracer:
         self.film.restart(self._plan.first_sample)
         if self.particles:
             self.particles.restart(self._plan.first_sample)
+        self.probes.restart()
         self.aovs.restart(self._plan)
         self._tiers.clear()
 
@@ -216,20 +218,18 @@ class Tracer:
         self._catch_up_particles()
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
-        """One dispatch: of what is behind, else one that the schedule of the picture plans.
-
-        All dispatches of a frame read the same source.
-        """
+        """One dispatch: of what is behind, or of the picture; those of a frame read one source."""
+        planned, next_sample = min(seconds, policy.limit / 2), self.film.next_sample
         if self.is_behind:
             self._work_behind(policy, seconds)
-        elif self.probes.lack(self.film.next_sample):
-            self.probes.work_on(self.film.next_sample, min(seconds, policy.limit / 2))
+        elif self.probes.lack(next_sample):
+            self.probes.work_on(next_sample, planned)
         else:
-            remaining = self.probes.together(self.film.next_sample, remaining)
-            self._work_on_picture(remaining, policy, seconds)
+            remaining = self.probes.together(next_sample, remaining)
+            self._work_on_picture(remaining, planned, policy)
 
-    def _work_on_picture(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
-        schedule, planned = self.switch.schedule, min(seconds, policy.limit / 2)
+    def _work_on_picture(self, remaining: int, planned: float, policy: DispatchPolicy) -> None:
+        schedule = self.switch.schedule
         part = schedule.next_dispatch(remaining, planned, self.film.samples, policy)
         start = time.perf_counter()
         self._dispatch(self.switch.kernel, part)
@@ -240,10 +240,10 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        own = self.film, self.particles, self.probes, self.aovs, self.switch, self.device_scene
-        for part in own:
-            if part:
-                part.release()
+        if self.particles:
+            self.particles.release()
+        for part in (self.film, self.probes, self.aovs, self.switch, self.device_scene):
+            part.release()
 
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
         """What gathers the AOVs of settings: that of `before` where it does."""

@@ -11,6 +11,7 @@ from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
 from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors
+from glrt.rendering.probe_balls import ProbeBalls
 from glrt.rendering.stopping import Interruption
 from glrt.rendering.surface_view import SurfaceView
 from glrt.scene.scene import Scene
@@ -224,7 +225,7 @@ class Window:
 
 
 def _shown(gl: moderngl.Context, denoise: Denoise) -> PictureView:
-    show = PictureView(Picture(gl), FalseColors(gl), AovView(gl), SurfaceView(gl))
+    show = PictureView(Picture(gl), FalseColors(gl), AovView(gl), SurfaceView(gl), ProbeBalls(gl))
     if denoise != "none":
         show.denoised, show.view = DenoisedPicture(denoise), "denoised"
     return show

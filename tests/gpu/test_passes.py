@@ -49,6 +49,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
         *("ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
+        *("probe_balls.vert", "probe_balls.frag", "passes/probe_balls.glsl"),
         *DISPLAY_STAGES,
         *PROBES,
     }
@@ -63,3 +64,9 @@ def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str
     assert ctx.version_code >= 430
     stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(f"{name}.frag").text)]
     assert warnings(*stages) == []
+
+
+def test_balls_of_probes_compile_without_a_warning(ctx: moderngl.Context) -> None:
+    assert ctx.version_code >= 430
+    stages = ((VERTEX, "vert"), (FRAGMENT, "frag"))
+    assert warnings(*((kind, Source(f"probe_balls.{name}").text) for kind, name in stages)) == []

@@ -110,7 +110,11 @@ def test_layers_are(layers: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["display.vert", "display.frag", "weighting.frag", "false_colors.frag"]
+    "name",
+    [
+        *("display.vert", "display.frag", "weighting.frag", "false_colors.frag"),
+        *("probe_balls.vert", "probe_balls.frag"),
+    ],
 )
 def test_the_display_is(name: str) -> None:
     assert list(objections(Source(name))) == []

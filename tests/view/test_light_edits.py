@@ -125,7 +125,7 @@ def test_layers_that_the_driver_has_no_memory_for_are_not_kept(
         assert session.renderer.plan.layers == 0
         assert session.lacks_room
         assert (session.problem, session.samples > 0) == ("", True)
-        session.edit(width=64)
+        session.edit(width=4096)  # a preview of it, too, is too large
         start(session)
         assert "no room" in session.problem
         assert session.renderer.size == (16, 16)

@@ -181,7 +181,7 @@ def test_a_picture_that_is_waited_for_gets_long_turns(
 ) -> None:
     """Else it takes a small share of a frame, the rest of which nothing needs."""
     nothing: Any = None
-    show, kept = PictureView(nothing, nothing, nothing, nothing), Behind(samples)
+    show, kept = PictureView(nothing, nothing, nothing, nothing, nothing), Behind(samples)
     start(session)
     session.advance(0.01, 1)
     stand_in: Any = kept

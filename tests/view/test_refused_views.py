@@ -21,7 +21,7 @@ def wanted(show: PictureView) -> str:
 def test_a_refused_view_is_given_up_and_had_once_the_edit_is_undone(session: Session) -> None:
     """The refusal is of that edit: it is not kept for the view."""
     nothing: Any = None
-    show = PictureView(nothing, nothing, nothing, nothing)
+    show = PictureView(nothing, nothing, nothing, nothing, nothing)
     start(session)
     session.edit(bounces=BEYOND)
     shown(session, show)

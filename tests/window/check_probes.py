@@ -1,8 +1,11 @@
 """Methods with probes in the window: their control, and what an edit of a lamp costs there."""
 
+from glrt.errors import UsageError
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost
-from tests.window.gestures import move
+from glrt.view.state.session import Session
+from tests.window.check_views import views
+from tests.window.gestures import lines_told, move
 from tests.window.hand import Hand, check
 
 LOOKED_AT = 20  # samples: more than one set of probes lights
@@ -73,3 +76,58 @@ def what_does_not_go_with_probes_is_refused_by_name(hand: Hand) -> None:
     hand.there(lambda: session.edit(sampler="independent"))
     hand.until(lambda: bool(session.problem))
     assert "a method with probes" in str(session.problem).lower()
+
+
+def refusal(session: Session) -> str:
+    """Why there is no picture; "" where there is one."""
+    try:
+        session.image()
+    except UsageError as error:
+        return str(error)
+    return ""
+
+
+@check
+def probes_are_live_while_the_user_wants_it(hand: Hand) -> None:
+    """They lag behind a lamp, which is told; the picture is not saved; then they rest."""
+    session = hand.session
+    hand.there(lambda: session.edit(method="ddgi", probes=2))
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert session.lag == 0.0
+    hand.ctx.set_ref("Controls")
+    move(hand, "hysteresis##preference", 0.5)
+    move(hand, "live probes##preference/always", None)
+    hand.there(lambda: session.edit(with_lights(session.scene, {"lamp": 0.2})))
+    hand.until(lambda: 0.0 < session.lag <= 0.25)
+    with lines_told() as lines:
+        hand.ctx.yield_(4)
+    assert any("live probes" in line for line in lines) or session.lag < 0.005
+    assert "live" in hand.there(lambda: refusal(session))
+    restarts = session.restarts
+    hand.ctx.yield_(8)
+    assert session.restarts > restarts, "a picture with every frame"
+    move(hand, "live probes##preference/moving", None)
+    hand.until(lambda: session.samples >= LOOKED_AT)
+    assert session.lag == 0.0
+    assert hand.there(session.image).samples >= LOOKED_AT
+
+
+@check
+def probes_are_shown_as_balls(hand: Hand) -> None:
+    """Where the method has any; with the light that they hold, or with distances and a scale."""
+    session = hand.session
+    show = hand.window.app.show
+    hand.until(lambda: session.samples > 0)
+    hand.there(lambda: setattr(show, "view", "probes"))
+    hand.ctx.yield_(4)
+    assert show.drawn == "picture"
+    assert "has no probes" in show.notice(session)
+    hand.there(lambda: session.edit(method="ddgi", probes=3, samples=LOOKED_AT))
+    hand.until(lambda: show.drawn == "probes" and session.samples == LOOKED_AT)
+    plain, light, distances = views(hand, "picture", "probes", "probe distances")
+    changed = (light != plain).any(axis=2)
+    assert 0.02 < changed.mean() < 0.5, "balls over the picture"
+    colored = distances.max(axis=2).astype(int) - distances.min(axis=2) > 30
+    assert 0.02 < colored.mean() < 0.5
+    assert (colored & ~changed).mean() < 0.02, "at the same places"
+    assert distances[~colored].max() < 80, "over a dark picture"

@@ -22,6 +22,7 @@ from glrt.view.panels.path_overlay import draw_outside, draw_paths, place_of_out
 from glrt.view.panels.shortcuts import modifiers
 from glrt.view.panels.tour import room_beside_tour
 from glrt.view.state.keys import label
+from glrt.view.state.live_probes import told
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
 
@@ -92,6 +93,7 @@ def _notices(app: App) -> tuple[str, ...]:
     """What is told in the picture, a line each; "" for nothing."""
     return (
         app.show.notice(app.session),
+        told(app.session.lag),
         told_paths(app),
         "old picture, until the new one has a sample" if _is_old(app) else "",
         _told_black(app),

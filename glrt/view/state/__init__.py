@@ -7,12 +7,14 @@ Modules, each importing only what stands above it:
 - scene_edits: objects and materials added, copied, renamed, removed
 - new_objects: what is added, and where
 - keys: names of keys and what they mean
+- live_probes: whether probes go on from picture to picture
 - preferences: what a user wants of any window
 - folders: what a folder holds
 - recent: what was opened last
 - edited: what undo brings back
 - changes: what parts two states, in words
 - history: undo and redo
+- editing: what is wanted now, and before
 - preview_size: how coarsely edits in a row are shown
 - grain: whether a coarse picture can be read
 - frame_budget: how long a frame may render

@@ -16,6 +16,7 @@ from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Editable, Frozen
 from glrt.view.state import keys
 from glrt.view.state.keys import DEFAULTS, Bindings
+from glrt.view.state.live_probes import HYSTERESIS, When
 
 Mode = Literal["orbit", "fly"]
 Theme = Literal["dark", "light"]
@@ -62,6 +63,19 @@ class Preferences(Frozen):
         "a view takes longer by these",
         ge=CHOICES[0],
         le=CHOICES[-1],
+    )
+    live_probes: Annotated[When, Editable(FREE)] = Field(
+        "moving",
+        description="whether probes go on from picture to picture, one update each, and light lags "
+        "behind; moving: while edits follow one another, then probes are made anew; always: with "
+        "every frame, so that a picture never ends; off: each picture has probes of its own",
+    )
+    hysteresis: Annotated[float, Editable(FREE, slider=(0, 0.99))] = Field(
+        HYSTERESIS,
+        description="share of what they hold that live probes keep at an update: more lags longer, "
+        "less is noisier",
+        ge=0,
+        lt=1,
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"

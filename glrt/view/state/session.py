@@ -5,7 +5,6 @@ Edits are gathered and reach the renderer once a frame. It knows no window.
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 from glrt.errors import GlrtError, RenderError, UsageError
@@ -18,10 +17,11 @@ from glrt.rendering.surface_view import NEEDED
 from glrt.scene.scene import Scene
 from glrt.settings import OF_PATHS, Aov, Cost, Settings, settings_for
 from glrt.view.state.edited import State
+from glrt.view.state.editing import Editing
 from glrt.view.state.grain import FirstSurface
-from glrt.view.state.history import History
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
+from glrt.view.state.live_probes import LiveProbes
 from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_size import Preview
 
@@ -29,7 +29,7 @@ ANNOUNCED = 2  # frames that say what is about to stop them
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
 
 
-class Session:
+class Session(Editing):
     """A renderer that follows edits, a frame at a time."""
 
     def __init__(
@@ -44,8 +44,7 @@ class Session:
         """Nothing is compiled before the first frames, which say that it will be."""
         self.rest = rest
         self.pipeline = resolve(pipeline, context)
-        self.state = self.opened = State(scene, settings_for(settings, crop=None))
-        self.history: History[State] = History()
+        super().__init__(State(scene, settings_for(settings, crop=None)))
         self.renderer: Renderer | None = None
         self.paused = False
         self.waits = False  # for another picture, which is to get as many samples
@@ -54,7 +53,8 @@ class Session:
         self.refused: tuple[Aov, ...] = ()  # that cannot be
         self.stop: int | None = None  # samples at which a frame is to end
         self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
-        self.busy = self.problem = ""  # what the next frame will wait for, and the last refusal
+        self.live = LiveProbes()
+        self.busy = ""  # what the next frame will wait for
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
@@ -62,25 +62,6 @@ class Session:
         self.context, self._clock = context, clock
         self._announced, self._preview = 0, Preview(clock)
         self._full_size = self.state.settings.size  # of the last edit that was applied
-
-    @property
-    def scene(self) -> Scene:
-        """The scene as edited."""
-        return self.state.scene
-
-    @property
-    def settings(self) -> Settings:
-        """The settings as edited, at full size."""
-        return self.state.settings
-
-    @property
-    def by_length(self) -> bool:
-        """Whether the film is to keep the light of each bounce apart."""
-        return self.state.by_length
-
-    @by_length.setter
-    def by_length(self, wanted: bool) -> None:
-        self._take(replace(self.state, by_length=wanted))
 
     @property
     def samples(self) -> int:
@@ -129,36 +110,26 @@ class Session:
         if self.renderer is None:
             return True
         given = State(self.renderer.scene, self.renderer.settings)
-        return given != self._wanted() or self.renderer.plan.layering != self.layering
+        is_other = given != self._wanted() or self.renderer.plan.layering != self.layering
+        return is_other or self.renderer.probes.hysteresis != self._hysteresis
+
+    @property
+    def lag(self) -> float:
+        """The share of the light in live probes that is from before the last edit; else 0."""
+        return self.renderer.probes.lag if self.renderer else 0.0
+
+    @property
+    def _hysteresis(self) -> float | None:
+        """Of the probes of the next picture; None: they do not go on."""
+        return self.live.kept(self.settings, self._preview.is_under_way)
 
     @property
     def is_done(self) -> bool:
         """Whether nothing remains to be rendered."""
         waits = self.paused and self.samples > 0
         is_short = self.renderer is None or self.renderer.lacks(self.settings.samples)
+        is_short |= self._hysteresis is not None
         return not self.is_behind and not self.is_preview and (waits or not is_short)
-
-    def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
-        """Take another scene or settings from the next frame on; a refusal is told, not raised."""
-        try:
-            settings = settings_for(self.settings, **changes)
-        except GlrtError as error:
-            self.problem = str(error)
-            return
-        self._take(replace(self.state, scene=scene or self.scene, settings=settings), gesture)
-
-    def _take(self, after: State, gesture: str = "") -> None:
-        if after != self.state:
-            self.history.record(self.state, gesture)
-            self.state = after
-
-    def undo(self) -> None:
-        """Take back the last gesture."""
-        self.state = self.history.undo(self.state)
-
-    def redo(self) -> None:
-        """Do again what was taken back."""
-        self.state = self.history.redo(self.state)
 
     def restart(self) -> None:
         """Begin to accumulate anew."""
@@ -241,7 +212,16 @@ class Session:
             except GlrtError as error:
                 if not self.surface.refuse():  # else the next frame tries without
                     self._refuse(error)
+        elif self.samples and not (self.paused or self.waits) and self._hysteresis is not None:
+            self._go_on()
         return self.renderer is not None
+
+    def _go_on(self) -> None:
+        """Another picture of the same scene, by live probes."""
+        self.moving.begin()
+        if self._update_renderer() is None and self.renderer:  # not even by other random numbers
+            self.renderer.restart()
+            self._begin()
 
     def _apply(self) -> None:
         layering = self.layering
@@ -252,17 +232,19 @@ class Session:
                 raise
             self._update_renderer()
 
-    def _update_renderer(self) -> None:
+    def _update_renderer(self) -> Cost | None:
         wanted, cost = self._wanted(), None
         if not self.renderer:
             self.renderer, cost = self._open(wanted), Cost.RECOMPILE
         else:
             self.problem = self.moving.leave(self.renderer, self.weights) or self.problem
             edits = dict(wanted.settings)
-            cost = self.last_cost = self.renderer.update(wanted.scene, self.layering, **edits)
+            scene, way = wanted.scene, (self.layering, self._hysteresis)
+            cost = self.last_cost = self.renderer.update(scene, *way, **edits)
         if cost in (Cost.RESTART, Cost.RECOMPILE):
             self._begin()
         self.problem = self.moving.arrive(self.renderer, cost) or self.problem
+        return cost
 
     def _begin(self) -> None:
         self.restarts, self.rendering = self.restarts + 1, 0.0
@@ -297,4 +279,5 @@ class Session:
         factor = self._preview.factor
         shown = self.aovs or (NEEDED if factor > 1 and self.surface.is_wanted else ())
         state = State(self.scene, self.settings).showing(*shown).coarser(factor)
-        return self.moving.reseeded(state) if self._preview.is_under_way else state
+        is_moving = self._preview.is_under_way or self._hysteresis is not None
+        return self.moving.reseeded(state) if is_moving else state

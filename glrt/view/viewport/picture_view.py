@@ -7,6 +7,7 @@ import moderngl
 from glrt.rendering.aov_view import AovView
 from glrt.rendering.false_colors import FalseColors, Scale, Told
 from glrt.rendering.film import Film
+from glrt.rendering.probe_balls import ProbeBalls, farthest
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.surface_view import NEEDED, SurfaceView
 from glrt.view.state.costs import traced_bounces
@@ -20,12 +21,14 @@ from glrt.view.viewport.views import (
     aov_of,
     gathered_for,
     is_filtered,
+    is_of_probes,
     number_of,
     scale_of,
 )
 
 LONGER = 0.1  # seconds of a frame for the kept picture, where nothing else is left to do
 SURFACE = "preview: first surface under simple light"
+NO_PROBES = "The method {} has no probes: ddgi, gather and resampled do"
 NO_HISTORY = "The view {} is there while light of earlier views is shown, by temporal {}"
 OF_NUMBERS = {
     "history": "reproject, taa, ataa or wrls",
@@ -43,6 +46,7 @@ class PictureView:
     colors: FalseColors
     aovs: AovView
     surface: SurfaceView
+    balls: ProbeBalls
     view: View = "picture"  # as wanted; see `drawn`
     denoised: DenoisedPicture = field(default_factory=DenoisedPicture)
     most: float = 0.5  # relative difference that has the strongest colour
@@ -55,6 +59,7 @@ class PictureView:
     is_surface: bool = False  # in place of the picture: the first surface under simple light
     difference: Difference | None = None  # from the kept picture, where it is shown
     is_old: bool = False  # what is on the screen: it lacks the last edit, which has no sample yet
+    _farthest: float = 1.0  # that probes hold, in scene units
     _measured: object = None  # what its difference was taken of, but for samples
     _content: object = None  # what the picture was drawn from
     _restarts: int = 0  # of the session, when it was drawn
@@ -62,7 +67,7 @@ class PictureView:
     @property
     def scale(self) -> Scale:
         """Of the view."""
-        return scale_of(self.view, self.most, self.bounces)
+        return scale_of(self.view, self.most, self.bounces, self._farthest)
 
     def advance(self, session: Session, seconds: float, count: int) -> None:
         """A frame's samples; while the kept picture is compared, it gets half of the time.
@@ -154,7 +159,9 @@ class PictureView:
             return SURFACE
         if self.view == "error" and not self._knows_error(session):
             return f"The error is known after {2 * renderer.film.extent.block} samples"
-        if aov_of(self.view) and self.drawn != self.view:
+        if is_of_probes(self.view) and not renderer.probes.tracer:
+            return NO_PROBES.format(session.settings.method)
+        if gathered_for(self.view) and not is_filtered(self.view) and self.drawn != self.view:
             return f"The view {self.view} comes with its first sample"
         if (number := number_of(self.view)) and self.drawn != self.view:
             return NO_HISTORY.format(number, OF_NUMBERS[number])
@@ -162,8 +169,6 @@ class PictureView:
             return HISTORY.format(session.moving.end)
         if is_filtered(self.view):
             return self.denoised.told(session)
-        if self.view == "picture":
-            return ""
         if self.view != "difference":
             return ""
         if not kept:
@@ -186,6 +191,7 @@ class PictureView:
         self.colors.release()
         self.aovs.release()
         self.surface.release()
+        self.balls.release()
 
     def _compared(self, session: Session) -> ReferenceImage | None:
         """The kept picture if its difference is to be shown, and can be."""
@@ -198,6 +204,10 @@ class PictureView:
         """The view as wanted, or the picture where that cannot be told."""
         if is_filtered(self.view):
             return self.view if self.denoised.fits(session) else "picture"
+        if is_of_probes(self.view):
+            renderer = session.renderer
+            is_there = renderer and renderer.probes.tracer and renderer.aov_mean("depth")
+            return self.view if is_there else "picture"
         if aov := aov_of(self.view):
             is_there = session.renderer and session.renderer.aov_mean(aov)
             return self.view if is_there else "picture"
@@ -229,6 +239,8 @@ class PictureView:
 
         if is_filtered(view):
             return self._draw_filtered(session, film, view)
+        if is_of_probes(view):
+            return self._draw_probes(session, renderer, light)
         aov = aov_of(view)
         mean = renderer.aov_mean(aov) if aov else None
         number = number_of(view)
@@ -256,6 +268,17 @@ class PictureView:
                 return self.picture.draw(found, session.settings)
             told, draw = Told(found, -1.0), self.colors.draw_history
             return self.picture.paint(film.size, lambda: draw(film, found, told, self.scale))
+
+    def _draw_probes(self, session: Session, renderer: Renderer, light: moderngl.Texture) -> None:
+        """The picture with probes as balls, or their distances."""
+        probes, depth = renderer.probes.tracer, renderer.aov_mean("depth")
+        assert probes and depth  # noqa: PT018
+        self._farthest = farthest(probes.grid)
+        balls = self.balls.draw(light, depth, probes, renderer.scene.camera)
+        if self.view == "probes":
+            return self.picture.draw(balls, session.settings, session.is_preview)
+        told = renderer.film, light, balls, self.scale
+        return self.picture.paint(light.size, lambda: self.colors.draw_distances(*told))
 
     def _measure(self, session: Session, light: moderngl.Texture, other: moderngl.Texture) -> None:
         """Take the numbers of the difference, which takes longer than to draw it: now and then."""

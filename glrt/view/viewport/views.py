@@ -9,6 +9,7 @@ from glrt.rendering.false_colors import (
     ERROR,
     HISTORY,
     MASK,
+    VIRIDIS,
     WEIGHT,
     Number,
     Scale,
@@ -18,7 +19,8 @@ from glrt.scene.camera import Camera
 from glrt.settings import GUIDES, Aov
 
 Filtered = Literal["denoised", "denoised error"]
-FilmView = Literal["picture", Filtered, "error", "dropped", "difference", Number]
+OfProbes = Literal["probes", "probe distances"]
+FilmView = Literal["picture", Filtered, "error", "dropped", "difference", Number, OfProbes]
 View = FilmView | Aov
 VIEWS: tuple[View, ...] = (*get_args(FilmView), *get_args(Aov))
 
@@ -37,6 +39,10 @@ HELP = (
     "weight: by temporal wrls, how much the new samples count\n"
     "mask: by temporal ataa, where history fails; dark: filtered, green: traced beside history, "
     "yellow: traced alone; grey where history is shown\n"
+    "probes: the picture with its probes as balls; each shows by direction the indirect light that "
+    "it would bring to a white surface there, so that a leak is seen at once; those "
+    "in solids are left out\n"
+    "probe distances: the same with how far each sees on average\n"
     "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
     "gathered while they are shown\n"
     "bounces: how often the paths of a pixel scatter before they end, in the mean"
@@ -50,6 +56,8 @@ TITLES: dict[View, str] = {
     "history": "samples (wrls: views) of history; grey: none",
     "weight": "weight of the new samples; grey: no sample",
     "mask": "no history: 1 filtered, 2 and 3 traced; grey: history",
+    "probes": "indirect light that probes hold",
+    "probe distances": "mean distance that probes see, in scene units",
     "albedo": "albedo of the first surface",
     "normal": "normal, x y z as red green blue around grey",
     "depth": "depth, grey at {focus:.3g}, where the camera focuses",
@@ -76,6 +84,8 @@ def told_limit(limit: int | None) -> str:
 
 def gathered_for(view: View) -> tuple[Aov, ...]:
     """The AOVs that a view needs."""
+    if is_of_probes(view):
+        return ("depth",)
     aov = aov_of(view)
     return GUIDES if is_filtered(view) else (aov,) if aov else ()
 
@@ -83,6 +93,11 @@ def gathered_for(view: View) -> tuple[Aov, ...]:
 def is_filtered(view: View) -> bool:
     """Whether a view shows what a denoiser makes."""
     return view in get_args(Filtered)
+
+
+def is_of_probes(view: View) -> bool:
+    """Whether a view shows probes as balls."""
+    return view in get_args(OfProbes)
 
 
 def aov_of(view: View) -> Aov | None:
@@ -97,16 +112,18 @@ def number_of(view: View) -> Number | None:
 
 def has_scale(view: View) -> bool:
     """Whether a view has false colours, and so a legend with numbers."""
-    return view in ("bounces", "denoised error") or not gathered_for(view)
+    return view in ("bounces", "denoised error", "probe distances") or not gathered_for(view)
 
 
-def scale_of(view: View, most: float, bounces: int) -> Scale:
+def scale_of(view: View, most: float, bounces: int, farthest: float = 1.0) -> Scale:
     """The scale of a view in false colours; `most`: the largest difference that is told apart.
 
-    `bounces` is the limit of the paths.
+    `bounces` is the limit of the paths, `farthest` what probes hold at most, in scene units.
     """
     if view == "bounces":
         return scale_of_bounces(bounces)
+    if view == "probe distances":
+        return Scale(VIRIDIS, 0.0, farthest, is_logarithmic=False)
     scales: dict[View, Scale] = {"error": ERROR, "denoised error": ERROR, "dropped": DROPPED}
     scales |= {"history": HISTORY, "weight": WEIGHT, "mask": MASK}
     return scales.get(view) or symmetric(DIFFERENCE, most)
@@ -122,6 +139,8 @@ def ticks_of(view: View, scale: Scale) -> dict[float, str]:
         return {1.0: "1", 4.0: "4", 16.0: "16", 64.0: "64 and more"}
     if view == "weight":
         return {0.001: "0.001", 0.01: "0.01", 0.1: "0.1", 1.0: "1"}
+    if view == "probe distances":
+        return {share * scale.high: f"{share * scale.high:.3g}" for share in (0.0, 0.5, 1.0)}
     if view == "bounces":
         end = f"{scale.high:g}" + (" and more" if scale.high == MOST_BOUNCES else "")
         return {0.0: "0", scale.high / 2: f"{scale.high / 2:g}", scale.high: end}

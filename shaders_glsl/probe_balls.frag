@@ -1,0 +1,46 @@
+// A picture with its probes as balls, each showing what its probe holds by direction: as radiance, the irradiance that
+// would light a white matte surface there; as a, the mean distance, below 0 beside balls.
+// Row 0 is that of the film: on top.
+
+struct ProbeGrid {
+    vec3 probe_first;
+    vec3 probe_cell;
+    ivec3 probe_counts;
+};
+uniform ProbeGrid frame;
+uniform sampler2D probe_light;  // maps, as in probes/maps.glsl
+uniform sampler2D probe_distances;
+uniform sampler2D probe_places;
+uniform vec3 right;    // of the camera: half the width and height of the frame, at distance 1
+uniform vec3 up;
+uniform vec3 forward;  // unit
+uniform float radius;  // of a ball
+
+#include "passes/probe_balls.glsl"
+
+uniform sampler2D light;  // radiance of the picture
+uniform sampler2D depth;  // along the view axis, of what each pixel shows; a: 0 for nothing
+
+flat in int probe;
+in vec2 place;
+out vec4 found;
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    if (probe < 0) {
+        found = vec4(texelFetch(light, texel, 0).rgb, -1.0);
+        return;
+    }
+    precise vec3 direction = forward + place.x * right + place.y * up;
+    precise vec3 middle = middle_of_ball(probe);
+    precise float a = dot(direction, direction);
+    precise float b = dot(direction, middle);
+    precise float root = b * b - a * (dot(middle, middle) - radius * radius);
+    if (root < 0.0) discard;
+    precise float away = (b - sqrt(root)) / a;  // along the view axis: forward is of length 1
+    precise vec4 behind = texelFetch(depth, texel, 0);
+    if (behind.a > 0.0 && away > behind.r) discard;
+    precise vec3 normal = normalized(away * direction - middle);
+    precise vec3 radiance = light_at_probe(probe, normal) / PI;
+    found = vec4(radiance, distances_at_probe(probe, normal).x);
+}
