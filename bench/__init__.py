@@ -25,6 +25,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - denoised: what a denoiser gains, and whether it knows its error
 - denoised_sheet: the picture of docs/explanation/denoising.md
 - probe_floors: what methods with probes miss at any number of samples, and their noise
+- probe_sheet: the picture of balls in docs/explanation/probes.md
 - reuse: what reuse of points takes from the noise of method `resampled`, and its price
 - particle_checks: pictures with particles against those without, and their errors
 - calibration: the estimated error of pictures against their true error

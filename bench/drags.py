@@ -11,7 +11,7 @@ import shutil
 import sys
 import time
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import nullcontext
 from functools import partial
 from typing import Any, NamedTuple, get_args
@@ -21,15 +21,19 @@ import numpy as np
 from bench.screens import screen
 from bench.window_tour import play
 from glrt.image.sources import load
+from glrt.methods.table import METHODS
 from glrt.rendering.temporal import Mode
 from glrt.scene.scene import Scene
+from glrt.settings import Method, settings_for
 from glrt.view.state.controls import replaced
+from glrt.view.state.live_probes import When
 from glrt.view.state.scene_edits import with_material, with_object
 
 SECONDS = 6.0  # of each drag
 REST = 12  # frames between drags, and at least so many before the first
 STEP = 0.004  # of a drag in a frame: widths of the window, and scene units
 SETTLED = 4  # samples of the whole picture before a drag
+RESET = {"temporal": "reset"}
 
 Script = Iterator[None]
 Step = Callable[[Any, int], None]
@@ -62,6 +66,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of each drag")
     modes = get_args(Mode)
     parser.add_argument("--temporal", choices=modes, default="reset", help="(default: reset)")
+    parser.add_argument("--method", choices=METHODS, help="(default: the scene's)")
+    whens = get_args(When)
+    parser.add_argument("--live-probes", choices=whens, default=whens[1], help=f"({whens[1]})")
     parsed = parser.parse_args(arguments)
     has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
     if not has_display and not shutil.which("Xvfb"):
@@ -69,21 +76,32 @@ def main(arguments: list[str] | None = None) -> int:
         return 3
     with nullcontext() if has_display else screen("1280x840") as name:
         os.environ.update({"DISPLAY": name} if name else {})
-        print("\n".join(told(*measure(parsed.scene, parsed.size, parsed.seconds, parsed.temporal))))
+        ways = {"temporal": parsed.temporal, "live_probes": parsed.live_probes}
+        measured = measure(parsed.scene, parsed.size, parsed.seconds, ways, parsed.method)
+        print("\n".join(told(*measured)))
     return 0
 
 
 def measure(
-    scene: str, size: tuple[int, int], seconds: float, temporal: Mode = "reset"
+    scene: str,
+    size: tuple[int, int],
+    seconds: float,
+    ways: Mapping[str, str] = RESET,
+    method: Method | None = None,
 ) -> tuple[str, list[Drag]]:
-    """Drag each for some seconds; a description with the driver, and what was seen."""
+    """Drag each for some seconds; a description with the driver, and what was seen.
+
+    `ways` are preferences of the window.
+    """
     drags: list[Drag] = []
     drawn_by: list[str] = []
     opened = load(scene)
+    if method:
+        opened = replaced(opened, render=settings_for(opened.render, method=method))
 
     def script(window: Any) -> Script:
         app = window.app
-        app.preferences = replaced(app.preferences, temporal=temporal)
+        app.preferences = replaced(app.preferences, **ways)
         for what, step in steps_of(opened).items():
             window.app.session.edit(opened)
             yield from _settled(window)
@@ -91,7 +109,8 @@ def measure(
         drawn_by.append(window.app.session.renderer.context.renderer)
 
     play(opened, script, width=size[0], height=size[1])
-    return f"{scene}, {size[0]} x {size[1]}, {temporal}, {drawn_by[0]}", drags
+    words = scene, f"{size[0]} x {size[1]}", opened.render.method, *ways.values(), drawn_by[0]
+    return ", ".join(words), drags
 
 
 def steps_of(scene: Scene) -> dict[str, Step]:

@@ -16,7 +16,7 @@ from itertools import product
 from typing import NamedTuple
 
 from bench.program import add_rounds, exit_code_of, machine, parser_of
-from glrt.analysis.chart.rays import rays_per_sample
+from glrt.analysis.chart.rays import rays_of
 from glrt.gpu.context import Context, open_context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
@@ -129,7 +129,7 @@ def _seconds(renderer: Renderer, samples: int) -> float:
 def _row(
     context: Context, name: str, renderer: Renderer, runs: list[float], peaks: list[float]
 ) -> Row:
-    rays = rays_per_sample(renderer.scene, renderer.settings, context)
+    rays = rays_of(renderer.scene, renderer.settings, context).sample
     operations = rays * operations_of_ray(renderer.scene)
     shares = [operations / run / peak for run, peak in zip(runs, peaks, strict=True)]
     seconds, share = statistics.median(runs), statistics.median(shares)

@@ -17,6 +17,7 @@ layout(rgba32f) uniform writeonly image2D target_rays;  // a row a probe; a: dis
 // Radiance along a ray from a probe, and how far it goes.
 vec4 light_along(Ray ray, precise inout Sampler rng) {
     precise Path path = start_path(ray);
+    if (update.purpose != FOR_LIGHT) path.depth = frame.bounces;  // it ends where it meets something
     bool goes = extend_path(path, rng);
     if (has_met && is_wrong_face(met_object, met_normal, ray.direction)) {
         precise vec4 wrong = vec4(vec3(0.0), WRONG_FACE * met_distance);
@@ -35,6 +36,7 @@ void main() {
     precise vec3 stand = middle_of_cell(probe) + place_of_probe(probe).xyz;
     precise Sampler rng = sampler_at(ivec2(number, probe), update.number, update.seed);
     precise vec4 found = light_along(Ray(stand, directions[number].xyz, NO_SHAPE, false), rng);
+    if (COUNT_RAYS) found.rgb = vec3(rays_so_far);
     imageStore(target_rays, ivec2(number, probe), found);
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && loop_was_cut) atomicAdd(lost_samples, 1u);
 }

@@ -29,7 +29,12 @@ _STYLES = (  # colour, marker, dashes: one row for each curve of a chart
     ("#56b4e9", "v", (0, (5, 1, 1, 1, 1, 1))),
     ("#e69f00", "P", (0, (8, 2))),
     ("#777777", "X", (0, (2, 1))),
+    ("#000000", "*", (0, (1, 2))),
+    ("#882255", "p", (0, (3, 1, 1, 1))),
+    ("#999933", "h", (0, (6, 1, 2, 1))),
 )
+IN_LEGEND, LINE = 5, 0.2  # lines that a chart of a sheet has room for; inches of one more
+MOST_CURVES = len(_STYLES)  # that a chart tells apart
 _HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib: identical charts everywhere
@@ -92,7 +97,8 @@ def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4
     """Write all charts into one figure, in rows of `columns`, each with its own legend."""
     rows = -(-len(charts) // columns)
     columns = min(columns, len(charts))
-    with open_figure((4.1 * columns, 3.7 * rows + 0.4)) as figure:
+    more = max(0, max(len(chart.curves) for chart in charts) - IN_LEGEND)
+    with open_figure((4.1 * columns, (3.7 + LINE * more) * rows + 0.4)) as figure:
         figure.suptitle(title, x=0.01, ha="left", fontsize=14)
         grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
         for axes, chart in zip(grid, charts, strict=False):

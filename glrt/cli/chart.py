@@ -5,6 +5,7 @@ after an interruption, and one with more rounds adds to them.
 """
 
 import argparse
+import math
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -18,13 +19,14 @@ from glrt.analysis.chart.experiment import Plan, Tell, frame_of, measure_scene
 from glrt.analysis.chart.files import save_chart
 from glrt.analysis.motion.measure import tracks_of
 from glrt.analysis.motion.report import PAGE, save_page, save_tracks
-from glrt.analysis.plot import check_matplotlib
+from glrt.analysis.plot import MOST_CURVES, check_matplotlib
 from glrt.cli.options import SCENE, add_context, add_files, file_rules
 from glrt.cli.process import file_names
 from glrt.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
 from glrt.rendering.ataa import CHOICES, SAMPLES
+from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.rendering.stopping import Interruption
 from glrt.rendering.temporal import Mode, Way
 from glrt.rendering.wrls import Predictor
@@ -74,6 +76,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="samples that ataa of --temporal traces where history fails, "
         f"{CHOICES[0]} to {CHOICES[-1]} (default: {SAMPLES})",
     )
+    parser.add_argument(
+        "--hysteresis",
+        metavar="H,...",
+        help="with --temporal, chart method ddgi, too: with probes of their own for each picture, "
+        "and with live ones that keep such a share of what they hold (the window's: "
+        f"{HYSTERESIS:g})",
+    )
     add_context(parser)
     add_files(parser)
     parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
@@ -86,7 +95,12 @@ _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 def run(arguments: argparse.Namespace) -> int:
     """A chart of each scene and a page of all of them in a folder; returns the exit code."""
     check_matplotlib()
-    plan, ways = _plan(arguments), _ways(arguments)
+    plan, ways, kept = _plan(arguments), _ways(arguments), _hysteresis(arguments)
+    if (curves := len(ways) + len(kept) + bool(kept)) > MOST_CURVES:
+        raise UsageError(
+            f"A chart tells {MOST_CURVES} curves apart, and this asks for {curves}: choose fewer "
+            "of --temporal, --predictor, --traced or --hysteresis."
+        )
     scenes = _scenes(arguments.scenes, file_rules(arguments))
     folder = Path(arguments.output)
     files.make_folder(folder, PAGE if ways else "chart.md")
@@ -94,7 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
         try:
             with _progress(arguments.quiet) as tell:
                 tell_or_stop = _stopping(tell, interruption)
-                work = partial(_temporal, ways) if ways else _chart
+                work = partial(_temporal, ways, kept) if ways else _chart
                 page = work(scenes, plan, folder, arguments.context, tell_or_stop)
         except KeyboardInterrupt:
             print(
@@ -138,6 +152,7 @@ def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, te
 
 def _temporal(
     ways: tuple[Way, ...],
+    hysteresis: tuple[float, ...],
     scenes: dict[str, Scene],
     plan: Plan,
     folder: Path,
@@ -152,7 +167,8 @@ def _temporal(
             tell(text, (before + share) / len(scenes))
 
         settings = frame_of(scene, plan.height)
-        found = tracks_of(name, scene, settings, context, ways, REFERENCE, tell_of_all)
+        how = settings, context, ways, REFERENCE, tell_of_all
+        found = tracks_of(name, scene, *how, hysteresis=hysteresis)
         save_tracks(name, scene.title or name, found, folder)
         tracks += found
     return save_page(tracks, f"Pictures are {plan.height} pixels high.", folder)
@@ -165,6 +181,24 @@ def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
     modes = _chosen("--temporal", arguments.temporal, get_args(Mode))
     found = [Way(m, by, int(more)) for m in modes for by in predictors for more in traced]
     return tuple({way.name: way for way in found}.values())
+
+
+def _hysteresis(arguments: argparse.Namespace) -> tuple[float, ...]:
+    """Of live probes to chart; none unless that is wanted."""
+    if arguments.hysteresis is None:
+        return ()
+    if arguments.temporal is None:
+        raise UsageError("--hysteresis is of live probes while something moves: give --temporal.")
+    try:
+        given = tuple(dict.fromkeys(map(float, arguments.hysteresis.split(","))))
+    except ValueError:
+        given = (math.nan,)
+    if not all(0 <= kept < 1 for kept in given):
+        raise UsageError(
+            f"--hysteresis takes shares from 0 to below 1, with commas between; got "
+            f"{arguments.hysteresis!r}."
+        )
+    return given
 
 
 def _chosen(option: str, given: str | None, known: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -10,6 +10,8 @@ from glrt.methods.table import METHODS
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.probe_tracer import ProbeTracer
 
+HYSTERESIS = 0.97  # of live probes: half of a step of light is in them after 22.8 updates
+
 
 class ProbeSupply:
     """For each observation a set of probes, warmed up before its first sample.

@@ -8,7 +8,7 @@ While edits follow one another, probes may also go on from what those of the pic
 
 import time
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -79,6 +79,14 @@ class _Update:
         return self._images
 
 
+@dataclass
+class Seconds:
+    """That probes have taken so far."""
+
+    look: float = 0.0  # to be placed and to find what they see
+    update: float = 0.0  # for light
+
+
 class ProbeTracer:
     """Gathers the sets of probes of a plan, each by its number."""
 
@@ -102,6 +110,7 @@ class ProbeTracer:
         settings = plan.settings.model_copy(update={"bounces": shorter})
         self._plan, self.is_used = replace(plan, settings=settings), shorter > 0
         self._sees, self._set, self._done = False, -1, 0
+        self.seconds = Seconds()
         self._is_placed = self.goes_on = False  # goes on: with what other probes hold
         start = time.perf_counter()
         with ExitStack() as refused:
@@ -147,7 +156,7 @@ class ProbeTracer:
         if self._set != number:
             self._set, self._done = number, 0
             _clear(self.maps["probe_light"])
-        seed, done = self._plan.settings.seed, self._done
+        start, seed, done = time.perf_counter(), self._plan.settings.seed, self._done
         share = kept_light(done) if kept is None else kept
         turned = even_directions(RAYS) @ turn(seeds(seed, number, done)).T
         self._block.write(update_block(turned, LIGHT, done, int(seeds(seed, number)[3]), share))
@@ -155,6 +164,7 @@ class ProbeTracer:
         self._context.finish()
         self._scene.lost_any()  # rays that are lost are left out
         self._done += 1
+        self.seconds.update += time.perf_counter() - start
 
     def follow(self, hysteresis: float) -> None:
         """One update of what the maps hold, of which they keep a share: light, and distances.
@@ -166,6 +176,21 @@ class ProbeTracer:
         self._see(FOLLOWING, self._done, kept=hysteresis)
         self._set = FOLLOWING
         self.update(FOLLOWING, hysteresis)
+
+    def count(self) -> tuple[float, float]:
+        """What the rays of a set count, and those of places and distances, if the kernel counts.
+
+        That is a Variant with COUNT_RAYS; of another, what is told means nothing.
+        """
+        self._look()
+        once = (PUSHED + 1 + LOOKS) * self._counted()
+        self.update(0)
+        return UPDATES * self._counted() * self.is_used, once
+
+    def _counted(self) -> float:
+        """By the rays of the last update."""
+        rays = np.frombuffer(self._rays.read(), np.float32).reshape(-1, 4)
+        return float(rays[:, 0].sum(dtype=float))
 
     def release(self, after: "ProbeTracer | None" = None) -> None:
         """Free what the driver holds, but for what another one has taken over."""
@@ -181,15 +206,19 @@ class ProbeTracer:
     def _go_on(self, before: "ProbeTracer") -> None:
         """With what the probes of another scene hold; nothing is written yet."""
         self.maps, self._sees = before.maps, before._sees
+        self._is_placed = before._is_placed and _stand_alike(self, before)
         self._set, self._done, self.goes_on = FOLLOWING, before._done, True
 
     def _look(self) -> None:
         """Move probes out of solids, and find what they see: the same for every seed."""
+        start = time.perf_counter()
         self._place()
         _clear(self.maps["probe_distances"])
         for step in range(LOOKS):
             self._see(step, kept=step / (step + 1))
+        self._context.finish()
         self._sees = True
+        self.seconds.look += time.perf_counter() - start
 
     def _place(self) -> None:
         """Move probes out of solids, and tell which are of use."""
@@ -231,6 +260,14 @@ class ProbeTracer:
             self._dispatch(name, kernel, part)
 
         return ready(self._context, self._scene.shaders_of(each), dispatch)
+
+
+def _stand_alike(tracer: ProbeTracer, other: ProbeTracer) -> bool:
+    """Whether probes are pushed to the same places, and are of the same use."""
+    scene, before = tracer._plan.scene, other._plan.scene
+    is_same_eye = scene.camera.position == before.camera.position
+    is_same_grid = tracer.grid.places().tolist() == other.grid.places().tolist()
+    return is_same_eye and is_same_grid and scene.objects == before.objects
 
 
 def _map(context: Context, grid: Grid, name: str, refused: ExitStack) -> moderngl.Texture:

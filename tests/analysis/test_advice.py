@@ -9,8 +9,9 @@ import pytest
 
 from glrt.analysis.method_choice import search, trial
 from glrt.analysis.method_choice.advice import advice, conclusion
+from glrt.analysis.method_choice.candidate import Bias
 from glrt.analysis.method_choice.search import Verdict
-from glrt.analysis.method_choice.trial import Bias, OutOfTimeError
+from glrt.analysis.method_choice.trial import OutOfTimeError
 from glrt.analysis.reference import Reference
 from glrt.cli.main import main
 from glrt.gpu.context import Context

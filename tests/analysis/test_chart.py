@@ -16,7 +16,7 @@ from glrt.analysis.chart import drawing, experiment
 from glrt.analysis.chart.curves import Curve, Interval, Point
 from glrt.analysis.chart.experiment import Plan, measure_scene
 from glrt.analysis.chart.measure import Bench, of_variant
-from glrt.analysis.chart.rays import rays_per_sample
+from glrt.analysis.chart.rays import rays_of
 from glrt.analysis.reference import Reference
 from glrt.analysis.variants import Variant, variants_of
 from glrt.cli.main import main
@@ -206,17 +206,17 @@ def test_rays_are_counted(context: Context) -> None:
     walls = {"wall": {"type": "lambertian", "color": [0.5] * 3}, "lamp": lamp()}
     room = scene_of(box_of_quads("wall", 2.0), walls)
     rays = {
-        bounces: rays_per_sample(
+        bounces: rays_of(
             room,
             settings_for(room.render, width=8, height=8, bounces=bounces, roulette=False),
             context,
-        )
+        ).sample
         for bounces in (0, 1, 5)
     }
     assert rays == {0: 1.0, 1: 2.0, 5: 6.0}
     lit = scene_of([*box_of_quads("wall", 2.0), sphere([0, 0, -1], 0.01, "lamp")], walls)
     settings = settings_for(lit.render, width=8, height=8, bounces=1, method="nee")
-    shadowed = rays_per_sample(lit, settings, context)
+    shadowed = rays_of(lit, settings, context).sample
     assert 2.9 < shadowed <= 3.0, "camera, shadow and scattered ray, but for the pixels of the lamp"
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.analysis.chart.rays import SAMPLES, counting_variant, rays_per_sample
+from glrt.analysis.chart.rays import SAMPLES, counting_variant, rays_of
 from glrt.analysis.method_choice import advice, search, work
 from glrt.analysis.method_choice.search import Verdict
 from glrt.analysis.method_choice.trial import OutOfTimeError
@@ -62,7 +62,7 @@ def test_shadow_rays_are_weighed_apart_from_others(context: Context) -> None:
         counter.release()
     assert means[0] == 1.0, "direct light alone, and no mirror"
     assert 0 < means[1] < 1
-    assert sum(means) == pytest.approx(rays_per_sample(scene, settings, context))
+    assert sum(means) == pytest.approx(rays_of(scene, settings, context).sample)
 
 
 def test_work_grows_with_paths_and_with_what_is_looked_for(context: Context) -> None:
@@ -80,11 +80,11 @@ def test_rays_of_particles_are_counted_whatever_the_lamps_shine(context: Context
     scene = load("cornell")
     settings = settings_for(scene.render, width=16, height=16, caustics="on", linked=0.0)
     found = {
-        rays_per_sample(with_lights(scene, {"lamp": factor}), settings, context)
+        rays_of(with_lights(scene, {"lamp": factor}), settings, context).sample
         for factor in (1e-6, 1.0, 1e6)
     }
     assert len(found) == 1
-    without = rays_per_sample(scene, settings_for(settings, caustics="off"), context)
+    without = rays_of(scene, settings_for(settings, caustics="off"), context).sample
     assert found.pop() > 1.05 * without
 
 

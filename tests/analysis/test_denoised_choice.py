@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from glrt.analysis.method_choice.advice import denoised_advice
+from glrt.analysis.method_choice.candidate import Bias, Candidate
 from glrt.analysis.method_choice.denoised import MOST_PIXELS, DenoisedChoice, denoised_choice
 from glrt.analysis.method_choice.search import Verdict
-from glrt.analysis.method_choice.trial import Bias, Candidate
 from glrt.analysis.reference import Floats, Reference
 from glrt.gpu.context import Context
 from glrt.image.sources import load

@@ -8,17 +8,30 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.analysis.motion.measure import BEFORE, FRAMES, Seen, Track, looks_of, tracks_of
+from glrt.analysis.chart.rays import rays_of
+from glrt.analysis.motion.measure import (
+    BEFORE,
+    FRAMES,
+    Seen,
+    Track,
+    by_probes,
+    looks_of,
+    tracks_of,
+)
 from glrt.analysis.motion.playing import play
 from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
 from glrt.analysis.motion.sequences import light_step, orbit, turned
+from glrt.analysis.plot import MOST_CURVES
 from glrt.cli.chart import _ways
 from glrt.cli.commands import run
 from glrt.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
 from glrt.rendering.temporal import WAYS, Mode, Way
-from glrt.settings import settings_for
+from glrt.settings import Settings, settings_for
+from tests.rendering.test_live_probes import warmed_up
+from tests.truths.test_probes import room
 
 
 def test_an_orbit_keeps_its_distance_and_goes_to_and_fro() -> None:
@@ -159,3 +172,62 @@ def test_the_command_writes_charts_and_a_page(tmp_path: Path) -> None:
         PAGE,
         *(f"cornell.temporal.{suffix}" for suffix in ("svg", "png", "csv")),
     }
+
+
+def test_live_probes_follow_a_light_step_frame_by_frame(context: Context) -> None:
+    """In a closed room that shines with 1, then with 1/4: what one update keeps, and the rest."""
+    scene, kept, dim = room("sphere", 0.5), 0.9, 0.25
+    frames = light_step(scene, 8, 3, dim)
+    way = {"width": 8, "height": 8, "method": "ddgi", "sampler": "sobol", "probes": 2}
+    settings = settings_for(scene.render, **way, bounces=3, roulette=False)
+    held = warmed_up(0.5)
+    for number, picture in enumerate(
+        play(frames, settings, context, Way("reset"), hysteresis=kept)
+    ):
+        shines = 1.0 if number < 3 else dim
+        if number:
+            held = kept * held + (1 - kept) * 0.5 * (shines + held)
+        np.testing.assert_allclose(picture, shines + 0.5 * (shines + held), rtol=1e-3)
+
+
+def test_tracks_of_probes_count_their_rays(context: Context) -> None:
+    """Live ones take an update a frame, and are placed anew in an orbit alone."""
+    scene = load("methods/diffuse")
+    settings = settings_for(scene.render, width=16, height=16, probes=2)
+    found = tracks_of(
+        "d", scene, settings, context, [Way("reset")], 16, lambda *_: None, hysteresis=(0.9,)
+    )
+    names = ["reset", "ddgi", "ddgi, live 0.9"]
+    assert [track.mode for track in found] == [*names, *names]
+    of_ddgi = rays_of(scene, found_settings(settings), context)
+    own, live, still = found[1].seen, found[2].seen, found[5].seen
+    everything = of_ddgi.sample + of_ddgi.set + of_ddgi.once
+    assert {one.rays for one in own} == {everything}
+    assert live[0].rays == everything
+    update = of_ddgi.sample + of_ddgi.set / UPDATES
+    looks = of_ddgi.once / (PUSHED + 1 + LOOKS)
+    assert live[1].rays == pytest.approx(update + looks * (1 + PUSHED + 1))
+    assert still[1].rays == pytest.approx(update + looks)
+
+
+def found_settings(settings: Settings) -> Settings:
+    (own, _) = by_probes(settings, (0.9,))
+    return own.settings
+
+
+@pytest.mark.parametrize("given", ["1", "-0.1", "much", "0.9,,0.8"])
+def test_the_command_refuses_what_probes_cannot_keep(tmp_path: Path, given: str) -> None:
+    with pytest.raises(UsageError, match="--hysteresis takes shares from 0 to below 1"):
+        run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset", "--hysteresis", given])
+
+
+def test_live_probes_are_charted_where_something_moves(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="give --temporal"):
+        run(["chart", "cornell", "-o", str(tmp_path), "--hysteresis", "0.9"])
+
+
+def test_more_curves_than_a_chart_tells_apart_are_refused(tmp_path: Path) -> None:
+    shares = ",".join(f"0.{number}" for number in range(1, MOST_CURVES))
+    words = ["--temporal", "reset,taa", "--hysteresis", shares]
+    with pytest.raises(UsageError, match="choose fewer"):
+        run(["chart", "cornell", "-o", str(tmp_path), *words])

@@ -14,6 +14,7 @@ from tests.mutation.glass import GLASS
 from tests.mutation.instances import INSTANCES
 from tests.mutation.judging import JUDGING
 from tests.mutation.lights import LIGHTS
+from tests.mutation.live_probes import LIVE_PROBES
 from tests.mutation.merging import MERGING
 from tests.mutation.meshes import MESHES
 from tests.mutation.metals import METALS
@@ -42,6 +43,7 @@ MUTANTS = [
     *PARTICLE_SKY,
     *SPHERE_LINKS,
     *PROBES,
+    *LIVE_PROBES,
     *RESAMPLING,
     *SHAPES,
     *MESHES,

@@ -92,6 +92,17 @@ def test_what_rests_has_the_bits_of_a_picture_of_its_own(context: Context) -> No
     assert same_bits(image.radiance, rendered(dimmed(scene), context, 2, **WAY).radiance)
 
 
+def test_a_picture_begins_with_probes_of_its_own(context: Context) -> None:
+    """Whatever those of the picture before hold: the same as after another one."""
+    scene, found = room("planes", 0.5), []
+    for before in (1.0, 4.0):
+        with rendering(with_lights(scene, {"glow": before}), context, **WAY) as renderer:
+            renderer.render(1)
+            renderer.update(dimmed(scene))
+            found.append(renderer.render(1).image().radiance)
+    assert same_bits(*found)
+
+
 def test_a_picture_by_live_probes_is_not_handed_out(context: Context) -> None:
     scene = room("planes", 0.5)
     with rendering(scene, context, **WAY) as renderer:

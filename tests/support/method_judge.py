@@ -9,8 +9,9 @@ from unittest.mock import patch
 import numpy as np
 
 from glrt.analysis import reference as references
+from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.search import Verdict
-from glrt.analysis.method_choice.trial import LIMITS, Candidate
+from glrt.analysis.method_choice.trial import LIMITS
 from glrt.analysis.reference import Reference, reference_for
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer

@@ -3,8 +3,8 @@
 from typing import Any
 
 from glrt.analysis.method_choice import search
+from glrt.analysis.method_choice.candidate import Bias, Candidate
 from glrt.analysis.method_choice.search import Verdict, what_suffices
-from glrt.analysis.method_choice.trial import Bias, Candidate
 from glrt.gpu.context import Context
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for

@@ -82,11 +82,13 @@ def test_at_rest_the_picture_is_one_of_its_own(
     dim(session, 0.5)
     with pytest.raises(UsageError, match="live"):
         session.image()
+    assert session.is_passing
     assert not session.is_done
     clock.now += 2 * STILL
     for _ in range(40):
         session.advance(10.0, count=4)
     assert session.lag == 0.0
+    assert not session.is_passing
     image = session.image()
     expected = rendered(session.scene, context, image.samples, **WAY)
     assert same_bits(image.radiance, expected.radiance)

@@ -103,9 +103,12 @@ def probes_are_live_while_the_user_wants_it(hand: Hand) -> None:
         hand.ctx.yield_(4)
     assert any("live probes" in line for line in lines) or session.lag < 0.005
     assert "live" in hand.there(lambda: refusal(session))
+    hand.there(lambda: setattr(hand.window.app.show, "view", "denoised"))
     restarts = session.restarts
     hand.ctx.yield_(8)
     assert session.restarts > restarts, "a picture with every frame"
+    assert hand.window.app.show.drawn == "picture", "none that is to be denoised"
+    hand.there(lambda: setattr(hand.window.app.show, "view", "picture"))
     move(hand, "live probes##preference/moving", None)
     hand.until(lambda: session.samples >= LOOKED_AT)
     assert session.lag == 0.0

@@ -50,7 +50,7 @@ def _milliseconds(experiment: Experiment) -> list[list[float]]:
 
 def _rays(experiment: Experiment) -> list[list[float]]:
     pairs = zip(experiment.curves, experiment.rays, strict=True)
-    return [[rays * point.samples for point in curve.points] for curve, rays in pairs]
+    return [[rays.of(point.samples) for point in curve.points] for curve, rays in pairs]
 
 
 def _draw(axes: Any, curves: Sequence[Curve], places: Sequence[Sequence[float]]) -> None:

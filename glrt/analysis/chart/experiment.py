@@ -7,7 +7,7 @@ from pathlib import Path
 
 from glrt.analysis.chart.curves import Curve, curves_of
 from glrt.analysis.chart.measure import Bench, Round
-from glrt.analysis.chart.rays import rays_per_sample
+from glrt.analysis.chart.rays import Rays, rays_of
 from glrt.analysis.chart.rounds import key_of, load_rounds, save_rounds
 from glrt.analysis.reference import Reference, reference_for
 from glrt.analysis.variants import Variant, variants_of
@@ -44,7 +44,7 @@ class Experiment:
     reference: Reference
     variants: tuple[Variant, ...]
     curves: tuple[Curve, ...]  # one per variant, in the same order
-    rays: tuple[float, ...]  # mean number per sample, for each variant
+    rays: tuple[Rays, ...]  # of each variant
     place: str  # version, driver, number of processors
 
     @property
@@ -72,7 +72,7 @@ def measure_scene(
         tell(f"{name}: reference", share * allowed / whole)
 
     reference = reference_for(scene, settings, context, REFERENCE_ERROR, allowed, tell_reference)
-    rays = tuple(rays_per_sample(scene, variant.settings, context) for variant in variants)
+    rays = tuple(rays_of(scene, variant.settings, context) for variant in variants)
     key = key_of(scene, variants, reference, place)
     rounds = load_rounds(rounds_file, key)
 

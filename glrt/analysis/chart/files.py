@@ -48,7 +48,7 @@ def rows(experiment: Experiment) -> Iterator[dict[str, Any]]:
                 "roulette": variant.settings.roulette,
                 "sampler": variant.settings.sampler,
                 "samples": point.samples,
-                "rays": rays * point.samples,
+                "rays": rays.of(point.samples),
                 **_with_limits("milliseconds", point.milliseconds),
                 **_with_limits("error", point.error),
                 "flip": point.flip,

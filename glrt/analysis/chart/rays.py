@@ -1,4 +1,7 @@
-"""The number of rays per sample: a measure of cost that does not depend on the machine."""
+"""The number of rays of a picture: a measure of cost that does not depend on the machine."""
+
+import math
+from typing import NamedTuple
 
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import read
@@ -10,20 +13,48 @@ from glrt.settings import Settings
 SAMPLES = 32
 COUNTING = Variant({"COUNT_RAYS": True})  # renders the number of rays in place of radiance
 _FOLLOWED, _SHADOW = "shapes/find_hit.glsl", "textures/holes.glsl"
+_PROBES, _LOOKUP = "probes/query.glsl", "precise ProbeLight found ="
 _COUNT = "if (COUNT_RAYS) rays_so_far += 1.0;"
 
 
-def rays_per_sample(scene: Scene, settings: Settings, context: Context) -> float:
-    """The mean number of camera, scattered and shadow rays per sample, over the whole frame."""
+class Rays(NamedTuple):
+    """Camera, scattered and shadow rays, or their weights, for each pixel of a frame."""
+
+    sample: float  # of a sample
+    block: int = 1  # samples that share a set of probes
+    set: float = 0.0  # to warm it up
+    once: float = 0.0  # to place probes and find what they see
+
+    def of(self, samples: int) -> float:
+        """Of so many samples, those of probes among them."""
+        sets = math.ceil(samples / self.block) if self.set else 0
+        return samples * self.sample + sets * self.set + self.once
+
+
+def rays_of(scene: Scene, settings: Settings, context: Context) -> Rays:
+    """The mean numbers over the whole frame."""
     counter = Renderer(scene, settings, context, tier="baked", variant=COUNTING)
-    mean = float(counter.render(SAMPLES).image().radiance.mean())
-    counter.release()
-    return mean
+    try:
+        return _counted(counter)
+    finally:
+        counter.release()
 
 
-def counting_variant(followed: float, shadow: float) -> Variant:
-    """COUNTING with weights: of camera and scattered rays, and of shadow rays."""
-    texts = {}
+def _counted(counter: Renderer) -> Rays:
+    sample = float(counter.render(SAMPLES).image().radiance.mean())
+    probes = counter.probes.tracer
+    if not probes:
+        return Rays(sample)
+    width, height = counter.size
+    with counter.context.gl:
+        of_set, once = (rays / (width * height) for rays in probes.count())
+    return Rays(sample, counter.settings.block, of_set, once)
+
+
+def counting_variant(followed: float, shadow: float, lookup: float = 0.0) -> Variant:
+    """COUNTING with weights: of camera and scattered rays, of shadow rays, of a look at probes."""
+    start, end = read(_PROBES).split(_LOOKUP)
+    texts = {_PROBES: f"{start}rays_so_far += {float(lookup)!r};\n    {_LOOKUP}{end}"}
     for file, weight in ((_FOLLOWED, followed), (_SHADOW, shadow)):
         start, end = read(file).split(_COUNT)
         texts[file] = f"{start}rays_so_far += {float(weight)!r};{end}"

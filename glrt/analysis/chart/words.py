@@ -84,7 +84,13 @@ def table(experiment: Experiment) -> Iterator[str]:
     for curve, rays in zip(experiment.curves, experiment.rays, strict=True):
         last = curve.points[-1]
         end = f"{percent(last.error.value)} at {last.samples}"
-        cells = [curve.name, f"{rays:.3g}", end, _bias(curve.bias), _slope(curve.slope)]
+        cells = [
+            curve.name,
+            f"{rays.of(last.samples) / last.samples:.3g}",
+            end,
+            _bias(curve.bias),
+            _slope(curve.slope),
+        ]
         cells += [_time(curve.milliseconds_to(level)) for level in LEVELS]
         cells += ["-" if last.flip is None else f"{last.flip:.2g}"] if with_flip else []
         yield f"| {' | '.join(cells)} |"

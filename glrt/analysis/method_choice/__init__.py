@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - work: what a sample costs, counted
+- candidate: what is known of a method
 - trial: bias, variance and work of the methods, measured on a small frame
 - search: the choice of bounces and method
 - denoised: whether fewer samples suffice once they are denoised

@@ -4,19 +4,20 @@ import argparse
 import math
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import NamedTuple
 
 from glrt.analysis.chart.words import number, percent
+from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.denoised import DenoisedChoice, denoised_choice
-from glrt.analysis.method_choice.search import Verdict, what_suffices
-from glrt.analysis.method_choice.trial import LEADER, Candidate, OutOfTimeError, Tell
+from glrt.analysis.method_choice.search import WITHOUT_PROBES, Verdict, what_suffices
+from glrt.analysis.method_choice.trial import LEADER, OutOfTimeError, Tell
 from glrt.errors import UsageError
 from glrt.gpu.context import open_context
 from glrt.methods.omissions import omissions
-from glrt.methods.table import BIASED
+from glrt.methods.table import BIASED, METHODS
 from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
@@ -39,7 +40,7 @@ class Choice(NamedTuple):
 
 def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> None:
     """Measure and print what reaches `arguments.error`, with `arguments.bounces` if given."""
-    verdict = _verdict(arguments, scene, settings, arguments.error)
+    verdict = _verdict(arguments, scene, settings, arguments.error, methods=tuple(METHODS))
     print("\n" + "\n".join(advice(scene, verdict)), flush=True)
     if verdict.best:
         context = open_context(arguments.context)
@@ -98,12 +99,13 @@ def _verdict(
     settings: Settings,
     error: float,
     seconds: float = math.inf,
+    methods: Sequence[str] = WITHOUT_PROBES,
 ) -> Verdict:
     context = open_context(arguments.context)
     try:
         with _steps(arguments) as tell:
             fixed = _bounces_given(arguments)
-            return what_suffices(scene, settings, error, context, fixed, seconds, tell)
+            return what_suffices(scene, settings, error, context, fixed, seconds, tell, methods)
     finally:
         context.gl.release()
 
@@ -167,7 +169,10 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
     for candidate in verdict.candidates:
         yield _row(scene, verdict, candidate, width)
     yield ""
-    yield "Work is counted, by rays, shapes and lamps: 1 is that of the method which takes least."
+    yield (
+        "Work is counted, by rays, those of probes too, shapes and lamps: 1 is that of the method "
+        "which takes least."
+    )
     yield conclusion(verdict)
 
 
@@ -210,7 +215,7 @@ def _finding(verdict: Verdict, least_samples: int) -> str:
     return (
         f"Enough: `{settings.method}` with {_count(settings.bounces, 'bounce')} reaches "
         f"{percent(verdict.error)} with {_count(samples, 'sample')}; about "
-        f"{_seconds(samples * best.seconds_per_sample)} s at {width} x {height}, as timed now."
+        f"{_seconds(best.seconds_of(samples))} s at {width} x {height}, as timed now."
     )
 
 

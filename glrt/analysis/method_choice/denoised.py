@@ -7,7 +7,7 @@ filter gains grows with the picture, whose edges it blurs.
 import math
 from typing import Any, NamedTuple
 
-from glrt.analysis.method_choice.trial import Candidate
+from glrt.analysis.method_choice.candidate import Candidate
 from glrt.denoise.filters import least_samples
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer

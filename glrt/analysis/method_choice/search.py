@@ -2,9 +2,11 @@
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from glrt.analysis.method_choice.trial import LEADER, Bias, Candidate, Tell, Trial, until
+from glrt.analysis.method_choice.candidate import Bias, Candidate
+from glrt.analysis.method_choice.trial import LEADER, Tell, Trial, until
 from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
 from glrt.analysis.reference import Reference, reference_for, unlimited
 from glrt.analysis.variants import variants_of
@@ -19,8 +21,9 @@ HEIGHT = 48  # of the measured frame, in pixels
 MOST_WIDE = 4  # times as wide as it is high; of a wider frame, the same number of pixels
 REFERENCE_WORK = 4e9  # most work of the reference: some 6 s on one core of llvmpipe
 REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds that are allowed
-# Work is counted along paths: that of probes is none of it.
-COUNTED = tuple(name for name, traits in METHODS.items() if not traits.has_probes)
+# What is chosen from without a look by the user: sets of probes take time to measure, and `error`
+# tells nothing of what probes blur.
+WITHOUT_PROBES = tuple(name for name, traits in METHODS.items() if not traits.has_probes)
 _TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
 
 
@@ -30,7 +33,7 @@ class Verdict:
 
     error: float
     reference: Reference
-    candidates: tuple[Candidate, ...]  # every method, the classic models first
+    candidates: tuple[Candidate, ...]  # the methods, those that leave light out first
     beyond: dict[int, Bias]  # by limit of bounces: the bias from leaving out longer paths
     untried: tuple[str, ...] = ()  # methods that were not measured, for lack of time
 
@@ -74,8 +77,9 @@ def what_suffices(
     bounces: int | None = None,
     seconds: float = math.inf,
     tell: Tell = _silent,
+    methods: Sequence[str] = WITHOUT_PROBES,
 ) -> Verdict:
-    """Measure every method on a small frame; `bounces` is their limit, or None to choose it, too.
+    """Measure methods on a small frame; `bounces` is their limit, or None to choose it, too.
 
     `tell` is called with the name of each step.
 
@@ -100,7 +104,7 @@ def what_suffices(
         limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))
-    variants = variants_of(scene, small, COUNTED, leads=False)
+    variants = variants_of(scene, small, methods, leads=False)
     found = trial.methods(variants, leader)
     order = [*BIASED, *METHODS]
     ranked = sorted(found, key=lambda c: order.index(c.settings.method))

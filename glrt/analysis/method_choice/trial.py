@@ -13,11 +13,11 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
+from glrt.analysis.method_choice.candidate import NO_PROBES, Bias, Candidate, OfProbes
+from glrt.analysis.method_choice.work import busy_pixels, counting, work_of_probes, work_per_sample
 from glrt.analysis.reference import Floats, Reference
 from glrt.analysis.variants import Variant
 from glrt.gpu.context import Context
@@ -41,7 +41,6 @@ OF_FRAME = (
 )  # settings that a trial has its own of
 LEADER = "mis"  # the method whose bounces are measured
 _EXTRA_LIMITS = 4  # tried beyond the first that suffices: more bounces may need fewer samples
-_SIGMAS = 2.0  # half width of intervals, in standard errors
 _PRECISE = 0.1  # relative standard error below which a variance is taken as known
 _FAR = 2.0  # times an error, or the work of another: what differs as much needs no better look
 
@@ -64,59 +63,6 @@ def until(deadline: float) -> Check:
         return True
 
     return check
-
-
-class Bias(NamedTuple):
-    """A squared relative bias with its standard error over pixels."""
-
-    squared: float
-    stderr: float
-
-    @property
-    def value(self) -> float:
-        """The bias; 0 if the estimate of its square is negative."""
-        return math.sqrt(max(self.squared, 0.0))
-
-    @property
-    def least(self) -> float:
-        """Lower bound of the bias at a confidence of 97.5 %."""
-        return math.sqrt(max(self.squared - _SIGMAS * self.stderr, 0.0))
-
-    @property
-    def most(self) -> float:
-        """Upper bound of the bias at a confidence of 97.5 %."""
-        return math.sqrt(max(self.squared + _SIGMAS * self.stderr, 0.0))
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """A method with a limit of bounces, its measured bias and variance, and its counted work."""
-
-    name: str
-    settings: Settings  # for the requested frame
-    bias: Bias
-    variance: float  # relative, of one sample: upper bound at a confidence of 97.5 %
-    work_per_sample: float  # of one pixel
-    seconds_per_sample: float  # of every pixel of the requested frame; nothing is chosen by it
-
-    def samples_to(self, error: float) -> int | None:
-        """Samples per pixel to reach an error; None if the bias is not known to be below it.
-
-        A multiple of the block of the sampler: the samples of an incomplete block are noisier.
-        """
-        room = error**2 - self.bias.most**2
-        block = self.settings.block
-        return block * max(1, math.ceil(self.variance / room / block)) if room > 0 else None
-
-    def work_to(self, error: float) -> float:
-        """Work of a pixel to reach an error; infinite if `samples_to` is None."""
-        samples = self.samples_to(error)
-        return math.inf if samples is None else samples * self.work_per_sample
-
-    def seconds_to(self, error: float) -> float:
-        """About how many seconds that takes; infinite if `samples_to` is None."""
-        samples = self.samples_to(error)
-        return math.inf if samples is None else samples * self.seconds_per_sample
 
 
 @dataclass(frozen=True)
@@ -195,22 +141,25 @@ class Trial:
         with self._opened(settings) as renderer:
             pictures = taken(samples := SAMPLES)
             work = self._work(variant, bias(pictures), leader)
-            candidate = self._candidate(name, settings, pictures, bias(pictures), work)
-            most = min(MOST_TRIED, MOST_WORK / (len(SEEDS) * busy_pixels(settings) * work))
+            candidate = self._candidate(name, settings, pictures, bias(pictures), *work)
+            each = work[0] + work[1].work_of_set / settings.block / math.prod(settings.size)
+            most = min(MOST_TRIED, MOST_WORK / (len(SEEDS) * busy_pixels(settings) * each))
             with suppress(OutOfTimeError):
                 while not self._is_settled(candidate, pictures, leader) and 4 * samples <= most:
                     pictures = taken(samples := 4 * samples)
-                    candidate = self._candidate(name, settings, pictures, bias(pictures), work)
+                    candidate = self._candidate(name, settings, pictures, bias(pictures), *work)
         return candidate
 
-    def _work(self, variant: Variant, bias: Bias, leader: Candidate) -> float:
-        """The work of a sample; infinite, and not counted, if no number of them is enough."""
+    def _work(self, variant: Variant, bias: Bias, leader: Candidate) -> tuple[float, OfProbes]:
+        """Of a sample, and of probes; infinite, and not counted, if no number is enough."""
         if bias.least >= self.error:
-            return math.inf
+            return math.inf, NO_PROBES
         if _is_leader(variant):
-            return leader.work_per_sample
+            return leader.work_per_sample, NO_PROBES
         with counting(self.scene, variant.settings, self.context) as counter:
-            return work_per_sample(counter, variant.settings.bounces, self.check)
+            work = work_per_sample(counter, variant.settings.bounces, self.check)
+            of_set, once = work_of_probes(counter)
+            return work, OfProbes(work_of_set=of_set, work_once=once)
 
     def _is_settled(
         self, candidate: Candidate, pictures: Sequence["_Picture"], leader: Candidate
@@ -259,6 +208,7 @@ class Trial:
         pictures: Sequence["_Picture"],
         bias: Bias,
         work: float,
+        probes: OfProbes = NO_PROBES,
     ) -> Candidate:
         samples = pictures[0].samples
         seconds = min(picture.seconds for picture in pictures)  # less disturbed by other load
@@ -270,6 +220,10 @@ class Trial:
             samples * self._noise(pictures).most ** 2,
             work,
             seconds / samples * self.pixels,
+            probes._replace(
+                seconds_of_set=min(picture.seconds_of_set for picture in pictures),
+                seconds_once=min(picture.seconds_once for picture in pictures),
+            ),
         )
 
 
@@ -280,18 +234,24 @@ class _Picture:
     samples: int
     radiance: Floats
     squared_stderr: Floats
-    seconds: float
+    seconds: float  # without those of probes
+    seconds_of_set: float
+    seconds_once: float
 
     @classmethod
     def of(cls, renderer: Renderer, samples: int, check: Check) -> "_Picture":
         warm = samples // 4  # not timed: the first dispatches are small
         renderer.render(warm, check)
-        start = time.perf_counter()
+        probes, start = renderer.probes.tracer, time.perf_counter()
+        before = probes.seconds.update if probes else 0.0
         renderer.render(samples, check)
-        seconds = (time.perf_counter() - start) * samples / (samples - warm)
+        of_sets = probes.seconds.update - before if probes else 0.0
+        seconds = (time.perf_counter() - start - of_sets) * samples / (samples - warm)
+        of_set = of_sets / max((samples - warm) // renderer.settings.block, 1)
+        once = probes.seconds.look if probes else 0.0
         image = renderer.image()
         squared = np.square(image.stderr.astype(float))
-        return cls(samples, image.radiance.astype(float), squared, seconds)
+        return cls(samples, image.radiance.astype(float), squared, seconds, of_set, once)
 
 
 def _is_leader(variant: Variant) -> bool:

@@ -7,15 +7,16 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from glrt.analysis.chart.rays import rays_per_sample
+from glrt.analysis.chart.rays import Rays, rays_of
 from glrt.analysis.motion.playing import play
 from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import light_step, orbit
 from glrt.analysis.reference import Reference, reference_for
 from glrt.gpu.context import Context
+from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
 from glrt.rendering.temporal import Way
 from glrt.scene.scene import Scene
-from glrt.settings import Settings
+from glrt.settings import Settings, settings_for
 
 FRAMES = 32
 DEGREES = 1.0  # a frame, of an orbit
@@ -36,6 +37,22 @@ class Seen(NamedTuple):
     def error(self) -> float:
         """Relative RMS; 0 where the estimate of its square is below."""
         return math.sqrt(max(self.squared_error, 0.0))
+
+
+class Played(NamedTuple):
+    """What is played of a sequence, under the name of its track."""
+
+    name: str
+    settings: Settings
+    way: Way
+    hysteresis: float | None = None  # of live probes
+
+
+def by_probes(settings: Settings, hysteresis: Sequence[float]) -> list[Played]:
+    """By `ddgi`, with probes of their own for each picture, and live ones by each hysteresis."""
+    own, alone = settings_for(settings, method="ddgi", sampler="sobol"), Way("reset")
+    live = [Played(f"ddgi, live {kept:g}", own, alone, kept) for kept in hysteresis]
+    return [Played("ddgi", own, alone), *live] if live else []
 
 
 class Track(NamedTuple):
@@ -61,12 +78,15 @@ def tracks_of(
     reference_samples: int,
     tell: Tell,
     samples: int = 1,
+    hysteresis: Sequence[float] = (),
 ) -> list[Track]:
     """The orbit and the light step of a scene, by each way at `samples` samples a frame.
 
-    Each look has a reference of its own, two halves of at most `reference_samples` samples.
+    With some `hysteresis`, by live probes of each, too, and by probes of their own. Each look has a
+    reference of its own, two halves of at most `reference_samples` samples.
     """
-    rays = samples * rays_per_sample(scene, settings, context)
+    all_played = [Played(way.name, settings, way) for way in ways] + by_probes(settings, hysteresis)
+    rays = {one: rays_of(scene, one, context) for one in {p.settings for p in all_played}}
     found = []
     sequences = orbit(scene, FRAMES, DEGREES), light_step(scene, FRAMES, BEFORE, FACTOR)
     for place, frames in enumerate(sequences):
@@ -77,10 +97,11 @@ def tracks_of(
             known = [truth[n] for n in truth if frames.scenes[n] == frames.scenes[look]]
             wanted = frames.scenes[look], settings, context, 0.0, math.inf
             truth[look] = known[0] if known else reference_for(*wanted, samples=reference_samples)
-        for number, way in enumerate(ways):
-            tell(f"{name}, {frames.name}: {way.name}", (place + 0.8 + 0.2 * number / len(ways)) / 2)
-            seen = _seen(frames, truth, rays, settings, context, way, samples)
-            found.append(Track(name, frames.name, way.name, tuple(seen)))
+        for number, one in enumerate(all_played):
+            share = (place + 0.8 + 0.2 * number / len(all_played)) / 2
+            tell(f"{name}, {frames.name}: {one.name}", share)
+            seen = _seen(frames, truth, rays[one.settings], context, one, samples)
+            found.append(Track(name, frames.name, one.name, tuple(seen)))
     return found
 
 
@@ -95,21 +116,29 @@ def looks_of(frames: Frames) -> list[int]:
 def _seen(
     frames: Frames,
     truth: dict[int, Reference],
-    rays: float,
-    settings: Settings,
+    rays: Rays,
     context: Context,
-    way: Way,
+    one: Played,
     samples: int,
 ) -> Iterator[Seen]:
     first = 0 if frames.name == "orbit" else BEFORE
-    before = None
+    before, way = None, one.way
     more: list[float] = []
-    played = play(frames, settings, context, way, samples, more=more)
+    kept = one.hysteresis
+    played = play(frames, one.settings, context, way, samples, more=more, hysteresis=kept)
     for number, picture in enumerate(played):
         is_new = frames.scenes[number] != before
         before = frames.scenes[number]
         found = SURFACES if way.mode != "reset" and is_new else 0.0
         if number in truth:
             squared = truth[number].squared_error(picture)
-            own = rays * (1 + more[-1] / samples)
+            own = rays.sample * (samples + more[-1]) + _of_probes(rays, one, number, is_new, frames)
             yield Seen(1 + number - first, own + found, squared)
+
+
+def _of_probes(rays: Rays, one: Played, number: int, is_new: bool, frames: Frames) -> float:
+    """Rays from probes in a frame, for each pixel; live ones are placed anew as the eye moves."""
+    if one.hysteresis is None or not number:
+        return rays.set + rays.once if is_new else 0.0
+    looks = 1 + (PUSHED + 1) * (frames.name == "orbit")
+    return rays.set / UPDATES + rays.once * looks / (PUSHED + 1 + LOOKS)

@@ -25,11 +25,14 @@ def play(
     samples: int = 1,
     pipeline: Pipeline = "auto",
     more: list[float] | None = None,
+    hysteresis: float | None = None,
 ) -> Iterator[Picture]:
     """What is on the screen at the end of each frame, of `samples` samples of each pixel.
 
     Frame n takes its random numbers from seed `settings.seed` + n, so that the noise of one is not
-    that of another. `more` gets the samples of a pixel that each frame takes beside the film.
+    that of another. `more` gets the samples of a pixel that each frame takes beside the film. With
+    a hysteresis probes go on from frame to frame, and each frame begins anew, whether or not
+    something moves.
     """
     first = sequence.scenes[0]
     renderer = Renderer(first, settings, context, pipeline=pipeline)
@@ -37,9 +40,9 @@ def play(
     last: Scene | None = None
     try:
         for number, scene in enumerate(sequence.scenes):
-            if scene != renderer.scene:
+            if scene != renderer.scene or (number and hysteresis is not None):
                 temporal.leave(renderer)
-                renderer.update(scene, seed=settings.seed + number)
+                renderer.update(scene, hysteresis=hysteresis, seed=settings.seed + number)
                 temporal.arrive(renderer)
             renderer.render(renderer.samples + samples)
             before = temporal.more_samples if scene == last else 0.0

@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - glass: refraction and caustics
 - particles: a caustic of a lamp of any size
 - probes: light through thin walls, rooms that hardly absorb
+- live_probes: light after a step, rooms of any size
 - reuse: points of other pixels, where slats stand between
 - denoising: the bias of a filter, what is thin, and fireflies
 - moving: history while the camera moves

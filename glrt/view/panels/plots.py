@@ -84,6 +84,8 @@ def _unknown(session: Session) -> str:
     """Why there is no error, and when there is."""
     if session.moving.is_shown(session.renderer, session.settings.samples):
         return "unknown while history of earlier views is shown"
+    if session.is_passing and not session.is_preview:
+        return "unknown while probes are live"
     if session.samples >= session.known_from and not session.is_preview:
         return "unknown until the picture is read"
     more = f": raise samples to {session.known_from}"

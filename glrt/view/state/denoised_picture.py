@@ -49,7 +49,7 @@ class DenoisedPicture:
     def stop(self, session: Session) -> int | None:
         """How many samples the picture is to have when it is kept next; None: it need not be."""
         renderer = session.renderer
-        if not renderer or session.is_preview:
+        if not renderer or session.is_passing:
             return None
         settings, samples = self._filtered(renderer.settings), renderer.samples
         if self._halver.wants(settings, samples, NO_END):
@@ -65,14 +65,14 @@ class DenoisedPicture:
         if self._task and self._task.done():
             self.found, self._task = self._task.result(), None
         renderer = session.renderer
-        if not renderer or session.is_preview or session.is_behind:
+        if not renderer or session.is_passing or session.is_behind:
             return
         if not renderer.lacks(renderer.samples):  # guides lag behind where they begin late
             self._take(renderer, session.weights, session.is_done)
 
     def fits(self, session: Session) -> bool:
         """Whether there is something to show, of the picture that is rendered now."""
-        return bool(self.found and self.found.denoising) and not session.is_preview
+        return bool(self.found and self.found.denoising) and not session.is_passing
 
     @contextmanager
     def texture(self, gl: moderngl.Context) -> Iterator[moderngl.Texture]:
@@ -108,7 +108,7 @@ class DenoisedPicture:
     def told(self, session: Session) -> str:
         """What is shown, or why it is not."""
         renderer = session.renderer
-        if not renderer or session.is_preview:
+        if not renderer or session.is_passing:
             return ""
         name = self._filtered(renderer.settings).denoise
         work = f"denoising {counted(self._tried, 'sample')} by {name}" if self._task else ""

@@ -71,7 +71,7 @@ class Progress:
             return None
         self.begin(session.restarts, session.weights)
         has_history = session.moving.is_shown(renderer, session.settings.samples)
-        if session.is_preview or has_history or session.samples < session.known_from:
+        if session.is_passing or has_history or session.samples < session.known_from:
             return None  # of fewer samples no error is known, and reading them takes time
         if not self.is_due(session.samples, now, session.is_done):
             return None

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from glrt.methods.table import METHODS
+from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.settings import Settings
 
 When = Literal["off", "moving", "always"]
-HYSTERESIS = 0.97  # half of a step of light is in them after 22.8 updates
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,13 @@ from pydantic import Field, ValidationError, field_validator
 from glrt.errors import RenderError
 from glrt.files import reason, write_text
 from glrt.rendering.ataa import CHOICES, SAMPLES
+from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.rendering.temporal import Mode as Temporal
 from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Editable, Frozen
 from glrt.view.state import keys
 from glrt.view.state.keys import DEFAULTS, Bindings
-from glrt.view.state.live_probes import HYSTERESIS, When
+from glrt.view.state.live_probes import When
 
 Mode = Literal["orbit", "fly"]
 Theme = Literal["dark", "light"]

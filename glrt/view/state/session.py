@@ -97,6 +97,12 @@ class Session(Editing):
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
 
     @property
+    def is_passing(self) -> bool:
+        """Whether the picture does not last: at less than full size, or by live probes."""
+        is_live = self.renderer is not None and self.renderer.probes.hysteresis is not None
+        return self.is_preview or is_live
+
+    @property
     def is_shown(self) -> bool:
         """Whether there is something to show; of a preview, all that is wanted of it."""
         if not self.renderer or not self.samples:

@@ -173,7 +173,7 @@ class PictureView:
             return ""
         if not kept:
             return "Keep a picture to show the difference from it"
-        if not kept.fits(renderer) and not session.is_preview:
+        if not kept.fits(renderer) and not session.is_passing:
             return "The kept picture has another size"
         if kept.busy:
             return kept.busy
@@ -196,7 +196,7 @@ class PictureView:
     def _compared(self, session: Session) -> ReferenceImage | None:
         """The kept picture if its difference is to be shown, and can be."""
         kept, renderer = self.kept, session.renderer
-        if self.view != "difference" or not kept or not renderer or session.is_preview:
+        if self.view != "difference" or not kept or not renderer or session.is_passing:
             return None
         return kept if kept.fits(renderer) else None
 
@@ -215,7 +215,7 @@ class PictureView:
             wanted = session.settings.samples
             tells = session.moving.tells(session.renderer, wanted, number)
             return self.view if tells else "picture"
-        if session.is_preview or (self.view == "error" and not self._knows_error(session)):
+        if session.is_passing or (self.view == "error" and not self._knows_error(session)):
             return "picture"
         return "picture" if self.view == "difference" and not self._compared(session) else self.view
 
