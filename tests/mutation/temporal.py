@@ -118,8 +118,8 @@ TEMPORAL = [
         (
             Edit(
                 "glrt/view/state/error_history.py",
-                "session.is_preview or has_history or",
-                "session.is_preview or",
+                "session.is_passing or has_history or",
+                "session.is_passing or",
             ),
         ),
         "view/test_moving_picture.py::test_no_error_is_told_while_history_is_shown",
