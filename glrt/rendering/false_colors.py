@@ -1,4 +1,4 @@
-"""A number of each pixel as a colour: its error, dropped samples, difference from another, others.
+"""A number of each pixel as a colour: errors, dropped samples, differences, history, distances.
 
 The error of a pixel is its share in that of the picture: the mean over pixels of its square is the
 square of `glrt.error.estimate.relative_error`.

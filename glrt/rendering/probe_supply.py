@@ -52,7 +52,7 @@ class ProbeSupply:
 
     def check(self) -> None:
         """UsageError if the picture cannot be rendered again."""
-        if self.hysteresis is not None:
+        if self.tracer and self.hysteresis is not None:
             raise UsageError(
                 "Probes are live: the picture hangs on those before it, and cannot be rendered "
                 "again. Let the probes rest first."

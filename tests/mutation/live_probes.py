@@ -44,7 +44,7 @@ LIVE_PROBES = [
         (
             Edit(
                 SUPPLY,
-                "if self.hysteresis is not None:\n            raise",
+                "if self.tracer and self.hysteresis is not None:\n            raise",
                 "if False:\n            raise",
             ),
         ),

@@ -95,8 +95,9 @@ def test_what_rests_has_the_bits_of_a_picture_of_its_own(context: Context) -> No
 def test_a_picture_begins_with_probes_of_its_own(context: Context) -> None:
     """Whatever those of the picture before hold, and wherever they stood."""
     way = {name: value for name, value in WAY.items() if name != "probes"}
+    places: list[list[float]] = [[1, 1, 1], [-1, -1, 0.6]]
     found = []
-    for place in ([1, 1, 1], [-1, -1, 0.6]):
+    for place in places:
         with rendering(ball_at(place), context, **way) as renderer:
             renderer.render(1)
             renderer.update(ball_at([1, -1, 0]))
@@ -181,3 +182,4 @@ def test_live_probes_leave_methods_without_any_alone(context: Context) -> None:
         renderer.update(dimmed(scene), hysteresis=KEPT)
         assert renderer.probes.lag == 0.0
         assert not renderer.probes.resources
+        assert renderer.render(1).image().samples == 1
