@@ -87,6 +87,17 @@ def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
     }
 
 
+def screen_axes(camera: Camera, aspect: float) -> dict[str, tuple[float, ...]]:
+    """The camera as passes over a picture name it, (3,) each.
+
+    `right` and `up` are half the width and height of the full frame at distance 1, `forward` unit.
+    """
+    view: dict[str, Any] = pack_camera(camera, aspect)
+    right, up = view["right"] * view["tan_x"], view["up"] * view["tan_y"]
+    axes = {"right": right, "up": up, "forward": view["forward"]}
+    return {name: tuple(axis.tolist()) for name, axis in axes.items()}
+
+
 def pack_frame(
     scene: Scene,
     settings: Settings,

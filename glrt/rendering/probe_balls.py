@@ -1,7 +1,5 @@
 """Probes as balls over a picture, so that it is seen what each holds, and where light leaks."""
 
-from typing import Any
-
 import moderngl
 import numpy as np
 
@@ -9,7 +7,7 @@ from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 from glrt.methods.probe_grid import Grid
-from glrt.rendering.pack import pack_camera
+from glrt.rendering.pack import screen_axes
 from glrt.rendering.pack_probes import probe_fields
 from glrt.rendering.probe_tracer import ProbeTracer
 from glrt.scene.camera import Camera
@@ -48,21 +46,15 @@ class ProbeBalls:
         """
         program = self._program or self._compile()
         width, height = light.size
-        view: dict[str, Any] = pack_camera(camera, width / height)
-        values = {
-            "right": np.multiply(view["right"], view["tan_x"]),
-            "up": np.multiply(view["up"], view["tan_y"]),
-            "forward": view["forward"],
-        }
-        fields = probe_fields(probes.grid, camera)
-        for name in ("probe_first", "probe_cell", "probe_counts"):
-            values[f"frame.{name}"] = np.asarray(fields[name])
         textures = {"light": light, "depth": depth, **probes.maps}
         for unit, (name, texture) in enumerate(textures.items()):
             texture.use(unit)
             program[name] = unit
-        for name, value in values.items():
-            program[name] = tuple(value.tolist())
+        for name, axis in screen_axes(camera, width / height).items():
+            program[name] = axis
+        fields = probe_fields(probes.grid, camera)
+        for name in ("probe_first", "probe_cell", "probe_counts"):
+            program[f"frame.{name}"] = tuple(np.asarray(fields[name]).tolist())
         program["radius"] = RADIUS * float(probes.grid.cell.min())
         squares = self._squares_of(probes.grid, camera, program)
         with self._gl.scope(self._canvas.sized(light.size), moderngl.NOTHING):

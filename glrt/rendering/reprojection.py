@@ -11,7 +11,7 @@ import numpy as np
 
 from glrt.gpu.canvas import Canvas
 from glrt.rendering.drawn_pass import DrawnPass
-from glrt.rendering.pack import pack_camera
+from glrt.rendering.pack import screen_axes
 from glrt.rendering.surfaces import Surfaces
 from glrt.scene.scene import Scene
 
@@ -38,7 +38,7 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
     assert before.scene
     assert before.settings
     settings = before.settings
-    camera: dict[str, Any] = pack_camera(before.scene.camera, settings.width / settings.height)
+    axes = screen_axes(before.scene.camera, settings.width / settings.height)
     shift = np.subtract(now.scene.camera.position, before.scene.camera.position, dtype=np.float64)
     textures = {
         "position": now.position,
@@ -48,9 +48,7 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
     }
     values = {
         "eye_shift": shift,
-        "before_right": np.multiply(camera["right"], camera["tan_x"]),
-        "before_up": np.multiply(camera["up"], camera["tan_y"]),
-        "before_forward": np.asarray(camera["forward"]),
+        **{f"before_{name}": np.asarray(axis) for name, axis in axes.items()},
         "before_frame": np.array([settings.width, settings.height]),
         "before_origin": np.array(settings.crop[:2] if settings.crop else (0, 0)),
     }

@@ -3,14 +3,11 @@
 It has no noise to speak of, where a few samples of the light of a scene are nothing else.
 """
 
-from typing import Any
-
 import moderngl
-import numpy as np
 
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
-from glrt.rendering.pack import pack_camera
+from glrt.rendering.pack import screen_axes
 from glrt.scene.camera import Camera
 from glrt.settings import Aov
 
@@ -30,17 +27,11 @@ class SurfaceView:
         """The means of both AOVs, as sRGB; what meets nothing is grey."""
         program = self._program or self._compile()
         width, height = albedo.size
-        view: dict[str, Any] = pack_camera(camera, width / height)
-        values = {
-            "right": np.multiply(view["right"], view["tan_x"]),
-            "up": np.multiply(view["up"], view["tan_y"]),
-            "forward": view["forward"],
-        }
         for number, (name, mean) in enumerate((("albedo", albedo), ("normal", normal))):
             mean.use(number)
             program[name] = number
-        for name, value in values.items():
-            program[name] = tuple(np.asarray(value).tolist())
+        for name, value in screen_axes(camera, width / height).items():
+            program[name] = value
         self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:

@@ -272,7 +272,8 @@ class PictureView:
     def _draw_probes(self, session: Session, renderer: Renderer, light: moderngl.Texture) -> None:
         """The picture with probes as balls, or their distances."""
         probes, depth = renderer.probes.tracer, renderer.aov_mean("depth")
-        assert probes and depth  # noqa: PT018
+        assert probes
+        assert depth
         self._farthest = farthest(probes.grid)
         balls = self.balls.draw(light, depth, probes, renderer.scene.camera)
         if self.view == "probes":
