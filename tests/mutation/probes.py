@@ -87,6 +87,15 @@ PROBES = [
         f"{TRUTHS}::test_as_many_bounces_as_probes_bring_one_of_are_exact_in_a_closed_room",
     ),
     Mutant(
+        "of two probes the far one counts more",
+        edit(
+            "probes/query.glsl",
+            "corner[i] == 1 ? beyond[i] : 1.0 - beyond[i]",
+            "corner[i] == 0 ? beyond[i] : 1.0 - beyond[i]",
+        ),
+        "truths/test_probe_fields.py::test_light_of_probes_is_a_mean_without_edges_at_cells",
+    ),
+    Mutant(
         "probes light what they do not see",
         edit(
             "probes/query.glsl",

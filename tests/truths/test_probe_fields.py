@@ -100,8 +100,7 @@ def test_light_of_probes_is_a_mean_without_edges_at_cells(context: Context, tilt
         {"position": [0.1, 0.6, 0.05], "look_at": [0, -0.4, 0], "fov": 60},
         probes={"min": [-1, -1, -1], "max": [1, 1, 1], "counts": [4, 4, 4]},
     )
-    way = {name: value for name, value in WAY.items() if name != "probes"}
-    size = 128
+    way, size = {**WAY, "probes": 4}, 128
     with probes_of(floor, context, width=size, height=size, **way, bounces=2) as found:
         renderer, tracer = found
         renderer.probes.work_on(0)
