@@ -7,6 +7,8 @@ from imgui_bundle import imgui
 
 from glrt.image.tonemap import expose_and_encode
 from glrt.view.panels.inspector import told_pixel
+from tests.window.check_layout import resized
+from tests.window.check_newcomer import SMALLEST
 from tests.window.gestures import press
 from tests.window.hand import SMALL, Hand, check
 
@@ -130,3 +132,28 @@ def what_lies_below_the_histogram_stays_while_there_is_none(hand: Hand) -> None:
     assert app.progress.last is None
     assert ctx.item_info("//Controls/Paths of a pixel").rect_full.min.y == below
     ctx.item_close("//Controls/Inspect")
+
+
+@check
+def rows_below_the_histogram_stay_while_it_is_scrolled_out(hand: Hand) -> None:
+    app, ctx = hand.window.app, hand.ctx
+    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    resized(hand, SMALLEST)
+    ctx.item_open("//Controls/Inspect")
+    hand.until(lambda: app.progress.last is not None)
+    seen = set()
+    for y in range(0, 1000, 200):
+        hand.there(partial(scroll, float(y)))
+        ctx.yield_(3)
+        seen.add(hand.there(height_of_rows))
+    ctx.item_close("//Controls/Inspect")
+    resized(hand, (usual[0], usual[1]))
+    assert len(seen) == 1, seen
+
+
+def scroll(y: float) -> None:
+    imgui.internal.set_scroll_y(imgui.internal.find_window_by_name("Controls"), y)
+
+
+def height_of_rows() -> float:
+    return float(imgui.internal.find_window_by_name("Controls").content_size.y)

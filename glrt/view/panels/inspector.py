@@ -53,15 +53,14 @@ def _histogram(shown: Histogram, exposure: float) -> None:
     stops = shown.stops + exposure
     size = ImVec2(-1, hello_imgui.em_size(HEIGHT))
     flags = implot.Flags_.no_menus | implot.Flags_.no_legend | implot.Flags_.no_mouse_text
-    if not implot.begin_plot("##histogram", size, int(flags)):
-        return
-    no_ticks = implot.AxisFlags_.no_tick_labels.value
-    implot.setup_axes("EV from white", "pixels", 0, no_ticks)
-    high = float(shown.shares.max()) or 1.0
-    implot.setup_axes_limits(-10, 6, 0, 1.1 * high, implot.Cond_.always.value)
-    implot.plot_bars("pixels", stops, shown.shares, float(stops[1] - stops[0]))
-    implot.plot_inf_lines("white", _ZERO)
-    implot.end_plot()
+    if implot.begin_plot("##histogram", size, int(flags)):  # False where it is scrolled out
+        no_ticks = implot.AxisFlags_.no_tick_labels.value
+        implot.setup_axes("EV from white", "pixels", 0, no_ticks)
+        high = float(shown.shares.max()) or 1.0
+        implot.setup_axes_limits(-10, 6, 0, 1.1 * high, implot.Cond_.always.value)
+        implot.plot_bars("pixels", stops, shown.shares, float(stops[1] - stops[0]))
+        implot.plot_inf_lines("white", _ZERO)
+        implot.end_plot()
     imgui.text_disabled(
         f"{100 * shown.above(exposure):.2g} % brighter than white, {100 * shown.black:.2g} % black"
     )
