@@ -104,17 +104,17 @@ class Settings(RenderSettings):
     )
     caustics: Annotated[Caustics, Editable(Cost.RECOMPILE)] = Field(
         "off",
-        description="on: particles from lamps and the sun, too, linked to the camera at matte "
-        "surfaces and weighted with the paths from the camera: less noise where light comes "
-        "through glass or by mirrors",
+        description="on: particles from lamps and the sun, too, linked to the camera at "
+        "surfaces that are not smooth and weighted with the paths from the camera: less noise "
+        "where light comes through glass or by metal",
     )
     particles: Annotated[float, Editable(Cost.RESTART, "", (0.02, 2))] = Field(
         0.25, description="particles from lamps for each sample of a pixel", ge=0.01, le=16
     )
     aimed: Annotated[float, Editable(Cost.RESTART, "", (0, 0.98))] = Field(
         0.5,
-        description="the share of the particles that is aimed at spheres of smooth glass or metal, "
-        "and at balls around boxes, cylinders and meshes of these",
+        description="the share of the particles that is aimed at spheres of glass, or of metal "
+        "whose roughness is at most 0.4, and at balls around boxes, cylinders and meshes of these",
         ge=0,
         le=0.98,
     )

@@ -58,7 +58,7 @@ def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
 
 
 def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Variants with particles, where there is smooth glass or metal to aim them at.
+    """Variants with particles, where there is glass or metal to aim them at.
 
     And with links, where there are spheres to link them through.
     """

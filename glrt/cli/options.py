@@ -15,8 +15,7 @@ AUTO = "auto"  # as --method or --caustics: chosen by a measurement
 _AUTO = {  # what it chooses
     "method": "the cheapest that reaches --error, measured first for some seconds, or for half of "
     "--time",
-    "caustics": "as a short pilot finds it cheaper, for long renders of scenes with smooth glass "
-    "or metal",
+    "caustics": "as a short pilot finds it cheaper, for long renders of scenes with glass or metal",
 }
 _LEFT_OPEN = ("caustics",)  # those that are AUTO unless they are given
 SCENE = (

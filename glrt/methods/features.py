@@ -86,8 +86,8 @@ class Needs:
     weight_both: bool
     quads_by_area: bool  # points on lamps even in area, not in solid angle
     has_particles: bool  # from lamps, linked to the camera
-    casters: int  # smooth spheres at which some of them are aimed: a bit for each
-    targets: int  # balls around other smooth shapes at which some of them are aimed
+    casters: int  # spheres at which some of them are aimed: a bit for each
+    targets: int  # balls around other shapes at which some of them are aimed
     linked: int  # smooth spheres through which some of them are linked: a bit for each
     has_probes: bool  # indirect light from a grid of them
     final_gather: bool  # over one more matte surface, to which paths are traced

@@ -21,6 +21,7 @@ from glrt.settings import Settings
 BITS = 31  # of a number in the shaders that stand for spheres
 TOUCHING = 1e-6  # of a radius: what reaches no deeper into a sphere touches it
 MOST_TARGETS = 8  # balls around other shapes, at which particles are aimed
+ROUGHEST = 0.16  # alpha of metal that makes caustics; of roughness 0.4
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 
@@ -73,14 +74,14 @@ def sky_sends_particles(scene: Scene) -> bool:
 
 
 def targets_of(scene: Scene) -> list[Ball]:
-    """Balls around boxes, cylinders and meshes of smooth glass or metal: particles are aimed there.
+    """Balls around boxes, cylinders and meshes that make caustics: particles are aimed there.
 
     The largest come first; one within another is left out, as are those beyond MOST_TARGETS.
     """
     solids = (thing for thing in scene.visible if isinstance(thing, Box | Cylinder | Mesh))
-    smooth = (thing for thing in solids if is_smooth(scene.materials[thing.material]))
+    casters = (thing for thing in solids if makes_caustics(scene.materials[thing.material]))
     found: list[Ball] = []
-    for ball in sorted(map(_ball, smooth), key=lambda ball: -ball.radius):
+    for ball in sorted(map(_ball, casters), key=lambda ball: -ball.radius):
         if len(found) < MOST_TARGETS and not any(other.holds(ball) for other in found):
             found.append(ball)
     return found
@@ -103,21 +104,22 @@ def _ball(thing: Object) -> Ball:
 
 
 def caster_bits(scene: Scene) -> int:
-    """The spheres of smooth glass or metal, at which particles can be aimed: a bit for each.
+    """The spheres that make caustics, at which particles can be aimed: a bit for each.
 
     By its number among the spheres. Those beyond bit 30 are left out, and all where there are so
     many that rays find them by a tree.
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     known = [] if contents_of(scene).has_sphere_tree else spheres[:BITS]
-    return sum(1 << n for n, it in enumerate(known) if is_smooth(scene.materials[it.material]))
+    return sum(1 << n for n, it in enumerate(known) if makes_caustics(scene.materials[it.material]))
 
 
 def link_bits(scene: Scene) -> int:
     """The spheres through which particles can be linked to the camera: a bit for each.
 
-    Of those that particles are aimed at, but not of thin glass, of glass with a priority, of glass
-    that lies in denser one, of glass in part, and of those within which something lies.
+    Of those that particles are aimed at, but smooth ones alone, and not of thin glass, of glass
+    with a priority, of glass that lies in denser one, of glass in part, and of those within which
+    something lies.
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
     bits = caster_bits(scene)
@@ -128,8 +130,9 @@ def link_bits(scene: Scene) -> int:
 def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
     material = scene.materials[sphere.material]
     if not isinstance(material, Dielectric):
-        return isinstance(material, Metal)
-    return not material.thin and material.ior >= 1 and material.priority is None
+        return isinstance(material, Metal) and material.alpha == 0
+    is_plain = not material.thin and material.priority is None
+    return is_plain and material.ior >= 1 and material.alpha == 0
 
 
 def _is_empty(scene: Scene, sphere: Sphere) -> bool:
@@ -156,13 +159,14 @@ def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
     return np.asarray(np.linalg.norm(point - np.clip(point, *kind.bounds(rows)), axis=1))
 
 
-def is_smooth(material: Material) -> bool:
-    """Whether light passes it, or comes by it, in one direction alone; or does so in part."""
+def makes_caustics(material: Material) -> bool:
+    """Whether light comes by it in few directions: by glass, or by metal that is not too rough."""
     if isinstance(material, Principled):
-        return material.glass is not None and is_smooth(material.glass)
-    if isinstance(material, Dielectric):
-        return material.thin or material.alpha == 0
-    return isinstance(material, Metal) and material.alpha == 0
+        is_metal = material.metallic > 0.5 and 0 < material.facet_alpha <= ROUGHEST
+        return material.glass is not None or is_metal
+    if isinstance(material, Metal):
+        return material.alpha <= ROUGHEST
+    return isinstance(material, Dielectric)
 
 
 def refusal(scene: Scene, settings: Settings) -> str | None:

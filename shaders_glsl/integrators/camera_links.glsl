@@ -1,4 +1,4 @@
-// Links of particles to the camera, from a matte vertex: straight, or through one sphere. What they bring is handed
+// Links of particles to the camera, from a vertex that is not smooth: straight, or through one sphere. What they bring is handed
 // to `splat`.
 
 // The layer of the film that takes what reaches the camera after so many scattering events.
@@ -34,30 +34,38 @@ Eye sample_eye(precise inout Sampler rng) {
 }
 
 // Of a particle that is linked by a way with the density `rho`, P0 over what particles have; `turn`: that of this
-// vertex, as turn_towards has it, above 0.
+// vertex, as turn_of_link has it, above 0.
 float weight_of_link(Particle self, float rho, float turn) {
-    if (!HAS_SHADING) return particle_weight(rho, self.kappa);
+    if (!(HAS_SHADING || HAS_GLOSSY)) return particle_weight(rho, self.kappa);
     precise float kappa = self.path.depth == 0 ? self.kappa / turn : self.kappa;
     precise float turned = rho * self.turn * turn;
     return particle_weight(turned, kappa);
 }
 
-// Brings the eye what a particle scatters straight to it; `ray` leaves the vertex.
-void link_straight(Particle self, Vertex vertex, Normals normals, Ray ray, Eye eye) {
+// Whether a link leaves a vertex this way, in its frame; the ray then leaves on that side.
+bool leaves_so(Vertex vertex, vec3 wi, inout Ray ray) {
+    bool crosses = wi.z < 0.0;
+    if (crosses) ray.inward = !ray.inward;
+    return wi.z > 0.0 || crosses && is_rough_glass(vertex.material);
+}
+
+// Brings the eye what a particle scatters straight to it; `ray` leaves the vertex. `behind`: what the other side
+// absorbs.
+void link_straight(Particle self, Vertex vertex, Normals normals, Ray ray, vec3 behind, Eye eye) {
     precise vec3 away = eye.position - ray.origin;
     precise float distance = length(away);
     ray.direction = away / distance;
     precise vec3 wi = to_local(vertex.frame, ray.direction);
-    if (wi.z <= 0.0 || dot(ray.direction, frame.camera.forward) >= 0.0) return;
+    if (!leaves_so(vertex, wi, ray) || dot(ray.direction, frame.camera.forward) >= 0.0) return;
     precise vec2 place = place_on_film(-ray.direction, eye.lens);
     if (!is_on_film(place)) return;
-    precise float turn = turn_towards(normals, -self.path.ray.direction, ray.direction, false);
-    if (turn == 0.0) return;
-    precise float pdf = pdf_film(-ray.direction, wi.z, distance);
-    precise float weight = weight_of_link(self, pdf / (frame.particles * self.emission), turn);
-    precise vec3 flux = self.power * self.path.throughput * turn;
-    if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance);
-    precise vec3 value = flux * (vertex.material.color / PI) * (pdf * weight);
+    precise Turn turn = turn_of_link(vertex, normals, -self.path.ray.direction, ray.direction);
+    if (turn.turn == 0.0) return;
+    precise float pdf = pdf_film(-ray.direction, abs(wi.z), distance);
+    precise float weight = weight_of_link(self, pdf / (frame.particles * self.emission), turn.turn);
+    precise vec3 flux = self.power * self.path.throughput;
+    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? behind : self.path.absorption, distance);
+    precise vec3 value = flux * turn.value * (pdf * weight);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
     record_link(frame.particles * self.emission, pdf, weight);
     splat(place, value, layer_of(self, self.path.depth + 1));
@@ -85,7 +93,8 @@ Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
 }
 
 // Brings the eye what a particle scatters to it through one sphere, by one way that is drawn.
-void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray, Eye eye, precise inout Sampler rng) {
+void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray, vec3 behind, Eye eye,
+                         precise inout Sampler rng) {
     precise vec2 pick = next_2d(rng);
     precise float by_branch = next_1d(rng);
     int count = bitCount(LINKED);
@@ -105,29 +114,32 @@ void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray,
     ray.direction = away / distance;
     precise vec3 wi = to_local(vertex.frame, ray.direction);
     precise vec2 place = place_on_film(way.direction, eye.lens);
-    if (wi.z <= 0.0 || dot(way.direction, frame.camera.forward) <= 0.0 || !is_on_film(place)) return;
-    precise float rho = pdf_of_way(pdf_camera(way.direction), material, arc, at, wi.z) / linked_this_way(material, arc, at);
+    bool is_seen = dot(way.direction, frame.camera.forward) > 0.0 && is_on_film(place);
+    if (!leaves_so(vertex, wi, ray) || !is_seen) return;
+    precise float film = pdf_camera(way.direction);
+    precise float rho = pdf_of_way(film, material, arc, at, abs(wi.z)) / linked_this_way(material, arc, at);
     if (rho == 0.0) return;  // no link: beside a kappa that is infinite it would have no weight
-    precise float turn = turn_towards(normals, -self.path.ray.direction, ray.direction, false);
-    if (turn == 0.0) return;
-    precise float weight = weight_of_link(self, rho / self.emission, turn);
+    precise Turn turn = turn_of_link(vertex, normals, -self.path.ray.direction, ray.direction);
+    if (turn.turn == 0.0) return;
+    precise float weight = weight_of_link(self, rho / self.emission, turn.turn);
     precise vec3 back = eye.position - way.near;
     precise float reach = length(back);
-    precise vec3 flux = self.power * self.path.throughput * turn * tint_of(material, arc, at);
-    if (HAS_ATTENUATION) flux *= share_left(self.path.absorption, distance + reach);
-    precise vec3 value = flux * (vertex.material.color / PI) * (frame.particles * rho * weight);
+    precise vec3 flux = self.power * self.path.throughput * tint_of(material, arc, at);
+    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? behind : self.path.absorption, distance + reach);
+    precise vec3 value = flux * turn.value * (frame.particles * rho * weight);
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
     if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
     record_link(self.emission, rho, weight);
     splat(place, value, layer_of(self, self.path.depth + 2 + chords));
 }
 
-// Brings the camera what a particle scatters to it at a matte vertex; `ray` leaves there. `by_spheres`: through one
-// of them, too.
-void link_to_camera(Particle self, Vertex vertex, Normals normals, Ray ray, bool by_spheres, precise inout Sampler rng) {
+// Brings the camera what a particle scatters to it at a vertex that is not smooth; `ray` and `behind` as above.
+// `by_spheres`: through one of them, too.
+void link_to_camera(Particle self, Vertex vertex, Normals normals, Ray ray, vec3 behind, bool by_spheres,
+                    precise inout Sampler rng) {
     precise Eye eye = sample_eye(rng);
-    link_straight(self, vertex, normals, ray, eye);
+    link_straight(self, vertex, normals, ray, behind, eye);
     // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
     int tries = LINKED != 0 && by_spheres ? 1 : 0;
-    for (int i = 0; i < tries; ++i) link_through_sphere(self, vertex, normals, ray, eye, rng);
+    for (int i = 0; i < tries; ++i) link_through_sphere(self, vertex, normals, ray, behind, eye, rng);
 }

@@ -2,19 +2,15 @@
 // particle from a lamp that is linked to the camera. The power heuristic weighs them (Veach 1997, section 9.2), by
 // densities of whole paths: P0 of scattering, P1 of sampling, PL of particles.
 //
-// Matte surfaces and chains of smooth ones scatter as likely one way as the other, per projected solid angle. So
-// between the lamp and the first surface that the camera sees, P0 and PL agree, and one number a path says it all:
+// Matte surfaces and smooth ones scatter as likely one way as the other, per projected solid angle. So between the lamp
+// and the first surface that the camera sees, P0 and PL agree there, and one number a path says it all:
 //     P0 / PL = rho / pdf_emission,   rho = pdf_film / frame.particles
 //     P1 / P0 = kappa: of the density of sampling the lamp, over that of scattering to it, at the last vertex; 0
 //               where that is smooth
-// Where normals for shading break this, the ratios at the vertices that the path scatters at come in as well: in the
-// rho of a path from the camera, and in the turn of a particle (integrators/shading_normals.glsl).
+// Where normals for shading or glossy surfaces break this, the ratios at the vertices that the path scatters at come in
+// as well: in the rho of a path from the camera, and in the turn of a particle (integrators/shading_normals.glsl,
+// glossy_turns.glsl).
 // Roulette is in neither, on both sides alike.
-
-// What particles scatter at; at other surfaces they end.
-bool carries_particles(Material material) {
-    return is_delta(material) || material.kind == MATTE;
-}
 
 // Density per solid angle of rays from the camera, over the whole frame, at their place on the lens.
 float pdf_camera(vec3 direction) {

@@ -1,8 +1,8 @@
-// Particles on their way, linked to the camera at every matte surface that they meet.
+// Particles on their way, linked to the camera at every surface that they meet and that is not smooth.
 
 const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs the same, however little it brings
 
-// P1 / P0 of a particle at the first vertex that it meets; `ray` leaves there, in any direction.
+// P1 / P0 of a particle at the first vertex that it meets, as if that were matte; `ray` leaves there, in any direction.
 float kappa_of(int light, Vertex vertex, Ray ray, vec3 towards, float distance) {
     ray.direction = towards;
     precise float sampled = 0.0;
@@ -22,9 +22,11 @@ bool goes_back(Scattering next, Normals normals, bool is_flat) {
     return crosses == next.crosses && is_flat_towards(normals, next.direction) == is_flat;
 }
 
-// At smooth glass or metal, in the one or two directions from which paths from the camera come to where the particle
-// comes from: some of these scatter around the true normal, which `vertex` has, some around the other one.
+// Glossy surfaces scatter particles as paths from the camera. So do smooth glass and metal, in the one or two directions
+// from which paths from the camera come to where the particle comes from: some of these scatter around the true normal,
+// which `vertex` has, some around the other one.
 Scattering scatter_particle(Vertex vertex, Normals normals, precise inout Sampler rng) {
+    if (is_glossy(vertex.material)) vertex = vertex_from(vertex, normals, vertex.frame * vertex.wo);
     precise Scattering flat_one = sample_material(vertex, rng);
     if (!HAS_SHADING || !is_delta(vertex.material) || normals.shading == normals.facing) return flat_one;
     if (!goes_back(flat_one, normals, true)) flat_one.weight = vec3(0.0);
@@ -42,12 +44,28 @@ Scattering scatter_particle(Vertex vertex, Normals normals, precise inout Sample
     return bent_one;
 }
 
-// What scattering from one direction to the other makes of its flux and of its weight.
-void turn_particle(precise inout Particle self, Normals normals, vec3 wo, bool is_smooth) {
-    precise float turn = turn_towards(normals, -self.path.ray.direction, wo, is_smooth);
-    self.path.throughput *= turn;
+// What scattering makes of its flux and of its weight.
+void turn_particle(precise inout Particle self, Vertex vertex, Normals normals, Scattering next) {
+    precise vec3 wi = -self.path.ray.direction;
+    precise vec3 share = next.weight;
+    precise float turn = 1.0;
+    precise float unlike_matte = 1.0;  // P0 over that of a matte surface, which kappa_of has
+    if (is_glossy(vertex.material)) {
+        precise Turn linked = turn_of_link(vertex, normals, wi, next.direction);
+        precise float leaving = dot(next.direction, normals.facing);
+        bool is_lost = next.pdf == 0.0 || HAS_SHADING && leaving < 0.0 != next.crosses;
+        precise float spread = is_lost ? 0.0 : abs(leaving) / next.pdf;
+        turn = linked.turn * spread / PI;
+        share = turn > 0.0 && turn < FAR ? linked.value * spread : vec3(0.0);
+        unlike_matte = linked.turn;
+    } else if (HAS_SHADING) {
+        turn = turn_towards(normals, wi, next.direction, is_delta(vertex.material));
+        share *= turn;
+        unlike_matte = turn;
+    }
+    self.path.throughput *= share;
     self.turn *= turn;
-    if (self.path.depth == 0 && turn > 0.0) self.kappa /= turn;
+    if (self.path.depth == 0 && turn > 0.0) self.kappa /= unlike_matte;
 }
 
 // Follows one segment; false when the particle ends with it. `by_spheres`: as link_to_camera has it.
@@ -71,20 +89,19 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     precise Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
     precise Normals normals = Normals(facing, facing);
     if (HAS_SHADING) normals.shading = side * (HAS_NORMAL_MAP ? bent_normal(self.path.ray, surface) : surface.normal);
-    if (!is_delta(material)) {
-        if (self.path.depth == 0) self.kappa = kappa_of(self.light, vertex, ray, -direction, hit.distance);
-        link_to_camera(self, vertex, normals, ray, by_spheres, rng);
-    }
     uint beyond = self.path.counts;
     if (is_medium(material)) {
         beyond = counts_beyond(self.path.counts, material.details, side > 0.0);
         vertex.eta = ior_of_medium(self.path.counts) / ior_of_medium(beyond);
     }
     precise vec3 behind = HAS_ATTENUATION ? absorption_behind(self.path, material, side > 0.0) : vec3(0.0);
+    if (!is_delta(material)) {
+        if (self.path.depth == 0) self.kappa = kappa_of(self.light, vertex, ray, -direction, hit.distance);
+        link_to_camera(self, vertex, normals, ray, behind, by_spheres, rng);
+    }
     precise Scattering next = scatter_particle(vertex, normals, rng);
     record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
-    self.path.throughput *= next.weight;
-    if (HAS_SHADING) turn_particle(self, normals, next.direction, is_delta(material));
+    turn_particle(self, vertex, normals, next);
     if (self.path.throughput == vec3(0.0)) return false;
     if (ROULETTE && ends_at_random(self.path.throughput, KEEP, rng)) return false;
     ray.direction = next.direction;

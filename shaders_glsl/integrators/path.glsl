@@ -126,32 +126,20 @@ float weight_of_emission(Path path, Hit hit, int light) {
     return emission_weight(path.start, met, light, path.pdf, path.lamps);
 }
 
-// Light of a sample, scattered at a vertex. `facing`: the true normal on the side of wo; `behind`: what the
-// other side absorbs; `source`: the object that shines, or FROM_BACKGROUND or FROM_SUN.
-void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, int source, vec3 facing, vec3 behind) {
-    precise float height = dot(light.ray.direction, facing);
+// Light of a sample, scattered at a vertex. `behind`: what the other side absorbs; `source`: the object that shines, or
+// FROM_BACKGROUND or FROM_SUN; `normals` and `is_linked` as in path_turn.
+void gather_sampled(precise inout Path path, Vertex vertex, LightSample light, int source, Normals normals, vec3 behind,
+                    bool is_linked) {
+    precise float height = dot(light.ray.direction, normals.facing);
     precise float along = dot(light.ray.direction, vertex.frame[2]);
     if (HAS_SHADING && height * along <= 0.0) light.pdf = 0.0;
     precise float rho = path.rho;
-    if (HAS_PARTICLES) rho *= turn_around(vertex.frame[2], facing, light.ray.direction, -path.ray.direction, false);
+    if (HAS_PARTICLES) rho *= path_turn(path, vertex, normals, light.ray.direction, is_linked);
     precise vec3 direct = path.scale * path.throughput * direct_light(vertex, light, rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? behind : path.absorption, light.distance);
     record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
     gather(path, direct, light.layer, path.depth + 1);
-}
-
-// What particles that are linked to the camera at the path's first vertex are weighed against: none are, or
-// come so far, at a surface that they do not scatter at. `facing`: the true normal on the side of wo.
-float rho_beyond(Path path, Vertex vertex, Surface surface, vec3 facing) {
-    if (!carries_particles(vertex.material)) return 0.0;
-    if (path.depth > 0 && (LINKED == 0 || path.chain.state == BROKEN)) return path.rho;
-    if (is_delta(vertex.material)) return 0.0;
-    precise float cosine = HAS_SHADING ? -dot(path.ray.direction, facing) : vertex.wo.z;
-    if (path.depth > 0) return rho_of_link(path.chain, surface.position, cosine);
-    precise float distance = length(surface.position - path.ray.origin);
-    precise float rho = pdf_film(path.ray.direction, cosine, distance) / frame.particles;
-    return rho;
 }
 
 // The share of the sky's light that scattering may count.
@@ -190,21 +178,22 @@ void gather_sun(precise inout Path path) {
 }
 
 // Direct light at a vertex, of a sample of each kind. `ray` leaves there, where all lamps have the weight `lamps`;
-// `facing` and `behind` as above; `resamples`: lamps are candidates of a reservoir.
-void gather_direct(precise inout Path path, Vertex vertex, Ray ray, float lamps, vec3 facing, vec3 behind, bool resamples,
-                   precise inout Sampler rng) {
+// `normals` and `behind` as above; `resamples`: lamps are candidates of a reservoir.
+void gather_direct(precise inout Path path, Vertex vertex, Ray ray, float lamps, Normals normals, vec3 behind,
+                   bool resamples, precise inout Sampler rng) {
+    bool is_linked = links_at(path, vertex);
     if (SAMPLE_LIGHTS) {
         precise LightSample light = sample_light(ray, lamps, rng);
-        if (RESAMPLES_LAMPS && resamples) offer_lamp(light, facing);
-        else gather_sampled(path, vertex, light, object_number(light.shape), facing, behind);
+        if (RESAMPLES_LAMPS && resamples) offer_lamp(light, normals.facing);
+        else gather_sampled(path, vertex, light, object_number(light.shape), normals, behind, is_linked);
     }
     if (SAMPLE_SKY) {
         precise LightSample light = sample_sky(ray, rng);
-        gather_sampled(path, vertex, light, FROM_BACKGROUND, facing, behind);
+        gather_sampled(path, vertex, light, FROM_BACKGROUND, normals, behind, is_linked);
     }
     if (SAMPLE_SUN) {
         precise LightSample light = sample_sun(ray, rng);
-        gather_sampled(path, vertex, light, FROM_SUN, facing, behind);
+        gather_sampled(path, vertex, light, FROM_SUN, normals, behind, is_linked);
     }
 }
 
@@ -216,7 +205,8 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     precise float side = dot(path.ray.direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
     facing *= side;
     precise vec3 shaded = HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal;
-    precise mat3 around = shading_frame(facing, side * shaded, path.ray.direction);
+    precise Normals normals = Normals(facing, side * shaded);
+    precise mat3 around = shading_frame(facing, normals.shading, path.ray.direction);
     precise Vertex vertex = vertex_of(around, to_local(around, -path.ray.direction), material, side > 0.0);
     precise Ray ray = Ray(surface.position, path.ray.direction, surface.shape, side < 0.0);
     if (!is_followed(material)) {
@@ -233,15 +223,14 @@ bool scatter_path(precise inout Path path, Surface surface, Material material, p
     if (HAS_PARTICLES) path.rho = rho_beyond(path, vertex, surface, facing);
     bool resamples = begins_resampling(path, material);
     if (resamples) begin_resampling(path, vertex, ray);
-    if (!is_delta(material)) gather_direct(path, vertex, ray, lamps, facing, behind, resamples, rng);
+    if (!is_delta(material)) gather_direct(path, vertex, ray, lamps, normals, behind, resamples, rng);
     if (HAS_PROBES) gather_from_probes(path, vertex, surface.position, rng);
     precise Scattering next = sample_material(vertex, rng);
     record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
+    bool is_linked = links_at(path, vertex);
     if (LINKED != 0) follow_chain(path.chain, surface.shape, vertex, next.crosses);
     if (HAS_SHADING && (dot(next.direction, facing) < 0.0) != next.crosses) return goes_on(END_BELOW_SURFACE);
-    if (HAS_PARTICLES) {
-        path.rho *= turn_around(vertex.frame[2], facing, next.direction, -path.ray.direction, is_delta(material));
-    }
+    if (HAS_PARTICLES) path.rho *= path_turn(path, vertex, normals, next.direction, is_linked);
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) return goes_on(END_ABSORBED);
     if (HAS_DIELECTRIC) path.scale *= next.scale;

@@ -1,7 +1,7 @@
 // Particles leave the lamps that are sampled, and the sun, where HAS_PARTICLES. A lamp is chosen by its share of the
 // flux, a point evenly over its area, a direction by the cosine; or, of a share `frame.aimed` of the particles,
-// a direction evenly over the cone that a ball fills: these make caustics. CASTERS: a bit for each sphere of smooth
-// glass or metal, by its number; TARGETS: how many balls there are around other such shapes.
+// a direction evenly over the cone that a ball fills: these make caustics. CASTERS: a bit for each sphere of glass, or of
+// metal that is not too rough, by its number; TARGETS: how many balls there are around other such shapes.
 //
 // From the sun, particles come along its rays, spread evenly over the disk that a ball fills across them: the ball
 // around the scene, or one that is aimed at. So they do from the sky, in directions that are drawn as those of its

@@ -11,6 +11,7 @@ from tests.mutation.denoising import DENOISING
 from tests.mutation.editor import EDITOR
 from tests.mutation.film import FILM
 from tests.mutation.glass import GLASS
+from tests.mutation.glossy_particles import GLOSSY_PARTICLES
 from tests.mutation.instances import INSTANCES
 from tests.mutation.judging import JUDGING
 from tests.mutation.lights import LIGHTS
@@ -39,6 +40,7 @@ MUTANTS = [
     *TRANSPORT,
     *PRINCIPLED,
     *PARTICLES,
+    *GLOSSY_PARTICLES,
     *PARTICLE_NORMALS,
     *PARTICLE_SKY,
     *SPHERE_LINKS,

@@ -5,6 +5,7 @@ from tests.mutation.mutant import Mutant, edit
 _NORMALS = "integrators/shading_normals.glsl"
 _PARTICLES = "integrators/particles.glsl"
 _LINKS = "integrators/camera_links.glsl"
+_TURNS = "integrators/glossy_turns.glsl"
 _PATH = "integrators/path.glsl"
 _OWN = "rendering/test_particle_normals.py"
 _MATTE = f"{_OWN}::test_a_matte_surface_takes_light_by_its_shading_normal"
@@ -15,12 +16,12 @@ _ROOM = f"{_OWN}::test_smooth_meshes_change_the_noise_alone"
 PARTICLE_NORMALS = [
     Mutant(
         "the adjoint correction of shading normals is missing in links",
-        edit(_LINKS, "self.path.throughput * turn;", "self.path.throughput;"),
+        edit(_TURNS, "turn * (vertex.material.color / PI)", "vertex.material.color / PI"),
         _MATTE,
     ),
     Mutant(
         "the adjoint correction of shading normals is missing where particles scatter",
-        edit(_PARTICLES, "    self.path.throughput *= turn;\n", ""),
+        edit(_PARTICLES, "        share *= turn;\n", ""),
         _MIRROR,
     ),
     Mutant(
@@ -30,7 +31,7 @@ PARTICLE_NORMALS = [
     ),
     Mutant(
         "paths from the camera are weighed without shading normals",
-        edit(_PATH, "path.rho *= turn_around(", "path.rho += 0.0 * turn_around("),
+        edit(_PATH, "path.rho *= path_turn(", "path.rho += 0.0 * path_turn("),
         _SHARES,
     ),
     Mutant(

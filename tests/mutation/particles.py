@@ -7,6 +7,7 @@ _WEIGHTS = "integrators/particle_weights.glsl"
 _PARTICLES = "integrators/particles.glsl"
 _LINKS = "integrators/camera_links.glsl"
 _PATH = "integrators/path.glsl"
+_BESIDE = "integrators/path_beside_particles.glsl"
 _SHADERS = "shaders/test_particles.py"
 _LAYERS = "rendering/test_particle_layers.py"
 _SOURCES = "shaders/test_particle_sources.py"
@@ -69,19 +70,23 @@ PARTICLES = [
     ),
     Mutant(
         "the camera leaves to particles what they do not scatter at",
-        edit(_PATH, "    if (!carries_particles(vertex.material)) return 0.0;\n", ""),
+        edit(_BESIDE, "    if (!carries_particles(vertex.material)) return 0.0;\n", ""),
         _LIGHT,
     ),
     Mutant(
         "the camera leaves to particles what it sees in a mirror",
-        edit(_PATH, "    if (is_delta(vertex.material)) return 0.0;\n", ""),
+        edit(
+            _BESIDE,
+            "return HAS_PARTICLES && is_first && !is_delta(vertex.material);",
+            "return HAS_PARTICLES && is_first;",
+        ),
         _LIGHT,
     ),
     Mutant(
         "the colour of the surface that is linked is missing",
         edit(
             _LINKS,
-            "flux * (vertex.material.color / PI) * (pdf * weight);",
+            "flux * turn.value * (pdf * weight);",
             "flux * (vec3(0.5) / PI) * (pdf * weight);",
         ),
         _LIGHT,

@@ -4,7 +4,7 @@ from tests.mutation.mutant import Mutant, edit
 
 _LINKS = "integrators/sphere_links.glsl"
 _CAMERA_LINKS = "integrators/camera_links.glsl"
-_PATH = "integrators/path.glsl"
+_BESIDE = "integrators/path_beside_particles.glsl"
 _SHADERS = "shaders/test_sphere_links.py"
 _PICTURES = "rendering/test_particle_links.py"
 _LIGHT = f"{_PICTURES}::test_links_change_the_noise_alone"
@@ -47,7 +47,7 @@ SPHERE_LINKS = [
     Mutant(
         "light seen through a sphere is counted by both sides",
         edit(
-            _PATH,
+            _BESIDE,
             "return rho_of_link(path.chain, surface.position, cosine);",
             "return 0.0;",
         ),

@@ -25,7 +25,7 @@ from tests.support.builders import (
 )
 from tests.support.images import same_bits
 from tests.support.meshes import icosphere, mesh
-from tests.support.particle_rooms import BALL, LAMP, MATERIALS, ROOMS, room
+from tests.support.particle_rooms import BALL, CAMERA, GOLD, LAMP, MATERIALS, ROOMS, room
 from tests.support.renders import assert_agree, rendered, rendering, same
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}
@@ -59,11 +59,18 @@ def in_the_dark() -> Scene:
     return scene_of(things, DARK, {**CLOSE, "position": [0.3, 0, 0.65]})
 
 
+def in_satin() -> Scene:
+    """Glass and a mirror, in which rough walls and a ball of gold are seen."""
+    balls = [sphere([0.4, -0.6, -0.2], 0.4, "glass"), sphere([-0.1, -0.75, 0.25], 0.25, "mirror")]
+    return scene_of([*box_of_quads("satin"), HANGING, GOLD, *balls], MATERIALS, CAMERA)
+
+
 PLACES = {
     "glass and a mirror in a closed room": CLOSED,
     "a lens": ROOMS["a lens"],
     "tinted glass behind a ball": behind_a_ball(),
     "a ball in the dark": in_the_dark(),
+    "glossy surfaces": in_satin(),
 }
 
 

@@ -3,6 +3,7 @@
 Flux arrives by the true normal, and light is scattered by the other one: particles carry the ratio.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -91,14 +92,21 @@ def test_the_ways_share_light_where_normals_differ(context: Context, place: str)
     assert_agree(image, without, within=0.03)
 
 
-def test_smooth_meshes_change_the_noise_alone(context: Context) -> None:
-    """Of 20 triangles each, so that both normals are far apart: matte, of glass, and a mirror."""
-    balls = {
-        "matte": ([-0.5, -0.6, -0.5], 0.4),
-        "glass": ([0.35, -0.6, -0.3], 0.35),
-        "mirror": ([-0.1, -0.75, 0], 0.2),
-    }
-    things = [mesh(icosphere(0), kind, translate=at, scale=r) for kind, (at, r) in balls.items()]
+BALLS = [([-0.5, -0.6, -0.5], 0.4), ([0.35, -0.6, -0.3], 0.35), ([-0.1, -0.75, 0], 0.2)]
+
+
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        ("matte", "glass", "mirror"),
+        pytest.param(("satin", "frosted", "gold"), marks=pytest.mark.slow),
+    ],
+    ids=", ".join,
+)
+def test_smooth_meshes_change_the_noise_alone(context: Context, kinds: Sequence[str]) -> None:
+    """Of 20 triangles each, so that both normals are far apart."""
+    balls = zip(kinds, BALLS, strict=True)
+    things = [mesh(icosphere(0), kind, translate=at, scale=r) for kind, (at, r) in balls]
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 6}
     without = rendered(room(LAMP, *things), context, 4096, seed=1, **size)
     image = rendered(room(LAMP, *things), context, 1024, **size, **{**ON, "aimed": 0.5})

@@ -26,7 +26,10 @@ from tests.support.particle_rooms import BALL, CAMERA, LAMP, MATERIALS, ROOMS
 from tests.support.renders import assert_agree, rendered, rendering, same
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
-SLOW = ("a disk", "a mesh that shines, one of glass", "the sun, a lamp and a drink", "a lens")
+SLOW = (
+    *("a disk", "a mesh that shines, one of glass", "the sun, a lamp and a drink", "a lens"),
+    *("a lamp in frosted glass", "the sun on glossy surfaces"),
+)
 
 
 @pytest.mark.parametrize(

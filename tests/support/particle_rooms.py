@@ -33,6 +33,22 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "ice": glass(1.31, priority=4),
     "dim": lamp(0.7),
     "plastic": {"type": "principled", "color": [0.2, 0.5, 0.8]},
+    "varnish": {
+        "type": "principled",
+        "color": [0.2, 0.5, 0.8],
+        "roughness": 0.6,
+        "clearcoat": 1.0,
+        "clearcoat_roughness": 0.0,
+    },
+    "satin": {
+        "type": "principled",
+        "color": [0.7, 0.6, 0.5],
+        "roughness": 0.4,
+        "clearcoat": 0.5,
+        "clearcoat_roughness": 0.5,
+    },
+    "matt glass": glass(roughness=0.3),
+    "frosted": glass(roughness=0.4, attenuation_color=[0.6, 0.8, 0.9], attenuation_distance=0.5),
     "jelly": {"type": "principled", "color": [0.9, 0.8, 0.7], "transmission": 0.8, "roughness": 0},
     "lamp": lamp(12.0),
     "spot": lamp(60.0, cone={"axis": [0.2, -1, 0], "inner": 20, "outer": 50}),
@@ -63,6 +79,8 @@ def outside(*things: dict[str, Any]) -> Scene:
     return scene_of([*ground, wall, *things], MATERIALS, CAMERA, sun=sun)
 
 
+GOLD = sphere([-0.45, -0.65, -0.3], 0.35, "gold")
+FROSTED = {**BALL, "material": "frosted"}
 ROOMS = {
     "a ball of glass": room(LAMP, BALL),
     "a round lamp and a mirror": room(
@@ -89,8 +107,12 @@ ROOMS = {
     "what particles end at": room(
         LAMP,
         BALL,
-        sphere([-0.5, -0.7, -0.2], 0.3, "gold"),
-        sphere([-0.1, -0.8, 0.2], 0.15, "plastic"),
+        sphere([-0.5, -0.7, -0.2], 0.3, "varnish"),
         quad([-0.6, -0.2, -0.6], [0.8, 0, 0], [0, 0, 0.8], "pane"),
     ),
+    "glossy surfaces": scene_of([*box_of_quads("satin"), LAMP, FROSTED, GOLD], MATERIALS, CAMERA),
+    "a lamp in frosted glass": room(
+        sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "matt glass"), GOLD
+    ),
+    "the sun on glossy surfaces": outside(FROSTED, GOLD),
 }

@@ -16,8 +16,8 @@ from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
 from glrt.methods.particles import (
-    is_smooth,
     link_bits,
+    makes_caustics,
     particles_a_sample,
     refusal,
     sky_sends_particles,
@@ -77,13 +77,13 @@ class Finding(NamedTuple):
 def may_gain(scene: Scene, settings: Settings) -> bool:
     """Whether a pilot is worth its work: of a long render, where particles can be followed.
 
-    And where light comes by smooth glass or metal, which is what they are for, but not from the
-    sky alone, which is seldom small enough to make caustics.
+    And where light comes by glass or by metal that is not too rough, which is what they are for,
+    but not from the sky alone, which is seldom small enough to make caustics.
     """
     names = {thing.material for thing in scene.visible}
     return (
         _pilot_of(settings, settings.samples) > 0
-        and any(is_smooth(scene.materials[name]) for name in names)
+        and any(makes_caustics(scene.materials[name]) for name in names)
         and not sky_sends_particles(scene)
         and refusal(scene, settings_for(settings, caustics="on")) is None
     )

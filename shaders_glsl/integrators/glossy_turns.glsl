@@ -1,0 +1,82 @@
+// Surfaces that are neither matte nor smooth, where densities differ from one way to the other. A path from the camera
+// that comes from wo takes light from wi by the value V(wo, wi), which has the cosine, and goes there with the density
+// p(wo, wi). A particle comes from wi and goes to wo as a path from the camera would, with the density p(wi, wo).
+// g is the true normal. What a particle carries on is the flux that arrives, which is spread by V, over its density:
+//     V(wo, wi) |wo . g| / (|wi . g| p(wi, wo))
+// and P0 over PL (integrators/particle_weights.glsl) is the same with p(wo, wi) in place of V. Where it is linked to the
+// camera, there is no p(wi, wo), and PI stands for that of matte surfaces, which rho has:
+//     V(wo, wi) / |wi . g|   and   PI p(wo, wi) / |wi . g|
+// Nothing here asks V to be the same both ways round; normals for shading are in V and p.
+
+const bool HAS_GLOSSY = HAS_ROUGH_METAL || HAS_ROUGH_GLASS || HAS_PRINCIPLED;
+
+bool is_glossy(Material material) { return HAS_GLOSSY && material.kind != MATTE && !is_delta(material); }
+
+// What particles scatter at: not at surfaces of which a smooth coat or smooth facets are a part.
+bool carries_particles(Material material) {
+    if (!(HAS_PRINCIPLED && material.kind == PRINCIPLED)) return true;
+    precise Gloss gloss = gloss_at(material.details);
+    bool is_smooth_coat = HAS_COAT && gloss.coat > 0.0 && gloss.coat_alpha == 0.0;
+    return material.alpha > 0.0 && !is_smooth_coat;
+}
+
+// On the side of w, of normals on either side.
+Normals normals_towards(Normals at, vec3 w) {
+    precise float side = dot(w, at.facing) < 0.0 ? -1.0 : 1.0;
+    return Normals(side * at.facing, side * at.shading);
+}
+
+// The same place for a path that comes from w; `at`: normals on the side of the vertex's wo.
+Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
+    bool crosses = dot(w, at.facing) < 0.0;
+    precise Normals there = normals_towards(at, w);
+    precise mat3 frame = shading_frame(there.facing, HAS_SHADING ? there.shading : there.facing, -w);
+    precise float eta = crosses ? 1.0 / vertex.eta : vertex.eta;
+    return Vertex(frame, to_local(frame, w), vertex.material, vertex.is_outside != crosses, eta);
+}
+
+// V and p of a direction in the world, 0 where a path does not go so; `facing`: on the side of wo.
+ColorLobe lobe_towards(Vertex vertex, vec3 facing, vec3 wi) {
+    precise vec3 local = to_local(vertex.frame, wi);
+    bool crosses = local.z < 0.0;
+    bool is_lost = crosses ? !is_rough_glass(vertex.material) : local.z == 0.0;
+    if (is_lost || HAS_SHADING && crosses != dot(wi, facing) < 0.0) return ColorLobe(vec3(0.0), 0.0);
+    precise vec3 value = eval_material(vertex, local);
+    precise float pdf = pdf_material(vertex, local);
+    return ColorLobe(value, pdf);
+}
+
+// What a link to the camera, or a scattering event, makes of the light of a particle, and of P0 over PL.
+struct Turn {
+    vec3 value;
+    float turn;
+};
+
+// Of a link of what comes from wi to wo, at any surface that is not smooth; `at` as above, and the vertex's frame is
+// around the true normal.
+Turn turn_of_link(Vertex vertex, Normals at, vec3 wi, vec3 wo) {
+    if (!is_glossy(vertex.material)) {
+        precise float turn = turn_towards(at, wi, wo, false);
+        precise vec3 share = turn * (vertex.material.color / PI);
+        return Turn(share, turn);
+    }
+    precise ColorLobe lobe = lobe_towards(vertex_from(vertex, at, wo), normals_towards(at, wo).facing, wi);
+    precise float arriving = abs(dot(wi, at.facing));
+    precise vec3 value = lobe.value / arriving;
+    precise float density = PI * lobe.pdf / arriving;
+    return Turn(value, density);
+}
+
+// P0 over PL of a path from the camera that goes to wi; 0 where no particle does so. `is_linked`: whether particles
+// are linked to the camera here.
+float glossy_turn(Vertex vertex, Normals at, vec3 wi, bool is_linked) {
+    precise vec3 wo = normalized(vertex.frame * vertex.wo);
+    precise float density = lobe_towards(vertex, at.facing, wi).pdf;
+    precise float arriving = abs(dot(wi, at.facing));
+    precise float turn = PI * density / arriving;
+    if (!is_linked) {
+        precise float back = lobe_towards(vertex_from(vertex, at, wi), normals_towards(at, wi).facing, wo).pdf;
+        turn = density * abs(dot(wo, at.facing)) / (arriving * back);
+    }
+    return turn > 0.0 && turn < FAR ? turn : 0.0;
+}
