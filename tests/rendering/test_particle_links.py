@@ -201,8 +201,13 @@ def test_a_hidden_thing_lies_nowhere() -> None:
     assert links_of([{**FULL["with a lamp in it"][0], "hidden": True}]) == 1
 
 
-@pytest.mark.parametrize("material", [{"thin": True}, {"ior": 0.7}, {"roughness": 0.2}])
-def test_glass_that_bends_light_otherwise_has_none(material: dict[str, Any]) -> None:
+ROUGH_METAL: dict[str, Any] = {"type": "metal", "preset": "gold", "roughness": 0.2}
+
+
+@pytest.mark.parametrize(
+    "material", [{"thin": True}, {"ior": 0.7}, {"roughness": 0.2}, ROUGH_METAL]
+)
+def test_what_sends_light_otherwise_has_none(material: dict[str, Any]) -> None:
     assert links_of([FLOOR], **material) == 0
 
 

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.methods.particles import ball_around, targets_of
+from glrt.methods.particles import ball_around, caster_bits, targets_of
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import (
     box,
     cylinder,
+    glass,
     plane,
     scene_of,
     sphere,
@@ -84,6 +85,31 @@ def test_of_solids_within_each_other_the_outermost_is_aimed_at() -> None:
     ]
     found = targets_of(scene_of(glasses, MATERIALS))
     assert [ball.center.tolist() for ball in found] == [[3.5, 0.5, 0.5], [0, 0.5, 0]]
+
+
+METAL: dict[str, Any] = {"type": "metal", "color": [1, 1, 1]}
+PRINCIPLED: dict[str, Any] = {"type": "principled", "color": [1, 1, 1]}
+KINDS = [
+    (True, glass(roughness=1.0)),
+    (True, glass(thin=True)),
+    (True, {**METAL, "roughness": 0.0}),
+    (True, {**METAL, "roughness": 0.4}),
+    (False, {**METAL, "roughness": 0.41}),
+    (True, {**PRINCIPLED, "transmission": 0.1, "roughness": 0.9}),
+    (True, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.4}),
+    (False, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.41}),
+    (False, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.0}),  # particles end there
+    (False, {**PRINCIPLED, "metallic": 0.5, "roughness": 0.1}),
+    (False, {"type": "lambertian", "color": [1, 1, 1]}),
+]
+
+
+@pytest.mark.parametrize(("is_one", "kind"), KINDS)
+def test_aimed_at_are_glass_and_polished_metal(is_one: bool, kind: dict[str, Any]) -> None:
+    things = [sphere([0, 0, 0], 1, "it"), box([2, 0, 0], [3, 1, 1], "it")]
+    place = scene_of(things, {"it": kind})
+    assert caster_bits(place) == is_one
+    assert len(targets_of(place)) == is_one
 
 
 # --- the sun ---------------------------------------------------------------------------------
