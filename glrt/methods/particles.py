@@ -21,7 +21,7 @@ from glrt.settings import Settings
 BITS = 31  # of a number in the shaders that stand for spheres
 TOUCHING = 1e-6  # of a radius: what reaches no deeper into a sphere touches it
 MOST_TARGETS = 8  # balls around other shapes, at which particles are aimed
-ROUGHEST = 0.16  # alpha of metal that makes caustics; of roughness 0.4
+ROUGHEST = 0.4**2  # alpha of metal that makes caustics: roughness 0.4
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 

@@ -181,7 +181,8 @@ FULL: dict[str, list[dict[str, Any]]] = {
 
 
 def links_of(things: list[dict[str, Any]], **material: Any) -> int:
-    scene = scene_of([*things, ROUND, FAR_LAMP], {**MATERIALS, "glass": {**glass(), **material}})
+    kind = material if "type" in material else glass(**material)
+    scene = scene_of([*things, ROUND, FAR_LAMP], {**MATERIALS, "glass": kind})
     spheres = [thing for thing in scene.visible if thing.shape == "sphere"]
     number = next(n for n, it in enumerate(spheres) if it.material == "glass" and it.radius == 1)
     return link_bits(scene) >> number & 1
