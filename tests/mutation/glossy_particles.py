@@ -8,8 +8,9 @@ _PATH = "integrators/path.glsl"
 _PARTICLES = "integrators/particles.glsl"
 _LINKS = "integrators/camera_links.glsl"
 _SHADERS = "shaders/test_glossy_turns.py"
-_ROOM = "rendering/test_particles.py::glossy and not sun"
-_MESHES = "rendering/test_particle_normals.py::satin"
+_CARRIED = f"{_SHADERS}::test_what_arrives_by_the_true_normal_is_spread_by_the_other"
+_WEIGHT = f"{_SHADERS}::test_a_particle_carries_what_the_surface_leaves_of_it"
+_ROOM = "rendering/test_particles.py::test_particles_change_the_noise_alone[glossy surfaces]"
 
 GLOSSY_PARTICLES = [
     Mutant(
@@ -44,7 +45,7 @@ GLOSSY_PARTICLES = [
     Mutant(
         "particles carry on light as paths from the camera do",
         edit(_PARTICLES, "linked.value * spread : vec3(0.0);", "next.weight : vec3(0.0);"),
-        f"{_SHADERS}",
+        _CARRIED,
     ),
     Mutant(
         "links from rough glass leave on one side alone",
@@ -72,16 +73,16 @@ GLOSSY_PARTICLES = [
             "precise vec3 value = lobe.value / arriving;",
             "precise vec3 value = lobe.value / abs(dot(wi, at.shading));",
         ),
-        _MESHES,
+        _CARRIED,
     ),
     Mutant(
         "rough glass is met from the same side by those who come from the other",
         edit(_TURNS, "crosses ? 1.0 / vertex.eta : vertex.eta", "vertex.eta"),
-        _SHADERS,
+        _WEIGHT,
     ),
     Mutant(
         "particles pass a smooth coat as if it were not there",
         edit(_TURNS, "material.alpha > 0.0 && !is_smooth_coat", "material.alpha > 0.0"),
-        "rendering/test_particles.py::end_at",
+        "rendering/test_particles.py::test_particles_change_the_noise_alone[what particles end at]",
     ),
 ]

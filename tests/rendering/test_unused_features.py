@@ -27,28 +27,31 @@ TRIES = 3  # until a program is as long as another of the same text
 TELLING = ("path.glsl", "roulette.glsl")  # files in which a path tells what happens
 UNDEFINED = 8  # other bytes of a hundred thousand that hold what was in memory before, now and then
 
-# A file of functions, a scene that leaves them out, and the settings with which it does.
-UNUSED: dict[str, tuple[str, dict[str, Any]]] = {
-    "bsdfs/dielectric.glsl": ("lens", {}),
-    "bsdfs/metal.glsl": ("lamps", {}),
-    "shapes/sphere_tree.glsl": ("cornell", {}),
-    "shapes/tree_node.glsl": ("weekend", {}),
-    "shapes/tree_stack.glsl": ("weekend", {}),
-    "shapes/tree.glsl": ("weekend", {}),
-    "shapes/disk.glsl": ("cornell", {}),
-    "shapes/box.glsl": ("cornell", {}),
-    "shapes/cylinder.glsl": ("cornell", {}),
-    "shapes/quad.glsl": ("weekend", {}),
-    "lights/sky.glsl": ("cornell", {}),
-    "lights/quad_solid_angle.glsl": ("methods/open", {}),
-    "lights/choice.glsl": ("weekend", {}),
-    "lights/sampling.glsl": ("cornell", {"method": "naive"}),
-    "film/layers.glsl": ("cornell", {}),
-    "probes/query.glsl": ("cornell", {}),
-    "probes/maps.glsl": ("lamps", {}),
-    "probes/grid.glsl": ("metals", {}),
-    "sampling/sobol.glsl": ("lamps", {"sampler": "independent"}),
-}
+# Scenes, their settings, and the files of functions that they leave out.
+UNUSED: list[tuple[str, dict[str, Any], list[str]]] = [
+    (
+        "cornell",
+        {},
+        [
+            *("shapes/sphere_tree.glsl", "shapes/disk.glsl", "shapes/box.glsl"),
+            *("shapes/cylinder.glsl", "lights/sky.glsl", "film/layers.glsl", "probes/query.glsl"),
+        ],
+    ),
+    ("cornell", {"method": "naive"}, ["lights/sampling.glsl"]),
+    ("lens", {}, ["bsdfs/dielectric.glsl"]),
+    ("lamps", {}, ["bsdfs/metal.glsl", "probes/maps.glsl"]),
+    ("lamps", {"sampler": "independent"}, ["sampling/sobol.glsl"]),
+    ("metals", {}, ["probes/grid.glsl"]),
+    ("methods/open", {}, ["lights/quad_solid_angle.glsl"]),
+    (
+        "weekend",
+        {},
+        [
+            *("shapes/tree_node.glsl", "shapes/tree_stack.glsl", "shapes/tree.glsl"),
+            *("shapes/quad.glsl", "lights/choice.glsl"),
+        ],
+    ),
+]
 
 
 def emptied(glsl: str) -> str:
@@ -123,10 +126,12 @@ def untold(glsl: str) -> str:
     return re.sub(r"goes_on\(\w+\)", "false", text)
 
 
-@pytest.mark.parametrize("file", UNUSED)
-def test_functions_that_a_scene_leaves_out_change_no_byte(context: Context, file: str) -> None:
-    scene, settings = UNUSED[file]
-    assert_same_program(context, scene, {file: emptied(read(file))}, **settings)
+@pytest.mark.parametrize(("scene", "settings", "files"), UNUSED)
+def test_functions_that_a_scene_leaves_out_change_no_byte(
+    context: Context, scene: str, settings: dict[str, Any], files: list[str]
+) -> None:
+    texts = {file: emptied(read(file)) for file in files}
+    assert_same_program(context, scene, texts, **settings)
 
 
 @pytest.mark.slow

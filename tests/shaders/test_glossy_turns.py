@@ -91,6 +91,19 @@ def test_a_particle_carries_what_the_surface_leaves_of_it(
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_what_arrives_by_the_true_normal_is_spread_by_the_other(
+    call_glsl: CallGlsl, kind: str
+) -> None:
+    """What a path from the camera takes, by the flux that the surface gets and sends."""
+    what = """vec2(particle.path.throughput.g, eval_material(met, to_local(met.frame, wi)).g
+        * abs(next.direction.z / wi.z) / next.pdf)"""
+    found, _ = scattered(call_glsl, kind, "vec2", what, tilt=0.6)
+    goes = found[:, 0] > 0
+    assert goes.mean() > 0.4
+    assert_allclose(found[goes, 0], found[goes, 1], rtol=2e-3)
+
+
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("tilt", [0.0, 0.6])
 @pytest.mark.parametrize("outside", [1, 0])
 def test_paths_and_particles_know_the_same_densities(

@@ -104,13 +104,20 @@ ROOMS = {
     "the sun": outside(BALL, cylinder([-0.5, -1, -0.5], [-0.5, -0.4, -0.5], 0.2, "glass")),
     "the sun, a lamp and a drink": outside(quad([-1, 1, -2], [2, 0, 0], [0, 1, 0], "dim"), *DRINK),
     "glass in part": room(LAMP, {**BALL, "material": "jelly"}),
-    "what particles end at": room(
-        LAMP,
-        BALL,
-        sphere([-0.5, -0.7, -0.2], 0.3, "varnish"),
-        quad([-0.6, -0.2, -0.6], [0.8, 0, 0], [0, 0, 0.8], "pane"),
+    "what particles end at": scene_of(
+        [
+            *box_of_quads("varnish"),
+            *(LAMP, BALL, sphere([-0.5, -0.7, -0.2], 0.3, "matte")),
+            quad([-0.6, -0.2, -0.6], [0.8, 0, 0], [0, 0, 0.8], "pane"),
+        ],
+        MATERIALS,
+        CAMERA,
     ),
-    "glossy surfaces": scene_of([*box_of_quads("satin"), LAMP, FROSTED, GOLD], MATERIALS, CAMERA),
+    "glossy surfaces": scene_of(
+        [*box_of_quads("satin"), LAMP, sphere([0.3, 0.2, -0.3], 0.3, "glass"), FROSTED, GOLD],
+        MATERIALS,
+        CAMERA,
+    ),
     "a lamp in frosted glass": room(
         sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "matt glass"), GOLD
     ),
