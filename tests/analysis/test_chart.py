@@ -39,9 +39,9 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> str:
 def charted(tmp_path_factory: pytest.TempPathFactory, cache: str) -> Path:
     """The folder of charts of two scenes."""
     folder = tmp_path_factory.mktemp("charts") / "new" / "folder"
-    done = glrt("chart", "cornell", "sky", "-o", folder, *QUICK, XDG_CACHE_HOME=cache)
+    done = glrt("chart", "methods/diffuse", "sky", "-o", folder, *QUICK, XDG_CACHE_HOME=cache)
     assert done.returncode == 0, done.stderr
-    assert done.stderr == f"Wrote {folder}/chart.md and the charts of cornell, sky.\n"
+    assert done.stderr == f"Wrote {folder}/chart.md and the charts of diffuse, sky.\n"
     return folder
 
 
@@ -55,30 +55,30 @@ def table(folder: Path, name: str) -> list[dict[str, str]]:
 
 def test_every_scene_gets_its_files_and_one_page_shows_all(charted: Path) -> None:
     suffixes = ("csv", "json", "png", "rounds.json", "svg")
-    expected = {f"{name}.{suffix}" for name in ("cornell", "sky") for suffix in suffixes}
+    expected = {f"{name}.{suffix}" for name in ("diffuse", "sky") for suffix in suffixes}
     assert {file.name for file in charted.iterdir()} == expected | {"chart.md"}
     page = (charted / "chart.md").read_text()
-    for name in ("cornell", "sky"):
+    for name, scene in (("diffuse", "methods/diffuse"), ("sky", "sky")):
         assert f"![Error against time for {name}]({name}.svg)" in page
-        assert str(load(name).title) in page
+        assert str(load(scene).title) in page
 
 
 def test_pictures_are_as_large_as_promised_and_name_every_variant(charted: Path) -> None:
-    with Image.open(charted / "cornell.png") as picture:
+    with Image.open(charted / "diffuse.png") as picture:
         assert picture.size == (1320, 715)
         codes = np.asarray(picture.convert("L"))
     assert 0.01 < (codes < 64).mean() < 0.2, "black on white"
     assert (codes > 250).mean() > 0.5
-    text = (charted / "cornell.svg").read_text()
-    for variant in {row["variant"] for row in table(charted, "cornell")}:
+    text = (charted / "diffuse.svg").read_text()
+    for variant in {row["variant"] for row in table(charted, "diffuse")}:
         assert f"<!-- {variant}" in text
     for file in (*charted.glob("*.png"), *charted.glob("*.svg")):
         assert file.stat().st_size < 300_000
 
 
 def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
-    rows = table(charted, "cornell")
-    data = json.loads((charted / "cornell.json").read_text())
+    rows = table(charted, "diffuse")
+    data = json.loads((charted / "diffuse.json").read_text())
     assert [str(point["error"]) for point in data["points"]] == [row["error"] for row in rows]
     assert data["size"] == [8, 8]
     assert data["rounds"] == 2
@@ -90,7 +90,7 @@ def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
 def test_points_on_the_front_are_beaten_by_none(charted: Path) -> None:
     dots = [
         (float(row["milliseconds"]), float(row["error"]), row["on_front"] == "True")
-        for row in table(charted, "cornell")
+        for row in table(charted, "diffuse")
     ]
     for x, y, on_front in dots:
         beaten = any(a <= x and b <= y and (a, b) != (x, y) for a, b, _ in dots)
@@ -105,21 +105,31 @@ def test_methods_that_are_one_are_measured_once(charted: Path) -> None:
 # --- rounds --------------------------------------------------------------------------------
 
 
+@pytest.fixture
+def few_variants(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Charts of two variants: the others would only take time."""
+    monkeypatch.setattr(experiment, "variants_of", lambda *scene: variants_of(*scene)[:2])
+
+
 def test_the_same_command_measures_nothing_again_and_more_rounds_add(
     charted: Path, cache: str
 ) -> None:
-    rounds = charted / "cornell.rounds.json"
+    rounds = charted / "diffuse.rounds.json"
     before = rounds.read_bytes()
-    assert glrt("chart", "cornell", "-o", charted, *QUICK, XDG_CACHE_HOME=cache).returncode == 0
+    assert (
+        glrt("chart", "methods/diffuse", "-o", charted, *QUICK, XDG_CACHE_HOME=cache).returncode
+        == 0
+    )
     assert rounds.read_bytes() == before
     more = [*QUICK, "--rounds", "3", "--quiet"]
-    done = glrt("chart", "cornell", "-o", charted, *more, XDG_CACHE_HOME=cache)
+    done = glrt("chart", "methods/diffuse", "-o", charted, *more, XDG_CACHE_HOME=cache)
     assert (done.returncode, done.stderr) == (0, "")
     old, new = json.loads(before), json.loads(rounds.read_bytes())
     assert new["rounds"][:2] == old["rounds"]
     assert len(new["rounds"]) == 3
 
 
+@pytest.mark.usefixtures("few_variants")
 def test_rounds_of_another_measurement_or_damaged_ones_are_not_gone_on_with(
     tmp_path: Path, context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -155,6 +165,7 @@ def test_interruption_keeps_the_rounds_that_are_done(
     assert json.loads(rounds.read_text())["rounds"]
 
 
+@pytest.mark.usefixtures("few_variants")
 def test_progress_has_a_share_that_grows_to_one(
     tmp_path: Path, context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -192,7 +203,7 @@ def test_variants_beyond_the_loop_limit_are_left_out(
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(experiment, "usable_rounds", lambda _context, _rounds: 300)
-    scene = load("cornell")
+    scene = load("methods/diffuse")
     result = measure_scene("c", scene, Plan(8, 2, 0.1), context, tmp_path / "r", lambda *_: None)
     names = [curve.name for curve in result.curves]
     assert "mis" in names
@@ -221,7 +232,7 @@ def test_rays_are_counted(context: Context) -> None:
 
 
 def test_order_changes_from_round_to_round_and_seeds_too(context: Context) -> None:
-    scene = load("cornell")
+    scene = load("methods/diffuse")
     settings = settings_for(scene.render, width=8, height=8)
     variants = variants_of(scene, settings, ["naive", "nee"], leads=False)
     truth = np.ones((8, 8, 3))

@@ -190,6 +190,7 @@ def test_live_probes_follow_a_light_step_frame_by_frame(context: Context) -> Non
         np.testing.assert_allclose(picture, shines + 0.5 * (shines + held), rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_tracks_of_probes_count_their_rays(context: Context) -> None:
     """Live ones take an update a frame, and are placed anew in an orbit alone."""
     scene = load("methods/diffuse")

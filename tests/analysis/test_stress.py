@@ -32,6 +32,10 @@ VERDICTS = {
     "seeds": 7,
     "sparks": 6,
 }
+SLOW = (
+    *("bulb", "spots", "lamps", "focus", "ceiling", "mirrored"),
+    *("ground", "refracted", "many", "aperture", "near"),
+)
 SWEEP = Sweep(
     parameter="size",
     measure="error",
@@ -44,7 +48,9 @@ SWEEP = Sweep(
 )
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(it, marks=pytest.mark.slow) if it in SLOW else it for it in CASES]
+)
 def test_every_case_holds_and_tells_the_naive_method_from_the_chosen(
     context: Context, name: str
 ) -> None:

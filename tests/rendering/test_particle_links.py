@@ -72,9 +72,13 @@ PLACES = {
     "a ball in the dark": in_the_dark(),
     "glossy surfaces": in_satin(),
 }
+SLOW = ("a lens", "glossy surfaces")
 
 
-@pytest.mark.parametrize("name", PLACES)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(it, marks=pytest.mark.slow) if it in SLOW else it for it in PLACES],
+)
 def test_links_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
     without = rendered(PLACES[name], context, 4096, seed=1, **size)
@@ -82,8 +86,13 @@ def test_links_change_the_noise_alone(context: Context, name: str) -> None:
     assert_agree(image, without, within=0.12)
 
 
-@pytest.mark.parametrize("bounces", [2, 3, 4])
-@pytest.mark.parametrize("linked", [0.1, 1.0])
+@pytest.mark.parametrize(
+    ("bounces", "linked"),
+    [
+        *((2, 1.0), (3, 0.1), (4, 1.0)),
+        *(pytest.param(*it, marks=pytest.mark.slow) for it in ((2, 0.1), (3, 1.0), (4, 0.1))),
+    ],
+)
 def test_however_few_there_are(context: Context, bounces: int, linked: float) -> None:
     """Of the particles, and of their bounces: a link takes one, two or three."""
     size: dict[str, Any] = {"width": 16, "height": 16, "bounces": bounces}
