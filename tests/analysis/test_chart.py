@@ -35,13 +35,55 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(tmp_path_factory.mktemp("cache"))
 
 
+# Scenes whose kernels compile fast: of some twenty variants each.
+LAMP = """
+title = "A lamp over a floor"
+[camera]
+position = [0.0, 0.0, 0.0]
+look_at = [0.0, 0.0, -1.0]
+[materials.floor]
+type = "lambertian"
+color = [0.5, 0.5, 0.5]
+[materials.lamp]
+type = "light"
+emission = [5.0, 5.0, 5.0]
+[[objects]]
+shape = "plane"
+point = [0.0, -1.0, 0.0]
+normal = [0.0, 1.0, 0.0]
+material = "floor"
+[[objects]]
+shape = "sphere"
+center = [0.0, 0.5, -3.0]
+radius = 0.5
+material = "lamp"
+"""
+SKY = f"""
+title = "A floor under the sky"
+background = {{ bottom = [0.2, 0.2, 0.2], top = [0.5, 0.6, 0.9] }}
+{LAMP[LAMP.index("[camera]") : LAMP.index("[materials.lamp]")]}
+{LAMP[LAMP.index("[[objects]]") : LAMP.rindex("[[objects]]")]}
+"""
+TITLES = {"lamp": "A lamp over a floor", "sky": "A floor under the sky"}
+
+
 @pytest.fixture(scope="module")
-def charted(tmp_path_factory: pytest.TempPathFactory, cache: str) -> Path:
-    """The folder of charts of two scenes."""
+def scenes(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of their files."""
+    folder = tmp_path_factory.mktemp("scenes")
+    (folder / "lamp.toml").write_text(LAMP)
+    (folder / "sky.toml").write_text(SKY)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def charted(tmp_path_factory: pytest.TempPathFactory, cache: str, scenes: Path) -> Path:
+    """The folder of their charts."""
     folder = tmp_path_factory.mktemp("charts") / "new" / "folder"
-    done = glrt("chart", "methods/diffuse", "sky", "-o", folder, *QUICK, XDG_CACHE_HOME=cache)
+    files = [scenes / f"{name}.toml" for name in TITLES]
+    done = glrt("chart", *files, "-o", folder, *QUICK, XDG_CACHE_HOME=cache)
     assert done.returncode == 0, done.stderr
-    assert done.stderr == f"Wrote {folder}/chart.md and the charts of diffuse, sky.\n"
+    assert done.stderr == f"Wrote {folder}/chart.md and the charts of lamp, sky.\n"
     return folder
 
 
@@ -55,30 +97,30 @@ def table(folder: Path, name: str) -> list[dict[str, str]]:
 
 def test_every_scene_gets_its_files_and_one_page_shows_all(charted: Path) -> None:
     suffixes = ("csv", "json", "png", "rounds.json", "svg")
-    expected = {f"{name}.{suffix}" for name in ("diffuse", "sky") for suffix in suffixes}
+    expected = {f"{name}.{suffix}" for name in TITLES for suffix in suffixes}
     assert {file.name for file in charted.iterdir()} == expected | {"chart.md"}
     page = (charted / "chart.md").read_text()
-    for name, scene in (("diffuse", "methods/diffuse"), ("sky", "sky")):
+    for name, title in TITLES.items():
         assert f"![Error against time for {name}]({name}.svg)" in page
-        assert str(load(scene).title) in page
+        assert title in page
 
 
 def test_pictures_are_as_large_as_promised_and_name_every_variant(charted: Path) -> None:
-    with Image.open(charted / "diffuse.png") as picture:
+    with Image.open(charted / "lamp.png") as picture:
         assert picture.size == (1320, 715)
         codes = np.asarray(picture.convert("L"))
     assert 0.01 < (codes < 64).mean() < 0.2, "black on white"
     assert (codes > 250).mean() > 0.5
-    text = (charted / "diffuse.svg").read_text()
-    for variant in {row["variant"] for row in table(charted, "diffuse")}:
+    text = (charted / "lamp.svg").read_text()
+    for variant in {row["variant"] for row in table(charted, "lamp")}:
         assert f"<!-- {variant}" in text
     for file in (*charted.glob("*.png"), *charted.glob("*.svg")):
         assert file.stat().st_size < 300_000
 
 
 def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
-    rows = table(charted, "diffuse")
-    data = json.loads((charted / "diffuse.json").read_text())
+    rows = table(charted, "lamp")
+    data = json.loads((charted / "lamp.json").read_text())
     assert [str(point["error"]) for point in data["points"]] == [row["error"] for row in rows]
     assert data["size"] == [8, 8]
     assert data["rounds"] == 2
@@ -90,7 +132,7 @@ def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
 def test_points_on_the_front_are_beaten_by_none(charted: Path) -> None:
     dots = [
         (float(row["milliseconds"]), float(row["error"]), row["on_front"] == "True")
-        for row in table(charted, "diffuse")
+        for row in table(charted, "lamp")
     ]
     for x, y, on_front in dots:
         beaten = any(a <= x and b <= y and (a, b) != (x, y) for a, b, _ in dots)
@@ -98,7 +140,7 @@ def test_points_on_the_front_are_beaten_by_none(charted: Path) -> None:
 
 
 def test_methods_that_are_one_are_measured_once(charted: Path) -> None:
-    """The sky scene has no lamp."""
+    """Under the sky there is no lamp."""
     assert "naive = nee = mis" in {row["variant"] for row in table(charted, "sky")}
 
 
@@ -112,17 +154,15 @@ def few_variants(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_same_command_measures_nothing_again_and_more_rounds_add(
-    charted: Path, cache: str
+    charted: Path, cache: str, scenes: Path
 ) -> None:
-    rounds = charted / "diffuse.rounds.json"
+    scene = scenes / "lamp.toml"
+    rounds = charted / "lamp.rounds.json"
     before = rounds.read_bytes()
-    assert (
-        glrt("chart", "methods/diffuse", "-o", charted, *QUICK, XDG_CACHE_HOME=cache).returncode
-        == 0
-    )
+    assert glrt("chart", scene, "-o", charted, *QUICK, XDG_CACHE_HOME=cache).returncode == 0
     assert rounds.read_bytes() == before
     more = [*QUICK, "--rounds", "3", "--quiet"]
-    done = glrt("chart", "methods/diffuse", "-o", charted, *more, XDG_CACHE_HOME=cache)
+    done = glrt("chart", scene, "-o", charted, *more, XDG_CACHE_HOME=cache)
     assert (done.returncode, done.stderr) == (0, "")
     old, new = json.loads(before), json.loads(rounds.read_bytes())
     assert new["rounds"][:2] == old["rounds"]
@@ -150,11 +190,11 @@ def test_rounds_of_another_measurement_or_damaged_ones_are_not_gone_on_with(
 
 
 def test_interruption_keeps_the_rounds_that_are_done(
-    tmp_path: Path, cache: str, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, cache: str, scenes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     long = ("--height", "8", "--rounds", "200", "--seconds", "60")
     monkeypatch.setenv("XDG_CACHE_HOME", cache)
-    process = start("chart", "sky", "-o", tmp_path, *long)
+    process = start("chart", scenes / "sky.toml", "-o", tmp_path, *long)
     rounds = tmp_path / "sky.rounds.json"
     while not rounds.exists() and process.poll() is None:
         time.sleep(0.05)
@@ -199,11 +239,11 @@ def test_an_interval_that_reaches_below_zero_makes_no_band_down_the_whole_chart(
 
 
 def test_variants_beyond_the_loop_limit_are_left_out(
-    context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    context: Context, tmp_path: Path, scenes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(experiment, "usable_rounds", lambda _context, _rounds: 300)
-    scene = load("methods/diffuse")
+    scene = load(str(scenes / "lamp.toml"))
     result = measure_scene("c", scene, Plan(8, 2, 0.1), context, tmp_path / "r", lambda *_: None)
     names = [curve.name for curve in result.curves]
     assert "mis" in names
