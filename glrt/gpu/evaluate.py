@@ -62,6 +62,14 @@ class Probe:
         out: Array = result[:, 0] if width == 1 else result
         return out.astype(bool) if base == "bool" else out
 
+    def _needed(self) -> list[str]:
+        """The files to include: compiling the others would take most of the time."""
+        text = " ".join([self.returns, self.setup, self.expression, self.functions])
+        if "#include" in text:
+            return list(self.includes)
+        known = self.texts or {}
+        return needed_files(text, {name: known.get(name) or read(name) for name in self.includes})
+
     def _source(self, arrays: Mapping[str, Array]) -> Source:
         base, width = _base(self.returns)
         stored = "uint" if base == "bool" else base
@@ -69,7 +77,7 @@ class Probe:
         text = "\n".join(
             [
                 f"layout(local_size_x = {_GROUP}) in;",
-                *(f'#include "{name}"' for name in self.includes),
+                *(f'#include "{name}"' for name in self._needed()),
                 f"layout(std430) writeonly buffer Out {{ {stored} out_[]; }};",
                 *(_block(name, values) for name, values in arrays.items()),
                 self.functions,
@@ -84,6 +92,30 @@ class Probe:
             ]
         )
         return Source("probe", self.constants, texts={"probe": text, **(self.texts or {})})
+
+
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_DECLARED = re.compile(r"^struct (\w+)|^(?:\w+ )+(\w+)(?=\(|\[| =|;)", re.MULTILINE)
+_ALWAYS = re.compile(
+    r"^(?:#|layout|uniform|buffer)", re.MULTILINE
+)  # what these declare is not read
+
+
+def needed_files(text: str, files: Mapping[str, str]) -> list[str]:
+    """The names of those files of GLSL that declare a word of a text, or of a file that does.
+
+    `files` are texts in an order in which each builds on those before it alone. Those with
+    directives or blocks are needed in any case.
+    """
+    words = set(_WORD.findall(text))
+    found = []
+    for name, content in reversed(list(files.items())):
+        code = re.sub(r"//[^\n]*", "", content)
+        declared = {struct or other for struct, other in _DECLARED.findall(code)}
+        if _ALWAYS.search(code) or declared & words:
+            found.append(name)
+            words.update(_WORD.findall(code))
+    return found[::-1]
 
 
 _SHAPES = "shapes/all_shapes.glsl"  # a part of the table of contents

@@ -43,7 +43,7 @@ float weight_of_link(Particle self, float rho, float turn) {
 }
 
 // Whether a link leaves a vertex this way, in its frame; the ray then leaves on that side.
-bool leaves_so(Vertex vertex, vec3 wi, inout Ray ray) {
+bool leaves_so(Vertex vertex, vec3 wi, precise inout Ray ray) {
     bool crosses = wi.z < 0.0;
     if (crosses) ray.inward = !ray.inward;
     return wi.z > 0.0 || crosses && is_rough_glass(vertex.material);
