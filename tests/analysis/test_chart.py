@@ -15,16 +15,10 @@ from glrt.analysis import plot
 from glrt.analysis.chart import drawing, experiment
 from glrt.analysis.chart.curves import Curve, Interval, Point
 from glrt.analysis.chart.experiment import Plan, measure_scene
-from glrt.analysis.chart.measure import Bench, of_variant
-from glrt.analysis.chart.rays import rays_of
-from glrt.analysis.reference import Reference
-from glrt.analysis.variants import Variant, variants_of
+from glrt.analysis.variants import variants_of
 from glrt.cli.main import main
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.renderer import Renderer
-from glrt.settings import settings_for
-from tests.support.builders import box_of_quads, lamp, scene_of, sphere
 from tests.support.processes import glrt, start
 
 QUICK = ("--height", "8", "--rounds", "2", "--seconds", "0.3")
@@ -248,64 +242,6 @@ def test_variants_beyond_the_loop_limit_are_left_out(
     names = [curve.name for curve in result.curves]
     assert "mis" in names
     assert "mis, 80 bounces" not in names
-
-
-# --- what is measured ----------------------------------------------------------------------
-
-
-def test_rays_are_counted(context: Context) -> None:
-    walls = {"wall": {"type": "lambertian", "color": [0.5] * 3}, "lamp": lamp()}
-    room = scene_of(box_of_quads("wall", 2.0), walls)
-    rays = {
-        bounces: rays_of(
-            room,
-            settings_for(room.render, width=8, height=8, bounces=bounces, roulette=False),
-            context,
-        ).sample
-        for bounces in (0, 1, 5)
-    }
-    assert rays == {0: 1.0, 1: 2.0, 5: 6.0}
-    lit = scene_of([*box_of_quads("wall", 2.0), sphere([0, 0, -1], 0.01, "lamp")], walls)
-    settings = settings_for(lit.render, width=8, height=8, bounces=1, method="nee")
-    shadowed = rays_of(lit, settings, context).sample
-    assert 2.9 < shadowed <= 3.0, "camera, shadow and scattered ray, but for the pixels of the lamp"
-
-
-def test_order_changes_from_round_to_round_and_seeds_too(context: Context) -> None:
-    scene = load("methods/diffuse")
-    settings = settings_for(scene.render, width=8, height=8)
-    variants = variants_of(scene, settings, ["naive", "nee"], leads=False)
-    truth = np.ones((8, 8, 3))
-    bench = Bench(scene, variants, Reference(truth, truth, 1, 1), context)
-    rounds = [list(bench.round(number, 0.01))[-1] for number in range(4)]
-    bench.release()
-    orders = {tuple(run.variant for run in runs) for runs in rounds}
-    assert orders == {("naive", "nee"), ("nee", "naive")}
-    firsts = [of_variant([runs], "nee")[0].looks[0].squared_error for runs in rounds]
-    assert len(set(firsts)) == 4
-
-
-def test_a_denoised_variant_is_judged_by_what_it_shows(context: Context) -> None:
-    """From 4 samples on, two observations a half; its error at the end is not that of its noise."""
-    scene = load("cornell")
-    settings = settings_for(scene.render, width=16, height=16, sampler="independent")
-    named = {name: settings_for(settings, denoise=name) for name in ("none", "nlm")}
-    grey = np.full((16, 16, 3), 0.5)
-    bench = Bench(
-        scene, [Variant(*it) for it in named.items()], Reference(grey, grey, 1, 1), context
-    )
-    runs = {run.variant: run for run in list(bench.round(0, 0.01))[-1]}
-    bench.release()
-    plain, denoised = runs["none"], runs["nlm"]
-    assert [look.samples for look in denoised.looks] == [4, 8, 16, 32]
-    renderer = Renderer(scene, named["nlm"], context, tier="baked", seed=1)
-    shown = renderer.render(32).image().denoised()
-    renderer.release()
-    assert shown.noise is not None
-    squared = Reference(grey, grey, 1, 1).squared_error(shown.radiance)
-    assert denoised.looks[-1].squared_error == squared != plain.looks[-1].squared_error
-    noise = Reference(grey, grey, 1, 1).relative(np.square(shown.noise, dtype=np.float64))
-    assert denoised.squared_bias == squared - noise
 
 
 # --- refusals ------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ _PARTICLES = "integrators/particles.glsl"
 _LINKS = "integrators/camera_links.glsl"
 _TURNS = "integrators/glossy_turns.glsl"
 _PATH = "integrators/path.glsl"
+_BESIDE = "integrators/path_beside_particles.glsl"
 _OWN = "rendering/test_particle_normals.py"
 _MATTE = f"{_OWN}::test_a_matte_surface_takes_light_by_its_shading_normal"
 _MIRROR = f"{_OWN}::test_a_mirror_reflects_by_its_shading_normal"
@@ -46,7 +47,9 @@ PARTICLE_NORMALS = [
     ),
     Mutant(
         "the density of the film is that of shading normals",
-        edit(_PATH, "HAS_SHADING ? -dot(path.ray.direction, facing) : vertex.wo.z", "vertex.wo.z"),
+        edit(
+            _BESIDE, "HAS_SHADING ? -dot(path.ray.direction, facing) : vertex.wo.z", "vertex.wo.z"
+        ),
         _SHARES,
     ),
     Mutant(

@@ -7,6 +7,7 @@ import pytest
 from tests.mutation.__main__ import ROOT, Outcome, drawn, planted
 from tests.mutation.mutant import Edit, Mutant
 from tests.mutation.mutants import MUTANTS
+from tests.support.particle_rooms import ROOMS
 
 CLEAN = Outcome(passed=2, failures=(), errors=0, seconds=1.0)
 
@@ -16,8 +17,10 @@ def test_bug_fits_the_text_and_names_a_test(mutant: Mutant) -> None:
     for edit in mutant.edits:
         text = (ROOT / edit.file).read_text()
         assert planted(text, [edit]) != text
-    file, name = mutant.test.split("::")
+    file, test = mutant.test.split("::")
+    name, *case = test.split("[")
     assert re.search(rf"^def {name}\(", (ROOT / "tests" / file).read_text(), re.MULTILINE)
+    assert not case or case[0].rstrip("]") in ROOMS
 
 
 def test_bugs_have_names_of_their_own() -> None:
