@@ -23,6 +23,8 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.methods.particles import refusal
 from glrt.rendering.renderer import Renderer
+from glrt.scene.materials import Material
+from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 
@@ -126,18 +128,38 @@ def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer
 def scene_of(name: str) -> Scene:
     """A scene by name; `room` is `cornell` with a white sphere instead of glass: no caustic.
 
-    `mesh_K` is a displaced ball of 20 * 4^K triangles, `clutter` a room of 102,400 in many meshes
-    (`bench.mesh_sizes`).
+    `ground` is `methods/gap` with ground glass and rough metal, `downwards` with a lamp that sends
+    no light into the gap above it. `mesh_K` is a displaced ball of 20 * 4^K triangles, `clutter` a
+    room of 102,400 in many meshes (`bench.mesh_sizes`).
     """
     if name == "clutter":
         return mesh_sizes.cluttered()
     if name.startswith("mesh_"):
         return mesh_sizes.of_steps(int(name.removeprefix("mesh_")))
-    if name != "room":
-        return load(name)
-    cornell = load("cornell")
-    white = {**cornell.materials, "glass": cornell.materials["white"]}
-    return cornell.model_copy(update={"materials": white})
+    if name == "room":
+        cornell = load("cornell")
+        return _with_materials(cornell, glass=cornell.materials["white"])
+    if name == "ground":
+        gap = load("methods/gap")
+        rough = {"glass": 0.15, "mirror": 0.25}
+        return _with_materials(gap, **{it: _roughened(gap, it, rough[it]) for it in rough})
+    if name == "downwards":
+        gap = load("methods/gap")
+        things = [_one_sided(it) if it.material == "lamp" else it for it in gap.objects]
+        return gap.model_copy(update={"objects": things})
+    return load(name)
+
+
+def _with_materials(scene: Scene, **materials: Material) -> Scene:
+    return scene.model_copy(update={"materials": {**scene.materials, **materials}})
+
+
+def _roughened(scene: Scene, name: str, roughness: float) -> Material:
+    return scene.materials[name].model_copy(update={"roughness": roughness})
+
+
+def _one_sided(lamp: Object) -> Object:
+    return lamp.model_copy(update={"emission_side": "front"})
 
 
 def _rows(name: str, runs: Mapping[str, Runs]) -> Iterator[Row]:

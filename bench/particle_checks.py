@@ -25,7 +25,7 @@ from glrt.methods.particles import link_bits
 
 SCENES = (
     *("cornell", "lamps", "lens", "metals", "table"),
-    *("methods/caustic", "methods/gap", "methods/glass"),
+    *("methods/caustic", "methods/gap", "methods/glass", "ground"),
 )
 CALIBRATED = ("cornell", "methods/caustic")
 STRAIGHT = {"caustics": "on", "linked": 0.0}

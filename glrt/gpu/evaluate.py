@@ -96,9 +96,8 @@ class Probe:
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _DECLARED = re.compile(r"^struct (\w+)|^(?:\w+ )+(\w+)(?=\(|\[| =|;)", re.MULTILINE)
-_ALWAYS = re.compile(
-    r"^(?:#|layout|uniform|buffer)", re.MULTILINE
-)  # what these declare is not read
+# Directives and blocks: what they declare is not read here.
+_ALWAYS = re.compile(r"^(?:#|layout|uniform|buffer)", re.MULTILINE)
 
 
 def needed_files(text: str, files: Mapping[str, str]) -> list[str]:

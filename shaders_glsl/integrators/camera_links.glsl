@@ -1,5 +1,5 @@
-// Links of particles to the camera, from a vertex that is not smooth: straight, or through one sphere. What they bring is handed
-// to `splat`.
+// Links of particles to the camera, from a vertex that is not smooth: straight, or through one sphere. What they bring
+// is handed to `splat`.
 
 // The layer of the film that takes what reaches the camera after so many scattering events.
 int layer_of(Particle self, int length) {

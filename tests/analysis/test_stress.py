@@ -19,6 +19,7 @@ from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.resources import folder
 from tests.support.alarms import book
+from tests.support.slow_cases import some_slow
 
 TINY = 1 / 64
 VERDICTS = {
@@ -49,9 +50,7 @@ SWEEP = Sweep(
 )
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(it, marks=pytest.mark.slow) if it in SLOW else it for it in CASES]
-)
+@pytest.mark.parametrize("name", some_slow(CASES, SLOW))
 def test_every_case_holds_and_tells_the_naive_method_from_the_chosen(
     context: Context, name: str
 ) -> None:

@@ -29,6 +29,17 @@ def test_the_room_is_cornell_without_its_caustic() -> None:
     assert {material.type for material in room.materials.values()} == {"lambertian", "light"}
 
 
+def test_a_room_of_ground_glass_and_one_without_light_in_its_gap() -> None:
+    gap, ground, downwards = (scene_of(it) for it in ("methods/gap", "ground", "downwards"))
+    assert ground.objects == gap.objects
+    alphas = {name: getattr(kind, "alpha", None) for name, kind in ground.materials.items()}
+    assert {name for name, alpha in alphas.items() if alpha} == {"glass", "mirror"}
+    differ = [(a, b) for a, b in zip(gap.objects, downwards.objects, strict=True) if a != b]
+    (both, one) = differ.pop()
+    assert (both.material, getattr(one, "emission_side", "")) == ("lamp", "front")
+    assert not differ
+
+
 def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenes", "sky", "--size", "8", "--rounds", "2"]) == 0
     printed = capsys.readouterr().out

@@ -14,6 +14,7 @@ from glrt.scene.shapes import Shape
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.numerics import Array
 from tests.support.renders import rendered
+from tests.support.slow_cases import some_slow
 
 ALBEDO, RADIANCE, RADIUS = 0.5, 60.0, 0.05
 MATERIALS: dict[str, dict[str, Any]] = {
@@ -36,8 +37,7 @@ FLOOR = -0.9
 
 
 @pytest.mark.parametrize(
-    "method",
-    ["phong", "cook", *(pytest.param(it, marks=pytest.mark.slow) for it in ("blinn", "whitted"))],
+    "method", some_slow(["phong", "blinn", "whitted", "cook"], slow=["blinn", "whitted"])
 )
 def test_faces_of_one_plane_are_shaded_alike(context: Context, method: str) -> None:
     """A box, a disk and a cap in the place of a quad, of each material."""

@@ -27,6 +27,7 @@ from tests.support.images import same_bits
 from tests.support.meshes import icosphere, mesh
 from tests.support.particle_rooms import BALL, CAMERA, GOLD, LAMP, MATERIALS, ROOMS, room
 from tests.support.renders import assert_agree, rendered, rendering, same
+from tests.support.slow_cases import some_slow
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}
 CLOSED = room(
@@ -75,10 +76,7 @@ PLACES = {
 SLOW = ("a lens", "glossy surfaces")
 
 
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(it, marks=pytest.mark.slow) if it in SLOW else it for it in PLACES],
-)
+@pytest.mark.parametrize("name", some_slow(PLACES, SLOW))
 def test_links_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
     without = rendered(PLACES[name], context, 4096, seed=1, **size)

@@ -24,6 +24,7 @@ from tests.support.builders import (
 from tests.support.images import same_bits
 from tests.support.particle_rooms import BALL, CAMERA, LAMP, MATERIALS, ROOMS
 from tests.support.renders import assert_agree, rendered, rendering, same
+from tests.support.slow_cases import some_slow
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
 SLOW = (
@@ -32,9 +33,7 @@ SLOW = (
 )
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.slow) if n in SLOW else n for n in ROOMS]
-)
+@pytest.mark.parametrize("name", some_slow(ROOMS, SLOW))
 def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 6}
     without = rendered(ROOMS[name], context, 4096, seed=1, **size)
