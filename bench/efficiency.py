@@ -2,9 +2,11 @@
 
 The efficiency is 1 / (variance x time), relative to the defaults. Every round renders each variant
 once, with its own seed. The variance is measured over pictures of different seeds, not taken from
-their own standard errors, and is relative to the radiance as in `stats`.
+their own standard errors, and is relative to the radiance that the other pictures have: of all
+variants, weighted by how little they vary.
 """
 
+import argparse
 import statistics
 import sys
 import time
@@ -15,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench import mesh_sizes
-from bench.program import add_rounds, exit_code_of, machine, parser_of
+from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
 from bench.shader_edits import Edit, edited
-from glrt.analysis.variants import LINKED
+from glrt.analysis.method_choice.caustics import CHOICES
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
@@ -36,20 +38,20 @@ class Way(NamedTuple):
     edits: Sequence[Edit] = ()  # of shader sources
 
 
-STRAIGHT = {"caustics": "on", "linked": 0.0}
+_PARTICLES = ("particles", "aimed particles", "linked particles")  # what a pilot tries
 SWITCHES = {
     "defaults": Way({}),
     "independent": Way({"sampler": "independent"}),
     "no roulette": Way({"roulette": False}),
     "nee": Way({"method": "nee"}),
     "naive": Way({"method": "naive"}),
-    "particles": Way(STRAIGHT),
-    "few particles": Way({**STRAIGHT, "particles": 0.1, "aimed": 0.98}),
-    "many particles": Way({**STRAIGHT, "particles": 1.0, "aimed": 0.2}),
-    "linked particles": Way({"caustics": "on", **LINKED}),
+    **{
+        name: Way({"caustics": "on", **choice})
+        for name, choice in zip(_PARTICLES, CHOICES, strict=True)
+    },
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
-SAMPLES = 32  # per pixel of a run: two blocks of Sobol' points
+SAMPLES = 32  # per pixel of a run, unless told: two blocks of Sobol' points
 
 
 class Row(NamedTuple):
@@ -68,9 +70,10 @@ class Row(NamedTuple):
 class Runs:
     """The runs of one variant."""
 
-    def __init__(self, renderer: Renderer) -> None:
-        """Without runs yet."""
+    def __init__(self, renderer: Renderer, samples: int) -> None:
+        """Without runs yet, each of which will have so many `samples` a pixel."""
         self.renderer = renderer
+        self.samples = samples
         self.seconds: list[float] = []
         self.pictures: list[NDArray[np.float32]] = []
 
@@ -78,16 +81,25 @@ class Runs:
         """Render once more, from an empty film."""
         self.renderer.update(seed=seed)
         start = time.perf_counter()
-        self.renderer.render(SAMPLES)
+        self.renderer.render(self.samples)
         self.seconds.append(time.perf_counter() - start)
         self.pictures.append(self.renderer.image().radiance)
 
-    def variances(self, scale: NDArray[np.float64]) -> NDArray[np.float64]:
-        """An estimate of the relative variance of one sample from each picture."""
+    def variances(self, level: NDArray[np.float64], weight: float) -> NDArray[np.float64]:
+        """An estimate of the relative variance of one sample from each picture.
+
+        In `level`, the mean of these pictures has this weight. Each picture is taken out of the
+        level that it is relative to: a pixel that met a rare bright path is too bright, and would
+        count too little.
+        """
         mean = np.mean(self.pictures, axis=0, dtype=np.float64)
         count = len(self.pictures)
-        squares = [np.mean(np.square(picture - mean) / scale) for picture in self.pictures]
-        return np.array(squares) * SAMPLES * count / (count - 1)
+        squares = []
+        for picture in self.pictures:
+            others = level + weight * (mean - picture) / (count - 1)
+            scale = np.square(others) + DARK * others.mean() ** 2
+            squares.append(np.mean(np.square(picture - mean) / scale))
+        return np.array(squares) * self.samples * count / (count - 1)
 
 
 def measure(
@@ -96,17 +108,24 @@ def measure(
     size: int,
     rounds: int,
     ways: Mapping[str, Way] = SWITCHES,
+    samples: int = SAMPLES,
 ) -> list[Row]:
     """Measure the variants of a named scene in interleaved rounds, at `size` x `size` pixels."""
-    return measure_scene(context, name, scene_of(name), size, rounds, ways)
+    return measure_scene(context, name, scene_of(name), size, rounds, ways, samples)
 
 
 def measure_scene(
-    context: Context, name: str, scene: Scene, size: int, rounds: int, ways: Mapping[str, Way]
+    context: Context,
+    name: str,
+    scene: Scene,
+    size: int,
+    rounds: int,
+    ways: Mapping[str, Way],
+    samples: int = SAMPLES,
 ) -> list[Row]:
     """The same for any scene; `name` is its name in the rows. Refused variants are left out."""
     runs = {
-        label: Runs(renderer_of(scene, way, size, context))
+        label: Runs(renderer_of(scene, way, size, context), samples)
         for label, way in ways.items()
         if not refusal(scene, settings_for(scene.render, **way.settings))
     }
@@ -163,13 +182,13 @@ def _one_sided(lamp: Object) -> Object:
 
 
 def _rows(name: str, runs: Mapping[str, Runs]) -> Iterator[Row]:
-    everything = [picture for one in runs.values() for picture in one.pictures]
-    mean: NDArray[np.float64] = np.mean(everything, axis=0, dtype=np.float64)
-    scale = np.square(mean) + DARK * mean.mean() ** 2
+    weights = _weights([one.pictures for one in runs.values()])
+    means = [np.mean(one.pictures, axis=0, dtype=np.float64) for one in runs.values()]
+    level = np.average(means, axis=0, weights=weights)
     first, *_ = runs.values()
-    base = first.variances(scale).mean()
-    for label, one in runs.items():
-        found = one.variances(scale)
+    base = first.variances(level, weights[0]).mean()
+    for (label, one), weight in zip(runs.items(), weights, strict=True):
+        found = one.variances(level, weight)
         ratios = [a / b for a, b in zip(one.seconds, first.seconds, strict=True)]
         slower = statistics.median(ratios)
         yield Row(
@@ -177,11 +196,18 @@ def _rows(name: str, runs: Mapping[str, Runs]) -> Iterator[Row]:
             variant=label,
             variance=float(found.mean()),
             uncertainty=float(found.std(ddof=1) / np.sqrt(len(found)) / found.mean()),
-            microseconds=statistics.median(one.seconds) / (SAMPLES * mean[..., 0].size) * 1e6,
+            microseconds=statistics.median(one.seconds) / (one.samples * level[..., 0].size) * 1e6,
             fewer_samples=float(base / found.mean()),
             slower=slower,
             efficiency=float(base / found.mean()) / slower,
         )
+
+
+def _weights(pictures: Sequence[Sequence[NDArray[np.float32]]]) -> list[float]:
+    """Of each variant in the mean of all, by how little its pictures vary; their sum is 1."""
+    spreads = [float(np.var(of_one, axis=0, dtype=np.float64).mean()) for of_one in pictures]
+    inverses = [1 / max(spread, 1e-300) for spread in spreads]
+    return [inverse / sum(inverses) for inverse in inverses]
 
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
@@ -202,17 +228,30 @@ def main(arguments: list[str] | None = None) -> int:
     parser = parser_of("efficiency", __doc__)
     parser.add_argument("--scenes", nargs="+", metavar="NAME", default=SCENES)
     add_rounds(parser, size=64, rounds=20)
+    others = [name for name in SWITCHES if name != "defaults"]
+    parser.add_argument(
+        "--variants",
+        nargs="+",
+        metavar="NAME",
+        choices=others,
+        default=others,
+        help="beside defaults",
+    )
+    told = f"of a pixel in a run (default: {SAMPLES})"
+    parser.add_argument("--samples", type=at_least(1), metavar="N", default=SAMPLES, help=told)
     parsed = parser.parse_args(arguments)
-    return exit_code_of(lambda: _print(parsed.scenes, parsed.size, parsed.rounds))
+    return exit_code_of(lambda: _print(parsed))
 
 
-def _print(scenes: Sequence[str], size: int, rounds: int) -> None:
+def _print(asked: argparse.Namespace) -> None:
     context = open_context()
+    ways = {name: SWITCHES[name] for name in ("defaults", *asked.variants)}
     rows: list[Row] = []
-    for name in scenes:
+    for name in asked.scenes:
         print(f"{name} ...", file=sys.stderr)
-        rows += measure(context, name, size, rounds)
-    print(f"{machine(context.renderer)}, {size} x {size} pixels, {rounds} rounds\n")
+        rows += measure(context, name, asked.size, asked.rounds, ways, asked.samples)
+    how = f"{asked.size} x {asked.size} pixels, {asked.rounds} rounds of {asked.samples} samples"
+    print(f"{machine(context.renderer)}, {how}\n")
     print("\n".join(table(rows)))
 
 

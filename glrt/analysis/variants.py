@@ -13,7 +13,7 @@ from glrt.settings import Method, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
-LINKED = {"particles": 0.5, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
+LINKED = {"particles": 0.35, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
 FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 

@@ -63,7 +63,7 @@ def scene_arrays(
 # In no block: OpenGL 4.1 grants a kernel 12 of them, and the other structs take those.
 TEXTURED = (
     *("Mesh", "Corner", "Triangle", "Instance", "Tint"),
-    *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim", "Target"),
+    *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim", "Target", "Sides"),
     *("Map", "Maps", "Axes", "Uv", "Tangent"),
 )
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered

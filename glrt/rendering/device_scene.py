@@ -22,7 +22,7 @@ from glrt.rendering.image_texture import ImageTexture
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_maps import images_of, textures_of
-from glrt.rendering.pack_particles import with_targets
+from glrt.rendering.pack_particles import with_particles
 from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
@@ -81,7 +81,7 @@ class DeviceScene:
         self._tree = _tree(plan.scene, contents, before)
         built = time.perf_counter()
         packed = _packed(plan.scene, contents, self._tree, before)
-        self._arrays = with_targets(packed, plan.scene, plan.settings)
+        self._arrays = with_particles(packed, plan.scene, plan.settings)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self._glass = around_camera(plan.scene, contents.finishes)
         needs = needs_of(plan.scene, plan.settings, contents)

@@ -18,7 +18,7 @@ from glrt.rendering.image_texture import texture_of
 from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pack_maps import images_of, textures_of
-from glrt.rendering.pack_particles import with_targets
+from glrt.rendering.pack_particles import with_particles
 from glrt.rendering.pack_shapes import NUMBERED
 from glrt.rendering.pack_tree import SceneTree, tree_of
 from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, scene_text, upload
@@ -61,7 +61,7 @@ def evaluate(
     }
     arrays = pack_scene(scene, contents, tree=tree) if scene else no_rows()
     if scene and settings:
-        arrays = with_targets(arrays, scene, settings)
+        arrays = with_particles(arrays, scene, settings)
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
     resources = resources_of(gl, scene, arrays, tree, settings)
@@ -127,7 +127,7 @@ def no_rows() -> dict[str, Array]:
     trees = ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint")
     images, lamps = (
         ("Axes", "Uv", "Tangent", "Map", "Maps"),
-        ("Emitter", "Light", "Cluster", "Aim", "Target"),
+        ("Emitter", "Light", "Cluster", "Aim", "Target", "Sides"),
     )
     others = (*trees, *images, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -66,7 +66,8 @@ def pack_scene(
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
         "Aim": pack_aims(lamps, eye, STRUCTS["Aim"]),
-        "Target": np.zeros(0, STRUCTS["Target"]),  # with_targets has them
+        "Target": np.zeros(0, STRUCTS["Target"]),  # with_particles has them
+        "Sides": np.zeros(0, STRUCTS["Sides"]),
     }
 
 

@@ -1,4 +1,4 @@
-"""What particles from lamps read: fields of the frame, and what they are aimed at."""
+"""What particles from lamps read: fields of the frame, their targets, and how they leave."""
 
 import math
 from typing import Any
@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from glrt.gpu.struct_arrays import Arrays
+from glrt.methods.lamp_sides import front_share
 from glrt.methods.particles import (
     Ball,
     emitters_of,
@@ -17,6 +18,7 @@ from glrt.methods.particles import (
     targets_of,
 )
 from glrt.rendering.kernel_structs import STRUCTS
+from glrt.rendering.pack_shapes import in_order
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -82,11 +84,21 @@ def _share_of_the_sun(scene: Scene, bounds: Ball) -> float:
     return min(max(share, LEAST_SHARE), 1 - LEAST_SHARE)
 
 
-def with_targets(arrays: Arrays, scene: Scene, settings: Settings) -> dict[str, Array]:
-    """Arrays of a scene, with the rows of the struct Target where there are particles."""
-    balls = targets_of(scene) if settings.caustics == "on" else []
+def with_particles(arrays: Arrays, scene: Scene, settings: Settings) -> dict[str, Array]:
+    """Arrays of a scene, with what particles read where there are any.
+
+    These are the rows of the structs Target and Sides, which has one for each of Light.
+    """
+    is_on = settings.caustics == "on"
+    balls = targets_of(scene) if is_on else []
     eye = np.array(scene.camera.position, np.float64)
-    rows = np.zeros(len(balls), STRUCTS["Target"])
-    for row, ball in zip(rows, balls, strict=True):
+    targets = np.zeros(len(balls), STRUCTS["Target"])
+    for row, ball in zip(targets, balls, strict=True):
         row["center"], row["radius"] = ball.center - eye, ball.radius
-    return {**arrays, "Target": rows}
+    shapes = in_order(scene)
+    numbers = arrays["Light"]["shape"][: None if is_on else 0]
+    sides = np.zeros(len(numbers), STRUCTS["Sides"])
+    for row, number in zip(sides, numbers, strict=True):  # triangles come after all shapes
+        front = front_share(scene, shapes[number]) if number < len(shapes) else 0.5
+        row["front"], row["back"] = front, 1 - front
+    return {**arrays, "Target": targets, "Sides": sides}

@@ -23,7 +23,7 @@ SKY_TREE = "environment_tree"  # that of the tree by which it is sampled
 RESERVOIRS = "held_reservoirs"  # that of what earlier samples keep for later ones
 TEXELS = "map_texels"  # that of the images on surfaces
 MOST_BAKED = 32  # shapes
-SHAPES = (*NUMBERED, "Target")  # arrays that follow from them alone, and that are read in loops
+SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from them alone
 
 
 class Variant(NamedTuple):

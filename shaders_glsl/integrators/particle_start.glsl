@@ -124,7 +124,8 @@ Particle start_particle(precise inout Sampler rng) {
     }
     int index = choose_emitter(choice.x);
     precise Light light = light_at(index);
-    precise Leaving leaving = place_on(light, u, choice.y >= 0.5);
+    precise float front = sides_at(index).front;
+    precise Leaving leaving = place_on(light, u, choice.y >= front);
     precise vec3 direction = normalized(frame_around(leaving.normal) * sample_cosine_hemisphere(v));
     bool is_front = leaving.is_front;
     if (aim != NOT_AIMED) {

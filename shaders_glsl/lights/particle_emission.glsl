@@ -143,10 +143,17 @@ const float LEAST_COSINE = 9.5367431640625e-7;
 struct Aspect {
     float area;      // of one side
     float cosine;    // 0: nothing leaves so
-    float by_cosine; // the share of particles of this side that leave by the cosine
+    float by_cosine; // the share of particles that leave this side by the cosine
 };
 
-Aspect aspect_of(Light light, vec3 p, vec3 direction) {
+// Of a flat lamp that is seen on that side.
+float share_of_side(int index, bool is_front) {
+    precise Sides sides = sides_at(index);
+    return is_front ? sides.front : sides.back;
+}
+
+Aspect aspect_of(int index, vec3 p, vec3 direction) {
+    precise Light light = light_at(index);
     if (is_of_sphere(light)) {
         precise Sphere sphere = sphere_at(light.shape);
         precise float area = 4.0 * PI * sphere.radius * sphere.radius;
@@ -162,13 +169,13 @@ Aspect aspect_of(Light light, vec3 p, vec3 direction) {
     if (is_of_disk(light)) {
         precise Disk disk = disk_of(light);
         precise float area = PI * disk.radius * disk.radius;
-        precise float cosine = abs(dot(disk.normal, direction));
-        return Aspect(area, cosine, 0.5);
+        precise float cosine = dot(disk.normal, direction);
+        return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
     }
     precise Quad quad = quad_of(light);
     precise float area = quad.width * quad.height;
-    precise float cosine = abs(dot(quad.normal, direction));
-    return Aspect(area, cosine, 0.5);
+    precise float cosine = dot(quad.normal, direction);
+    return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
 }
 
 // PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
@@ -176,7 +183,7 @@ Aspect aspect_of(Light light, vec3 p, vec3 direction) {
 float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
     if (SKY_SENDS) return pdf_from_sky(p, direction, certain);
     if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);
-    precise Aspect aspect = aspect_of(light_at(index), p, direction);
+    precise Aspect aspect = aspect_of(index, p, direction);
     if (aspect.by_cosine == 1.0 && aspect.cosine == 0.0) return 0.0;
     precise float by_angle = aspect.by_cosine;
     if (is_aimed()) {

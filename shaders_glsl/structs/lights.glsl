@@ -31,6 +31,14 @@ struct Target {
     float radius;
 };
 
+// How the particles of a flat lamp are spread over its sides, if they are not aimed.
+struct Sides {
+    float front;  // share of those that leave on the side of its normal
+    float back;
+    int spare_a;  // fill the row
+    int spare_b;
+};
+
 // The directions into which the lamps of a cluster or a part emit: within a cone, at each of their points.
 struct Aim {
     vec3 axis;    // unit; v is 1 - cos of the angle to it

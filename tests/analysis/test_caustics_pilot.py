@@ -4,7 +4,9 @@ import random
 import time
 from typing import Any
 
+import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from glrt.analysis.method_choice import caustics
 from glrt.analysis.method_choice.caustics import CHOICES, may_gain, particles_worth
@@ -78,6 +80,18 @@ def test_of_choices_that_gain_about_as_much_the_last_one_is_taken(
     settings = Settings(width=8, height=8)
     found = particles_worth(load(BALL), settings, context)
     assert found == (settings_for(settings, caustics="on", **CHOICES[chosen]), gains[chosen])
+
+
+def test_a_bright_pixel_does_not_hide_its_own_error() -> None:
+    """Relative to it alone, an error that comes with a bright pixel would count as any other."""
+    radiance = np.ones((16, 16, 3), np.float32)
+    errors = 0.1 * radiance
+    assert_allclose(caustics._level(radiance), radiance)
+    assert caustics._relative(caustics._level(radiance), errors) == pytest.approx(0.01, rel=0.02)
+    radiance[8, 8], errors[8, 8] = 26, 2.6
+    level = caustics._level(radiance)
+    assert_allclose(level[6:11, 6:11], 2)
+    assert caustics._relative(level, errors) > 2 * caustics._relative(radiance, errors)
 
 
 def under_a_ball(radius: float) -> Scene:

@@ -1,8 +1,9 @@
 """The table of switches: variances are those of the pictures, ratios are to the first variant."""
 
+import numpy as np
 import pytest
 
-from bench.efficiency import SCENES, Way, main, measure, scene_of, table
+from bench.efficiency import SCENES, Runs, Way, main, measure, scene_of, table
 from glrt.gpu.context import Context
 from glrt.scene.catalog import scene_names
 
@@ -20,6 +21,23 @@ def test_a_row_holds_what_its_runs_did(context: Context) -> None:
     lines = list(table([first, second]))
     assert len(lines) == 4
     assert len({line.count("|") for line in lines}) == 1
+
+
+def test_a_bright_pixel_is_not_the_measure_of_its_own_error(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pixels of mean 1 that are 2.8 in a tenth of the pictures: their variance is 0.36."""
+    drawn = np.random.default_rng(2)
+
+    def bright(runs: Runs, seed: int) -> None:
+        runs.seconds.append(1.0)
+        is_bright = drawn.random((64, 64, 3)) < 0.1
+        runs.pictures.append(np.where(is_bright, 2.8, 0.8).astype(np.float32))
+
+    monkeypatch.setattr(Runs, "add", bright)
+    first, second = measure(context, "sky", 8, 6, {"a": Way({}), "b": Way({})}, samples=1)
+    for row in (first, second):
+        assert row.variance == pytest.approx(0.36, rel=0.12)
 
 
 def test_the_room_is_cornell_without_its_caustic() -> None:

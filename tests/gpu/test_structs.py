@@ -126,7 +126,7 @@ def test_all_structs_of_the_shader_file_are_read() -> None:
     assert (
         " ".join(STRUCTS)
         == f"{shapes} Material Emitter Conductor Glass Gloss Albedo Map Maps Axes Uv Tangent "
-        "Light Cluster Target Aim Camera Frame"
+        "Light Cluster Target Sides Aim Camera Frame"
     )
     assert SCENE.count("struct ") == len(STRUCTS)
 

@@ -1,6 +1,6 @@
 """Bugs of particles: their emission, their link to the camera, their weight, their sums."""
 
-from tests.mutation.mutant import Mutant, edit
+from tests.mutation.mutant import Edit, Mutant, edit
 
 _EMISSION = "lights/particle_emission.glsl"
 _WEIGHTS = "integrators/particle_weights.glsl"
@@ -37,12 +37,32 @@ PARTICLES = [
     ),
     Mutant(
         "a quad shines to one side alone",
-        edit(
-            _EMISSION,
-            "dot(quad.normal, direction));\n    return Aspect(area, cosine, 0.5)",
-            "dot(quad.normal, direction));\n    return Aspect(area, cosine, 1.0)",
-        ),
+        edit(_EMISSION, "share_of_side(index, cosine > 0.0));\n}", "1.0);\n}"),
         f"{_SHADERS}::test_directions_from_a_lamp_have_a_density",
+    ),
+    Mutant(
+        "the density does not know how many particles leave each side",
+        edit(_EMISSION, "return is_front ? sides.front : sides.back;", "return 0.5;"),
+        f"{_SHADERS}::test_most_particles_leave_the_side_that_is_close_to_something",
+    ),
+    Mutant(
+        "particles leave both sides of a lamp alike",
+        edit(
+            "integrators/particle_start.glsl",
+            "precise float front = sides_at(index).front;",
+            "precise float front = 0.5;",
+        ),
+        f"{_SHADERS}::test_most_particles_leave_the_side_that_is_close_to_something",
+    ),
+    Mutant(
+        "particles leave the side of a lamp that is far from everything",
+        (Edit("glrt/methods/lamp_sides.py", "front < back", "front > back"),),
+        "methods/test_lamp_sides.py",
+    ),
+    Mutant(
+        "a pilot lets bright pixels hide their errors",
+        (Edit("glrt/analysis/method_choice/caustics.py", "AROUND = 2 ", "AROUND = 0 "),),
+        "analysis/test_caustics_pilot.py::test_a_bright_pixel_does_not_hide_its_own_error",
     ),
     Mutant(
         "particles leave a ball inwards, too",

@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from tests.conftest import CallGlsl
 from tests.support.builders import (
+    plane,
     scene_of,
     sphere,
 )
@@ -17,6 +18,7 @@ from tests.support.particle_starts import (
     DISK,
     FAR_BALL,
     FLAT,
+    LAMPS,
     MATERIALS,
     ON,
     PLACE,
@@ -165,6 +167,32 @@ def test_particles_carry_the_flux_of_their_lamp(
     flux = np.pi * 2.0 * SIDES[kind] * AREA[kind]
     assert abs(power.mean() - flux) < 5 * power.std() / np.sqrt(power.size)
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
+
+
+@pytest.mark.parametrize("kind", ["quad", "disk"])
+def test_most_particles_leave_the_side_that_is_close_to_something(
+    call_glsl: CallGlsl, particle_files: str, kind: str
+) -> None:
+    """Of those that are not aimed, and each side has its flux all the same."""
+    ceiling = plane([0, 1.05, 0], [0, -1, 0], "matte")
+    place = scene(kind, BALL, FAR_BALL, ceiling)
+    up = "float(particle.path.ray.direction.y > 0.0)"
+    leave_so = starts(call_glsl, particle_files, place, f"{up} + 0.0 * n", "float")
+    assert abs(leave_so.mean() - 0.5 * 0.9) < 0.01
+    for side in (up, f"(1.0 - {up})"):
+        powers = f"particle.power.x * {side} + 0.0 * n"
+        power = starts(call_glsl, particle_files, place, powers, "float")
+        flux = np.pi * 2.0 * AREA[kind]
+        assert abs(power.mean() - flux) < 5 * power.std() / np.sqrt(power.size)
+        assert power.std() / np.sqrt(power.size) < 0.02 * flux
+
+
+def test_none_leaves_the_dark_side_of_a_lamp(call_glsl: CallGlsl, particle_files: str) -> None:
+    """Whatever is close to it."""
+    shining = {**LAMPS["quad"], "emission_side": "front"}
+    place = scene_of([shining, BALL, plane([0, 1.05, 0], [0, -1, 0], "matte")], MATERIALS)
+    lost = "float(particle.power.x == 0.0) + 0.0 * n"
+    assert (starts(call_glsl, particle_files, place, lost, "float") == 0).all()
 
 
 def test_a_lamp_inside_a_ball_aims_none_at_it(call_glsl: CallGlsl, particle_files: str) -> None:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.analysis.method_choice.work import counting, work_per_sample
+from glrt.analysis.variants import LINKED
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
@@ -32,7 +33,7 @@ Values = Mapping[str, Any]  # of settings, by their names
 CHOICES: tuple[Values, ...] = (
     {"particles": 0.25, "aimed": 0.5, "linked": 0.0},
     {"particles": 0.1, "aimed": 0.95, "linked": 0.0},
-    {"particles": 0.5, "aimed": 0.2, "linked": 1.0},
+    LINKED,
 )
 LONG, SHORT = 1 << 12, 1 << 10  # pixels of the small frame at most: of long and shorter renders
 COUNTED = 1 << 10  # of the frame in which work is counted, which varies less
@@ -43,6 +44,7 @@ GAIN = 1.15  # times as efficient, at least: variances and work are estimates
 HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
 CERTAIN = 5.0  # standard errors of the mean of a frame, beyond which two differ
 NEAR = 0.85  # of the best gain: later CHOICES find more of the light that a pilot has not seen
+AROUND = 2  # pixels on each side of one, whose mean is its level
 
 
 class Costs(NamedTuple):
@@ -150,18 +152,32 @@ def _pilot_of(settings: Settings, samples: float) -> int:
 
 def _samples_to(error: float, plain: Image) -> float:
     """How many samples of each pixel reach it without particles, about."""
-    return SAMPLES * _relative(plain, plain.stderr) / error**2
+    return SAMPLES * _relative(plain.radiance, plain.stderr) / error**2
 
 
 def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixels: int) -> float:
     """How many times as efficient these settings are as those of a plain picture."""
     image = _picture(scene, settings, context, pixels)
-    cost = _relative(image, image.stderr) * _slowed(scene, settings, context)
-    variance = max(_relative(image, plain.stderr), _unseen(plain, image))
+    level = _level(image.radiance)
+    cost = _relative(level, image.stderr) * _slowed(scene, settings, context)
+    variance = max(_relative(level, plain.stderr), _unseen(plain, image, level))
     return variance / max(cost, _TINY)
 
 
-def _unseen(plain: Image, other: Image) -> float:
+def _level(radiance: Pixels) -> Pixels:
+    """What the errors of both pictures are relative to: the mean around each pixel.
+
+    A pixel that met a rare bright path is too bright, and its error is large. Relative to that
+    pixel alone it would count too little, in the picture whose level it is.
+    """
+    edges = [(AROUND, AROUND), (AROUND, AROUND), (0, 0)]
+    padded = np.pad(radiance, edges, mode="edge")
+    size = 2 * AROUND + 1
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (size, size), axis=(0, 1))
+    return np.asarray(windows.mean(axis=(-2, -1)), radiance.dtype)
+
+
+def _unseen(plain: Image, other: Image, level: Pixels) -> float:
     """The least variance of a plain picture that lacks light which another has; 0 if it does not.
 
     Its own errors tell nothing of light that none of its paths has found, such as the caustic of a
@@ -173,7 +189,7 @@ def _unseen(plain: Image, other: Image) -> float:
     sure = math.sqrt(float(np.mean(np.square(errors), dtype=float)) / pixels)
     if gap <= CERTAIN * sure:
         return 0.0
-    return pixels * _relative(other, np.full_like(other.radiance, gap))
+    return pixels * _relative(level, np.full_like(level, gap))
 
 
 def _small(settings: Settings, pixels: int) -> Settings:
@@ -205,8 +221,8 @@ def _slowed(scene: Scene, settings: Settings, context: Context) -> float:
     return costs.camera_side + costs.particle_side * own / whole_groups / (both - own)
 
 
-def _relative(scale: Image, errors: Pixels) -> float:
-    """The mean square of errors, relative to the radiance of a picture."""
-    error = relative_error(scale.radiance, errors)
+def _relative(level: Pixels, errors: Pixels) -> float:
+    """The mean square of errors, relative to a level."""
+    error = relative_error(level, errors)
     assert error is not None  # there are four observations or more
     return error**2

@@ -1,0 +1,66 @@
+"""How many particles leave each side of a lamp that shines on both, or on one."""
+
+import math
+
+import numpy as np
+
+from glrt.scene.meshes import Mesh
+from glrt.scene.objects import Array, Object, Sided
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Disk, Quad
+
+CLOSE = 2.5  # times the size of a lamp, its root area: what is nearer glows, and lights the rest
+MUCH = 2.0  # times as far, so that one side alone is close
+MOST = 0.9  # of the particles of a lamp, on its side that is close to something
+
+
+def front_share(scene: Scene, lamp: Object) -> float:
+    """The share of the particles that leave the front of a lamp, of those that are not aimed.
+
+    Light that leaves into the open is found well by sampling the lamp, but for what makes caustics,
+    at which particles are aimed. Light that lands close to the lamp lights the rest of the scene
+    from there, which paths from the camera find by chance alone. So most particles leave on that
+    side. Half do where neither side is close to anything, or both are.
+    """
+    if not isinstance(lamp, Quad | Disk):
+        return 0.5
+    if lamp.is_one_sided:
+        return 1.0
+    middle, normal, size = _facing(lamp)
+    front, back = (_room(scene, lamp, middle, away) for away in (normal, -normal))
+    if min(front, back) > CLOSE * size or max(front, back) < MUCH * min(front, back):
+        return 0.5
+    return MOST if front < back else 1 - MOST
+
+
+def _facing(lamp: Sided) -> tuple[Array, Array, float]:
+    """Its middle, its unit normal (3,) and its size."""
+    middle = np.array(lamp.middle, np.float64)
+    if isinstance(lamp, Quad):
+        across = np.cross(lamp.edge_u, lamp.edge_v)
+        area = float(np.linalg.norm(across))
+        return middle, across / area, math.sqrt(area)
+    assert isinstance(lamp, Disk)
+    normal = np.array(lamp.normal, np.float64)
+    return middle, normal / np.linalg.norm(normal), lamp.radius * math.sqrt(math.pi)
+
+
+def _room(scene: Scene, lamp: Object, middle: Array, away: Array) -> float:
+    """How far it is to what lies before the middle of a side; inf where nothing does."""
+    rows: dict[type[Object], list[list[float]]] = {}
+    for thing in scene.visible:
+        if thing is not lamp:
+            rows.setdefault(type(thing), []).append(thing.row)
+    balls = np.array(rows.pop(Mesh, []), np.float64).reshape(-1, 4)
+    with np.errstate(all="ignore"):
+        found = [
+            kind.distances(np.array(these, np.float64), middle, away).min()
+            for kind, these in rows.items()
+        ]
+        reached = Mesh.distances(balls, middle, away)
+    nearest = min(found, default=math.inf)
+    meshes = (thing for thing in scene.visible if isinstance(thing, Mesh) and thing is not lamp)
+    for mesh, ball in zip(meshes, reached, strict=True):
+        if ball < nearest:
+            nearest = min(nearest, mesh.distance(middle, away))
+    return float(nearest)
