@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - table: the methods, a row each
 - contents: what is in a scene, and by which trees shapes are found
+- lamp_sides: how many particles leave each side of a lamp
 - particles: where particles from lamps go, and where they cannot
 - probe_grid: where the probes of a scene stand
 - features: the features compiled into a kernel

@@ -88,7 +88,7 @@ def test_a_bright_pixel_does_not_hide_its_own_error() -> None:
     errors = 0.1 * radiance
     assert_allclose(caustics._level(radiance), radiance)
     assert caustics._relative(caustics._level(radiance), errors) == pytest.approx(0.01, rel=0.02)
-    radiance[8, 8], errors[8, 8] = 26, 2.6
+    radiance[8, 8], errors[8, 8] = 26, 13
     level = caustics._level(radiance)
     assert_allclose(level[6:11, 6:11], 2)
     assert caustics._relative(level, errors) > 2 * caustics._relative(radiance, errors)

@@ -57,7 +57,7 @@ PARTICLES = [
     Mutant(
         "particles leave the side of a lamp that is far from everything",
         (Edit("glrt/methods/lamp_sides.py", "front < back", "front > back"),),
-        "methods/test_lamp_sides.py",
+        "methods/test_lamp_sides.py::test_most_particles_leave_the_side_that_is_close_to_something",
     ),
     Mutant(
         "a pilot lets bright pixels hide their errors",
