@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from glrt.gpu.struct_arrays import Arrays
-from glrt.methods.lamp_sides import front_share
+from glrt.methods.lamp_sides import front_shares
 from glrt.methods.particles import (
     Ball,
     emitters_of,
@@ -89,16 +89,17 @@ def with_particles(arrays: Arrays, scene: Scene, settings: Settings) -> dict[str
 
     These are the rows of the structs Target and Sides, which has one for each of Light.
     """
-    is_on = settings.caustics == "on"
-    balls = targets_of(scene) if is_on else []
+    if settings.caustics == "off":
+        return dict(arrays)
+    balls = targets_of(scene)
     eye = np.array(scene.camera.position, np.float64)
     targets = np.zeros(len(balls), STRUCTS["Target"])
     for row, ball in zip(targets, balls, strict=True):
         row["center"], row["radius"] = ball.center - eye, ball.radius
-    shapes = in_order(scene)
-    numbers = arrays["Light"]["shape"][: None if is_on else 0]
+    shapes, numbers = in_order(scene), arrays["Light"]["shape"]
     sides = np.zeros(len(numbers), STRUCTS["Sides"])
-    for row, number in zip(sides, numbers, strict=True):  # triangles come after all shapes
-        front = front_share(scene, shapes[number]) if number < len(shapes) else 0.5
-        row["front"], row["back"] = front, 1 - front
+    sides["front"] = 0.5
+    is_shape = numbers < len(shapes)  # others are triangles
+    sides["front"][is_shape] = front_shares(scene, [shapes[it] for it in numbers[is_shape]])
+    sides["back"] = 1 - sides["front"]
     return {**arrays, "Target": targets, "Sides": sides}

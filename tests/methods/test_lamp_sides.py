@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from glrt.methods.lamp_sides import front_share
+from glrt.methods.lamp_sides import front_shares
 from glrt.methods.particles import emitters_of
 from tests.support.builders import MATTE, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import Faces, icosphere, mesh
@@ -48,8 +48,7 @@ AROUND: dict[str, tuple[list[dict[str, Any]], float]] = {
 def test_most_particles_leave_the_side_that_is_close_to_something(kind: str, around: str) -> None:
     others, expected = AROUND[around]
     scene = scene_of([SHINING[kind], *others], {"lamp": lamp(2.0), "matte": MATTE})
-    (emitter,) = emitters_of(scene)
-    assert front_share(scene, emitter) == pytest.approx(expected)
+    assert front_shares(scene, emitters_of(scene)) == [pytest.approx(expected)]
 
 
 @pytest.mark.parametrize("kind", SHINING)
@@ -57,11 +56,9 @@ def test_none_leaves_the_dark_side(kind: str) -> None:
     ceiling = plane([0, 1.1, 0], [0, -1, 0], "matte")
     shining = {**SHINING[kind], "emission_side": "front"}
     scene = scene_of([shining, ceiling], {"lamp": lamp(2.0), "matte": MATTE})
-    (emitter,) = emitters_of(scene)
-    assert front_share(scene, emitter) == 1
+    assert front_shares(scene, emitters_of(scene)) == [1]
 
 
 def test_a_ball_has_one_side() -> None:
     scene = scene_of([sphere([0, 1, 0], 0.2, "lamp")], {"lamp": lamp(2.0)})
-    (emitter,) = emitters_of(scene)
-    assert front_share(scene, emitter) == 0.5
+    assert front_shares(scene, emitters_of(scene)) == [0.5]
