@@ -25,8 +25,9 @@ bool goes_back(Scattering next, Normals normals, bool is_flat) {
 // Glossy surfaces scatter particles as paths from the camera. So do smooth glass and metal, in the one or two directions
 // from which paths from the camera come to where the particle comes from: some of these scatter around the true normal,
 // which `vertex` has, some around the other one.
-Scattering scatter_particle(Vertex vertex, Normals normals, precise inout Sampler rng) {
-    if (is_glossy(vertex.material)) vertex = vertex_from(vertex, normals, vertex.frame * vertex.wo);
+Scattering scatter_particle(Vertex met, Normals normals, precise inout Sampler rng) {
+    precise Vertex vertex = met;  // a struct made of its own fields keeps glslang 12 searching for ever
+    if (is_glossy(met.material)) vertex = vertex_from(met, normals, met.frame * met.wo);
     precise Scattering flat_one = sample_material(vertex, rng);
     if (!HAS_SHADING || !is_delta(vertex.material) || normals.shading == normals.facing) return flat_one;
     if (!goes_back(flat_one, normals, true)) flat_one.weight = vec3(0.0);
