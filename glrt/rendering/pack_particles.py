@@ -89,8 +89,8 @@ def with_particles(arrays: Arrays, scene: Scene, settings: Settings) -> dict[str
 
     These are the rows of the structs Target and Sides, which has one for each of Light.
     """
-    if settings.caustics == "off":
-        return dict(arrays)
+    if settings.caustics == "off":  # `arrays` may be of the same scene with particles
+        return {**arrays, **{name: np.zeros(0, STRUCTS[name]) for name in ("Target", "Sides")}}
     balls = targets_of(scene)
     eye = np.array(scene.camera.position, np.float64)
     targets = np.zeros(len(balls), STRUCTS["Target"])

@@ -115,6 +115,15 @@ def test_a_moved_camera_compiles_no_particles(context: Context) -> None:
     assert np.array_equal(image.radiance, expected.radiance)
 
 
+def test_a_moved_camera_compiles_nothing_once_particles_are_off(context: Context) -> None:
+    camera = ROOM.camera.model_copy(update={"position": (0.1, 0.0, 0.8)})
+    moved = ROOM.model_copy(update={"camera": camera})
+    renderer = Renderer(ROOM, context=context, **SMALL, **ON)
+    assert renderer.update(caustics="off") is Cost.RECOMPILE
+    assert renderer.update(moved) is Cost.RESTART
+    renderer.release()
+
+
 @pytest.mark.slow
 def test_the_error_of_a_relit_picture_is_its_spread(context: Context) -> None:
     """Over 64 renders, within 12 %: the root of the mean of the variances of pixels."""
