@@ -36,6 +36,7 @@ from bench.turns import Command, Entry, Pace, complaints, installed, started, ta
 from glrt import files
 from glrt.scene.loading import files_of
 from glrt.scene.scene import Scene
+from glrt.settings import BLOCKS
 
 ROUNDS_OF_STARTS = 5
 LEVEL_TURNS = 2.0  # turns' time of the picture that variances are relative to
@@ -71,8 +72,8 @@ class Contest:
     def rows(self, name: str) -> Iterator[Row]:
         """The rows of a scene."""
         scene = scene_of(name)
-        entries = [ours(scene, self._size, sampler) for sampler in ("independent", "sobol")]
-        level = self._level(entries[1])
+        entries = [ours(scene, self._size, sampler) for sampler in BLOCKS]
+        level = self._level(entries[0])
         if MITSUBA in self._commands:
             entries.append(self._mitsuba(name, scene, level))
         yield from self._match(name, entries, self._rounds, level)

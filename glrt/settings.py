@@ -15,7 +15,7 @@ from glrt.errors import UsageError
 Method = Literal[
     "naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather", "resampled"
 ]
-Sampler = Literal["sobol", "independent"]
+Sampler = Literal["sobol", "sobol64", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces"]
@@ -23,7 +23,7 @@ Denoise = Literal["none", "oidn", "nlm", "auto"]
 Reuse = Literal["none", "temporal", "spatial", "both"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
-BLOCKS = {"sobol": 16, "independent": 1}  # samples of an observation, by sampler
+BLOCKS = {"sobol": 16, "sobol64": 64, "independent": 1}  # samples of an observation, by sampler
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # of a denoiser
 OF_PATHS: tuple[Aov, ...] = ("bounces",)  # AOVs of whole paths, not of first surfaces
 
@@ -96,6 +96,7 @@ class Settings(RenderSettings):
     sampler: Annotated[Sampler, Editable(Cost.RECOMPILE)] = Field(
         "sobol",
         description="sobol: blocks of 16 samples from scrambled Sobol' points, less noise; "
+        "sobol64: blocks of 64, less still where light is even, with an error from 128 samples on; "
         "independent: independent random numbers",
     )
     roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(

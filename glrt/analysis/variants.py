@@ -52,7 +52,7 @@ def variants_of(
 
 def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
     """A method as it is; one with probes by the sampler that it needs."""
-    if not TRAITS[method].has_probes or settings.sampler == "sobol":
+    if not TRAITS[method].has_probes or settings.block > 1:
         return method, {"method": method}
     return f"{method}, sobol", {"method": method, "sampler": "sobol"}
 

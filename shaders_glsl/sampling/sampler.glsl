@@ -2,8 +2,8 @@
 // the frame's size and refreshes every frame; here it is hashed from its place. The dimension
 // counts the numbers drawn.
 //
-// Independent numbers, or, where BLOCK is above 1, the first 16 points of Sobol's sequence, with
-// a scramble of its own for each block of 16 samples (sampling/sobol.glsl).
+// Independent numbers, or, where BLOCK is above 1, as many points of a net (16: sampling/sobol.glsl,
+// 64: sampling/sobol64.glsl), with a scramble of its own for each block of BLOCK samples.
 
 const uint STEP = 0x9E3779B9u;  // from one dimension to the next
 
@@ -45,11 +45,23 @@ float next_independent(precise inout Sampler self) {
     return unit_float(pcg_hash(self.seed ^ self.dimension));
 }
 
+// As next_sobol, of blocks of 64.
+vec2 next_of_64(Sampler self, uint first, bool last) {
+    uint order = pcg_hash(self.block ^ first);
+    uint index = owen_scramble_64(self.point, uvec2(order, pcg_hash(order)));
+    uint x = pcg_hash(~self.block ^ self.dimension);
+    uint more = pcg_hash(x);
+    uint y = pcg_hash(more);
+    uvec2 cell = sobol_cell_64(index, last, uvec4(x, more, y, pcg_hash(y)));
+    return sobol_place_64(cell, pcg_hash(self.seed ^ self.dimension));
+}
+
 // Two draws in turn share one shuffled point of four dimensions.
 vec2 next_sobol(precise inout Sampler self) {
     self.dimension += STEP;
     bool last = (self.dimension & 1u) == 0u;  // STEP is odd: every second draw
     uint first = last ? self.dimension - STEP : self.dimension;
+    if (BLOCK > 16) return next_of_64(self, first, last);
     uint index = owen_scramble(self.point, pcg_hash(self.block ^ first));
     uvec2 cell = sobol_cell(index, last, pcg_hash(~self.block ^ self.dimension));
     return sobol_place(cell, pcg_hash(self.seed ^ self.dimension));

@@ -53,4 +53,19 @@ SAMPLING = [
         ),
         "shaders/test_sobol.py::test_blocks_are_independent_of_their_neighbours",
     ),
+    Mutant(
+        "64 points are Sobol's in their first two dimensions, and again in their last two",
+        edit("sampling/sobol64.glsl", "last ? all >> 12u : all", "all"),
+        "shaders/test_sobol.py::test_64_points_fill_four_dimensions_evenly",
+    ),
+    Mutant(
+        "the last level of the scramble of 64 points flips all alike",
+        edit("sampling/sobol64.glsl", "(tree.y >> (v >> 1u)) & 1u", "tree.y & 1u"),
+        "shaders/test_sobol.py::test_the_points_of_two_pairs_of_draws_are_shuffled_apart",
+    ),
+    Mutant(
+        "both coordinates of 64 points share their scramble",
+        edit("sampling/sobol64.glsl", "two >> 6u & 63u, trees.zw", "two >> 6u & 63u, trees.xy"),
+        "shaders/test_sobol.py::test_each_point_is_uniform_over_pixels_and_blocks",
+    ),
 ]
