@@ -15,7 +15,7 @@ from glrt.analysis.chart.experiment import Experiment
 from glrt.analysis.chart.words import ending, percent, speed_up
 from glrt.analysis.plot import FORMATS, open_figure, save_figure
 
-MARKERS = "os^Dv<>ph*XPd1+28H3"
+MARKERS = "os^Dv<>ph*XPd1+28H34"
 BLACK, GREY, PALE = "black", "0.62", "0.85"
 SIZE = (12.0, 6.5)  # inches
 FONT = 13  # points
