@@ -20,6 +20,7 @@ from tests.support.numerics import BELOW_ONE, Array
 from tests.support.renders import METHODS, SAMPLERS, assert_agree, rendered, rendering, same
 
 BLOCKS = (16, 64)
+WAYS = [*((method, "sobol") for method in METHODS), ("mis", "sobol64")]
 
 
 def draws(
@@ -170,26 +171,20 @@ def test_blocks_are_independent_of_their_neighbours(
 # --- pictures ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("method", METHODS)
+PORTIONS = {
+    "sobol": ([40], [1] * 40, [16, 16, 8], [3, 8, 1, 4, 21, 3], [31, 9]),
+    "sobol64": ([150], [1] * 150, [64, 64, 22], [3, 70, 1, 54, 21, 1]),
+}
+
+
+@pytest.mark.parametrize(("method", "sampler"), WAYS)
 def test_samples_may_come_in_portions_that_end_within_a_block(
-    context: Context, method: str
+    context: Context, method: str, sampler: str
 ) -> None:
     pictures = []
-    for portions in ([40], [1] * 40, [16, 16, 8], [3, 8, 1, 4, 21, 3], [31, 9]):
-        settings = {"method": method, "sampler": "sobol", "width": 13, "height": 9, "bounces": 4}
+    for portions in PORTIONS[sampler]:
+        settings = {"method": method, "sampler": sampler, "width": 13, "height": 9, "bounces": 4}
         with rendering(everything(), context, **settings) as renderer:
-            for samples in portions:
-                renderer.step(samples)
-            pictures.append(renderer.image())
-    assert (pictures[0].stderr > 0).any()
-    for picture in pictures[1:]:
-        assert same(picture, pictures[0])
-
-
-def test_samples_of_blocks_of_64_may_come_in_portions_too(context: Context) -> None:
-    pictures = []
-    for portions in ([150], [1] * 150, [64, 64, 22], [3, 70, 1, 54, 21, 1]):
-        with rendering(everything(), context, sampler="sobol64", width=13, height=9) as renderer:
             for samples in portions:
                 renderer.step(samples)
             pictures.append(renderer.image())
@@ -258,9 +253,7 @@ def lit() -> Scene:
     return scene_of(objects, {"white": white, "lamp": lamp(4.0)}, render={"bounces": 5})
 
 
-@pytest.mark.parametrize(
-    ("method", "sampler"), [*((method, "sobol") for method in METHODS), ("mis", "sobol64")]
-)
+@pytest.mark.parametrize(("method", "sampler"), WAYS)
 def test_all_samplers_show_one_picture(context: Context, method: str, sampler: str) -> None:
     samples = 1024 if method == "naive" else 256
     settings = {"method": method, "width": 32, "height": 32}
