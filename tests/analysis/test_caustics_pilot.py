@@ -140,6 +140,17 @@ def test_no_clock_decides(context: Context, monkeypatch: pytest.MonkeyPatch) -> 
     assert particles_worth(scene, settings, context) == plain
 
 
+def test_blocks_of_64_are_judged_as_blocks_of_16(context: Context) -> None:
+    """The pilot renders 64 samples, of which a block of 64 has no error."""
+    settings = Settings(width=8, height=8)
+    expected = particles_worth(load(BALL), settings, context)
+    found = particles_worth(load(BALL), settings_for(settings, sampler="sobol64"), context)
+    assert expected
+    assert found
+    assert found.gain == expected.gain
+    assert found.settings == settings_for(expected.settings, sampler="sobol64")
+
+
 def test_the_frame_of_the_pilot_is_the_whole_one() -> None:
     wanted = Settings(width=600, height=400, crop=(1, 2, 3, 4), aov=("depth",), seed=5)
     small = caustics._small(wanted, 2400)

@@ -25,7 +25,7 @@ from glrt.methods.particles import (
 )
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.settings import Settings, settings_for
+from glrt.settings import Sampler, Settings, settings_for
 
 Values = Mapping[str, Any]  # of settings, by their names
 
@@ -37,7 +37,7 @@ CHOICES: tuple[Values, ...] = (
 )
 LONG, SHORT = 1 << 12, 1 << 10  # pixels of the small frame at most: of long and shorter renders
 COUNTED = 1 << 10  # of the frame in which work is counted, which varies less
-SAMPLES = 64  # of each pixel: four observations with Sobol' points
+SAMPLES = 64  # of each pixel: four observations with blocks of 16
 LEAST = 128  # times the samples of one of its pictures that a render must have, to be worth a pilot
 SEED = 0x43415553  # whatever that of the render is, so that it decides alike for each
 GAIN = 1.15  # times as efficient, at least: variances and work are estimates
@@ -193,11 +193,16 @@ def _unseen(plain: Image, other: Image, level: Pixels) -> float:
 
 
 def _small(settings: Settings, pixels: int) -> Settings:
-    """Settings for the whole frame in so many pixels at most, without AOVs and denoiser."""
+    """Settings for the whole frame in so many pixels at most, without AOVs and denoiser.
+
+    Blocks are of 16 samples at most, so that the variance of SAMPLES is known.
+    """
     scale = min(1.0, math.sqrt(pixels / (settings.width * settings.height)))
     width, height = (max(1, int(scale * n)) for n in (settings.width, settings.height))
     frame: dict[str, Any] = {"width": width, "height": height, "crop": None}
-    return settings_for(settings, **frame, aov=(), denoise="none", samples=SAMPLES, seed=SEED)
+    sampler: Sampler = "sobol" if settings.block > 1 else "independent"
+    own = settings_for(settings, **frame, aov=(), denoise="none", samples=SAMPLES, seed=SEED)
+    return settings_for(own, sampler=sampler)
 
 
 def _picture(scene: Scene, settings: Settings, context: Context, pixels: int) -> Image:
