@@ -22,7 +22,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES
 
 WARM_UP = 3  # dispatches before the first that is timed
-LEAST_SAMPLES = 32  # two observations of any sampler, which give a standard error
+LEAST_SAMPLES = 32
 
 
 class Look(NamedTuple):
@@ -92,6 +92,7 @@ def _run(
     left out where that is asked for.
     """
     is_denoised = renderer.settings.denoise != "none"
+    least = max(LEAST_SAMPLES, 2 * renderer.settings.block)  # two observations have an error
     looks: list[Look] = []
     spent = 0.0
     samples = 1
@@ -106,7 +107,7 @@ def _run(
             squared = reference.squared_error(image.shown)
             look = flip(image.shown, reference.radiance) if with_flip else None
             looks.append(Look(samples, spent + filtering, squared, look))
-        is_over = bool(looks) and 2 * spent > seconds and samples >= LEAST_SAMPLES
+        is_over = bool(looks) and 2 * spent > seconds and samples >= least
         if is_over or samples == MAX_SAMPLES:
             noise = reference.relative(_variance(image))
             return Run(name, looks, looks[-1].squared_error - noise)
