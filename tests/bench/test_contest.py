@@ -109,15 +109,16 @@ def test_figures_are_printed_and_saved_and_absent_peers_named(
     saved = json.loads(file.read_text())
     rows = saved["rows"]
     assert f"| glrt | {saved['first pictures']['glrt']['seconds']:.2f} s |" in printed.out
-    names = ["glrt mis, independent", "glrt mis, sobol", "Mitsuba", "glrt naive"]
+    ours = [f"glrt mis, {sampler}" for sampler in ("sobol", "sobol64", "independent")]
+    names = [*ours, "Mitsuba", "glrt naive"]
     assert [row["renderer"].partition(", r")[0].partition(", no r")[0] for row in rows] == names
     assert printed.out.count("| sky |") == len(rows)
-    for row in rows[:2]:
-        assert row["rival"] == rows[2]["renderer"]
+    for row in rows[:3]:
+        assert row["rival"] == rows[3]["renderer"]
         factors = {name: row["lead"][name]["value"] for name in ("time", "rate", "variance")}
         assert factors["time"] == pytest.approx(factors["rate"] * factors["variance"])
         assert factors["rate"] == pytest.approx(5)
-    assert rows[2]["lead"] is rows[3]["lead"] is None
+    assert rows[3]["lead"] is rows[4]["lead"] is None
 
 
 def test_a_renderer_slowed_down_by_turns_ends_the_command_with_1(
