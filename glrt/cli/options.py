@@ -4,12 +4,15 @@ import argparse
 import re
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, NoReturn, get_args
+from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
 from glrt.errors import UsageError
 from glrt.gpu.context import ROUTES, Pipeline
 from glrt.image.sources import FileRules
 from glrt.settings import RenderSettings, Settings, editable_of
+
+if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
 
 AUTO = "auto"  # as --method or --caustics: chosen by a measurement
 _AUTO = {  # what it chooses
@@ -35,6 +38,10 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Raise what argparse would print."""
         raise UsageError(f"{message}. See `{self.prog} --help`.")
+
+    def print_help(self, file: "SupportsWrite[str] | None" = None) -> None:
+        """Print the help. An OSError is raised, which argparse would ignore: of a full disk, say."""
+        print(self.format_help(), end="", file=file)
 
     def parse(self, arguments: list[str] | None) -> argparse.Namespace:
         """Parse everything; an unknown option gets the nearest known one as advice."""
