@@ -40,7 +40,7 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(f"{message}. See `{self.prog} --help`.")
 
     def print_help(self, file: "SupportsWrite[str] | None" = None) -> None:
-        """Print the help. An OSError is raised, which argparse would ignore: of a full disk, say."""
+        """Print the help; OSError, which argparse would ignore, if that fails."""
         print(self.format_help(), end="", file=file)
 
     def parse(self, arguments: list[str] | None) -> argparse.Namespace:
