@@ -6,21 +6,34 @@ import numpy as np
 import pytest
 
 from glrt.analysis import reference
-from glrt.analysis.chart import measure
+from glrt.analysis.chart import experiment, measure
 from glrt.analysis.chart.curves import Curve, Interval
 from glrt.analysis.chart.experiment import Plan, measure_scene
+from glrt.analysis.variants import Variant, variants_of
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.methods.table import METHODS
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
 from tests.support.builders import box_of_quads, lamp, quad, scene_of
 from tests.support.renders import rendered
 
 
 @pytest.fixture
 def unhurried(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Samples that no speed changes: 1024 of each run, at least, and 4096 of a reference's half."""
+    """Samples that no speed changes: 1024 of each run, at least, and 4096 of a reference's half.
+
+    Of methods without probes, which take a hundred times as long with so few pixels.
+    """
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(measure, "LEAST_SAMPLES", 1024)
     monkeypatch.setattr(reference, "FIRST_LOOK", 4096)
+    monkeypatch.setattr(experiment, "variants_of", without_probes)
+
+
+def without_probes(scene: Scene, settings: Settings) -> list[Variant]:
+    methods = [name for name, traits in METHODS.items() if not traits.has_probes]
+    return variants_of(scene, settings, methods)
 
 
 def slopes_of(curves: tuple[Curve, ...]) -> list[Interval]:
