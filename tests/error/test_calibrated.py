@@ -65,11 +65,16 @@ def test_error_of_blocks_of_64_is_right_from_the_second_block_on(context: Contex
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("samples", [32, 47, 64])
+@pytest.mark.parametrize(
+    ("sampler", "samples"),
+    [("sobol", 32), ("sobol", 47), ("sobol", 64), ("sobol64", 128), ("sobol64", 175)],
+)
 @pytest.mark.parametrize("name", ["cornell", "lamps", "sky"])
-def test_error_of_blocks_is_closely_right(context: Context, name: str, samples: int) -> None:
+def test_error_of_blocks_is_closely_right(
+    context: Context, name: str, sampler: str, samples: int
+) -> None:
     """Without the part of a block that 47 samples hold, 0.84 in `cornell` and 1.26 in `sky`."""
-    ratio = ratio_of(context, load(name), samples, size=32, renders=256, sampler="sobol")
+    ratio = ratio_of(context, load(name), samples, size=32, renders=256, sampler=sampler)
     assert_near(ratio, 1, 0.012)
 
 
