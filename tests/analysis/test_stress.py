@@ -31,6 +31,7 @@ VERDICTS = {
     "fireflies": 1,
     "frosted": 7,
     "seeds": 7,
+    "dimensions": 1,
     "sparks": 6,
 }
 SLOW = (  # cases that take more than 10 s of processor time each where no kernel is known

@@ -21,6 +21,7 @@ Modules, each importing only what stands above it:
 - rough_glass: the light that rough glass keeps, a lamp inside it
 - plastic: the light that white plastic keeps
 - textures: coordinates far away, bent normals, layers full of holes
+- points: points of a sampler in ever more dimensions
 - sums: accumulation, random numbers, long paths
 - views: positions and fields of view of the camera
 - cases: all cases by name

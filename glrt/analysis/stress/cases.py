@@ -9,6 +9,7 @@ from glrt.analysis.stress import (
     moving,
     particles,
     plastic,
+    points,
     probes,
     rays,
     reuse,
@@ -76,6 +77,7 @@ _ALL = (
     Case("far", "Texture coordinates far from the image", textures.far),
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),
+    Case("dimensions", "Points in ever more dimensions", points.dimensions),
     Case("frames", "Many frames accumulated", sums.frames),
 )
 CASES = {case.name: case for case in _ALL}

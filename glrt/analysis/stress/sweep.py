@@ -79,15 +79,16 @@ class Lab:
         scene: Scene | None = None,
         setup: str = "",
         functions: str = "",
+        constants: Mapping[str, bool | int] | None = None,
         apart: Apart = "repeated",
     ) -> Array:
         """Evaluate a GLSL expression of the path tracing functions over arrays (see `evaluate`).
 
         The functions see `scene`, or an empty one. Every feature is compiled in; lamps are chosen
-        as in a render of the scene.
+        as in a render of the scene, unless `constants` say otherwise.
         """
         with self.context.gl as gl:
-            ways = returns, setup, functions, scene, None, apart
+            ways = returns, setup, functions, scene, constants, apart
             return evaluate(gl, expression, inputs, *ways)
 
     def render(
