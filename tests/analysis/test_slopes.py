@@ -8,7 +8,7 @@ import pytest
 from glrt.analysis import reference
 from glrt.analysis.chart import experiment, measure
 from glrt.analysis.chart.curves import Curve, Interval
-from glrt.analysis.chart.experiment import Plan, measure_scene
+from glrt.analysis.chart.experiment import Experiment, Plan, measure_scene
 from glrt.analysis.variants import Variant, variants_of
 from glrt.gpu.context import Context
 from glrt.image.sources import load
@@ -18,6 +18,8 @@ from glrt.settings import Settings
 from tests.support.builders import box_of_quads, lamp, quad, scene_of
 from tests.support.renders import rendered
 
+NOISY = "5 bounces", "gather", "resampled"  # their noise is not small beside their bias
+
 
 @pytest.fixture
 def unhurried(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -25,15 +27,26 @@ def unhurried(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
     Of methods without probes, which take a hundred times as long with so few pixels.
     """
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(measure, "LEAST_SAMPLES", 1024)
+    measure_alone(monkeypatch, tmp_path, 1024, has_probes=False)
+
+
+@pytest.fixture
+def probes_unhurried(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The same of methods with probes alone, with 128 samples of each run."""
+    measure_alone(monkeypatch, tmp_path, 128, has_probes=True)
+
+
+def measure_alone(
+    monkeypatch: pytest.MonkeyPatch, folder: Path, least: int, has_probes: bool
+) -> None:
+    def variants(scene: Scene, settings: Settings) -> list[Variant]:
+        methods = [name for name, traits in METHODS.items() if traits.has_probes == has_probes]
+        return variants_of(scene, settings, methods, leads=not has_probes)
+
+    monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
+    monkeypatch.setattr(measure, "LEAST_SAMPLES", least)
     monkeypatch.setattr(reference, "FIRST_LOOK", 4096)
-    monkeypatch.setattr(experiment, "variants_of", without_probes)
-
-
-def without_probes(scene: Scene, settings: Settings) -> list[Variant]:
-    methods = [name for name, traits in METHODS.items() if not traits.has_probes]
-    return variants_of(scene, settings, methods)
+    monkeypatch.setattr(experiment, "variants_of", variants)
 
 
 def slopes_of(curves: tuple[Curve, ...]) -> list[Interval]:
@@ -70,32 +83,54 @@ def test_slopes_are_a_half_and_the_floor_is_the_bias(context: Context, tmp_path:
     assert_halves(slopes_of(result.curves))
 
 
+def long_room() -> Scene:
+    """A room with paths so long that what they leave out is nothing."""
+    room = load("methods/diffuse")
+    return room.model_copy(update={"render": room.render.model_copy(update={"bounces": 64})})
+
+
+def assert_floors(result: Experiment, context: Context, samples: int) -> set[str]:
+    """Hold the floors of biased curves against pictures that have nothing to do with the chart.
+
+    Those have so many samples, and the truth 16,384. Returns the names of the curves.
+    """
+    scene, size = long_room(), {"width": 24, "height": 24}
+    truth = rendered(scene, context, 16384, **size, seed=71, bounces=128, method="nee")
+    scale = np.square(truth.radiance, dtype=np.float64) + 0.01 * truth.radiance.mean() ** 2
+    held = set()
+    for variant, curve in zip(result.variants, result.curves, strict=True):
+        if not curve.is_biased:
+            continue
+        ways = variant.settings.model_dump(include={"method", "bounces", "sampler"})
+        other = rendered(scene, context, samples, **size, seed=72, **ways)
+        difference = np.square(other.radiance - truth.radiance, dtype=np.float64)
+        noise = np.square(other.stderr) + np.square(truth.stderr)
+        floor = np.sqrt(np.mean((difference - noise) / scale))
+        assert curve.bias.value == pytest.approx(floor, rel=0.03, abs=0.004), curve.name
+        if not any(name in curve.name for name in NOISY):
+            assert curve.points[-1].error.value == pytest.approx(floor, rel=0.03), curve.name
+        held.add(curve.name)
+    return held
+
+
 @pytest.mark.slow
 @pytest.mark.timeout(900)
 @pytest.mark.usefixtures("unhurried")
 def test_in_a_room_too_and_floors_are_what_other_pictures_differ_by(
     context: Context, tmp_path: Path
 ) -> None:
-    """Floors against pictures of 16,384 samples that have nothing to do with the chart."""
-    room = load("methods/diffuse")  # with paths so long that what they leave out is nothing
-    scene = room.model_copy(update={"render": room.render.model_copy(update={"bounces": 64})})
-    result = measure_scene(
-        "room", scene, Plan(24, 24, 0.1), context, tmp_path / "r", lambda *_: None
-    )
+    plan = Plan(24, 24, 0.1)
+    result = measure_scene("room", long_room(), plan, context, tmp_path / "r", lambda *_: None)
     assert_halves(slopes_of(result.curves))
-    size = {"width": 24, "height": 24, "seed": 71}
-    truth = rendered(scene, context, 16384, **size, bounces=128, method="nee")
-    scale = np.square(truth.radiance, dtype=np.float64) + 0.01 * truth.radiance.mean() ** 2
-    for variant, curve in zip(result.variants, result.curves, strict=True):
-        if not curve.is_biased:
-            continue
-        ways = variant.settings.model_dump(include={"method", "bounces"})
-        other = rendered(scene, context, 16384, **{**size, "seed": 72}, **ways)
-        difference = np.square(other.radiance - truth.radiance, dtype=np.float64)
-        noise = np.square(other.stderr) + np.square(truth.stderr)
-        floor = np.sqrt(np.mean((difference - noise) / scale))
-        assert curve.bias.value == pytest.approx(floor, rel=0.03, abs=0.004), curve.name
-        if "5 bounces" not in curve.name:  # whose noise is not small beside it
-            assert curve.points[-1].error.value == pytest.approx(floor, rel=0.03), curve.name
-    biased = {curve.name for curve in result.curves if curve.is_biased}
+    biased = assert_floors(result, context, 16384)
     assert {"whitted", "cook", "mis, 1 bounce", "mis, 2 bounces"} <= biased
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+@pytest.mark.usefixtures("probes_unhurried")
+def test_so_are_floors_of_probes(context: Context, tmp_path: Path) -> None:
+    plan = Plan(24, 8, 0.1)
+    result = measure_scene("room", long_room(), plan, context, tmp_path / "r", lambda *_: None)
+    biased = assert_floors(result, context, 512)
+    assert biased == {"ddgi, sobol", "gather, sobol", "resampled, sobol"}
