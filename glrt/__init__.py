@@ -12,6 +12,7 @@ Modules and packages, each importing only what stands above it:
 - silence: what compiled libraries print by themselves
 - resources: where shaders and scenes lie
 - files: files that appear whole or not at all
+- memo: results kept for the same objects
 - settings: every render setting, once
 - gpu: OpenGL alone, which knows no scene
 - scene: frozen models of what is rendered, and TOML in and out

@@ -16,6 +16,7 @@ from glrt.methods.contents import (
 )
 from glrt.methods.features import WITHOUT_OWN_FLAG, Needs, needs_of
 from glrt.methods.table import CLASSIC, METHODS
+from glrt.scene.coincidence import coincidence_of
 from glrt.scene.materials import TYPES, Material
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -82,6 +83,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         *_kinds_of_glass(needs, found),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         *_aims(needs, found),
+        Feature("lamps in shared places", needs.has_coincident, _coincident(scene)),
         Feature("background", needs.has_background, _background(scene)),
         Feature("horizon", needs.has_horizon, _horizon(scene)),
         Feature("image of the sky", needs.has_environment, _environment(scene)),
@@ -139,6 +141,13 @@ def _aims(needs: Needs, found: Contents) -> list[Feature]:
         Feature("cones", needs.has_cone, _lamps_with("a cone", found.cones)),
         Feature("one-sided lamps", needs.has_one_sided, _lamps_with("one side", found.one_sided)),
     ]
+
+
+def _coincident(scene: Scene) -> str:
+    pairs = len(coincidence_of(scene).pairs)
+    if not pairs:
+        return "no flat lamp lies in the plane of another surface and overlaps it"
+    return f"{counted(pairs, 'pair')} of objects, of which one emits, in one place"
 
 
 def _textures(needs: Needs, found: Contents) -> list[Feature]:

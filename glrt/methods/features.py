@@ -17,6 +17,7 @@ from glrt.methods.particles import (
     targets_of,
 )
 from glrt.methods.table import METHODS, SPATIAL, TEMPORAL, reuses_points
+from glrt.scene.coincidence import coincidence_of
 from glrt.scene.materials import TYPES, Metal
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS
@@ -76,6 +77,7 @@ class Needs:
     has_lens: bool
     has_cone: bool  # lamps that light a cone of directions
     has_one_sided: bool  # lamps that emit from their front alone
+    has_coincident: bool  # flat lamps that share a place with other surfaces
     has_background: bool
     has_horizon: bool  # a background of two gradients
     has_environment: bool  # a background in an image
@@ -128,7 +130,7 @@ def everything() -> dict[str, bool | int]:
 
 
 _IMAGE = (
-    *("has_environment", "sample_sky", "has_probes", "final_gather"),
+    *("has_environment", "sample_sky", "has_probes", "final_gather", "has_coincident"),
     *("resamples", "reuses_own", "unbiased"),
 )
 _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
@@ -174,6 +176,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
         has_cone=bool(found.cones),
         has_one_sided=bool(found.one_sided),
+        has_coincident=bool(coincidence_of(scene).pairs),
         has_background=any(map(any, scene.background_colors)),
         has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
         has_environment=is_pictured,

@@ -23,6 +23,7 @@ from glrt.rendering.pack_probes import probe_fields
 from glrt.rendering.pack_shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.rendering.pack_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.scene.camera import Camera
+from glrt.scene.coincidence import coincidence_of
 from glrt.scene.glasses import AIR, Around
 from glrt.scene.scene import Scene
 from glrt.scene.values import BLACK
@@ -145,6 +146,14 @@ def pack_frame(
         "first_tile": first_tile,
         "tile_stride": tile_stride,
         "is_empty": int(is_empty),
+        "coincident_reach": _coincident_reach(scene),
         **frame_fields(tree, np.array(scene.camera.position, np.float64)),
     }
     return record(STRUCTS["Frame"], frame).tobytes()
+
+
+def _coincident_reach(scene: Scene) -> float:
+    """The largest coordinate of surfaces that share a place, relative to the camera; 0 without."""
+    shared = coincidence_of(scene)
+    corners = np.array([shared.low, shared.high])
+    return float(np.abs(corners - np.array(scene.camera.position)).max()) if shared.pairs else 0.0

@@ -136,8 +136,7 @@ if list(PACKERS) != list(KINDS.values()):
 
 def order_of_kernel(scene: Scene) -> list[int]:
     """Places of the visible objects in the scene, by kind, each as in the file."""
-    visible = [(n, shape) for n, shape in enumerate(scene.objects) if not shape.hidden]
-    return [n for kind in PACKERS for n, shape in visible if type(shape) is kind]
+    return [n for kind in PACKERS for n in scene.shown if type(scene.objects[n]) is kind]
 
 
 def in_order(scene: Scene) -> list[Shape]:

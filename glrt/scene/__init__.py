@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - texture_sizes: images made smaller
 - textures: images and checkerboards in place of colors and numbers
 - vertex_means: normals and tangents of vertices
+- repeated_triangles: triangles that a mesh has twice
 - triangle_meshes: triangle meshes as arrays, checked
 - gltf: glTF files
 - mesh_formats: files of meshes as arrays
@@ -45,7 +46,10 @@ Modules, each importing only what stands above it:
 - file_copies: copies of them elsewhere
 - tables: the parts of a scene as plain tables, and tables as TOML
 - nesting: glasses that overlap by priority
+- twins: objects that another one in the same place covers
 - scene: all of it together, and whether the parts fit
+- flat_polygons: flat surfaces of objects as polygons
+- coincidence: lamps that share a place with other surfaces
 - names: scenes without their names, which no light depends on
 - model_scene: scenes of model files alone
 - toml: scene files read

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 from pydantic import Field, create_model, model_validator
 
-from glrt.scene.objects import Array, Object, dots
+from glrt.scene.objects import NO_POLYGONS, Array, Object, dots, ring
 from glrt.scene.solids import nearest_of_two
 from glrt.scene.values import SMALLEST, Length, Number, Triple, Vector
 
@@ -106,6 +106,20 @@ class Cylinder(_Ended):
         """Middle, axis, half of its height, radius, and 1 with caps."""
         axis = map(float, self.axis)
         return [*self.middle, *axis, self.half, self.radius, float(self.capped)]
+
+    def outline(self, about: Array) -> Array:
+        """Its ends, radius and caps."""
+        ends = np.array([self.from_, self.to]) - about
+        return np.column_stack([ends, np.full((2, 2), [self.radius, self.capped])])
+
+    @property
+    def polygons(self) -> Array:
+        """Its caps."""
+        if not self.capped:
+            return NO_POLYGONS
+        return np.array(
+            [ring(np.array(end), self.axis, self.radius) for end in (self.from_, self.to)]
+        )
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.scene.coincidence import coincidence_of
 from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
 from glrt.scene.materials import Dielectric, Opaque, glass_of
 from glrt.scene.meshes import Mesh
@@ -16,8 +17,9 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes import Plane, Shape, Sphere
 from glrt.scene.summary import few
 from glrt.scene.texture_sizes import MOST_TEXELS, sizes_of
+from glrt.scene.twins import twins
 from glrt.settings import Settings
-from glrt.text import number, quoted
+from glrt.text import counted, number, quoted
 
 ROUNDING = 2.0**-24  # of a float32, as a share of it
 HUGE = 1e4  # heights of the camera over a ball, or radii of one that it touches, in its radius
@@ -36,6 +38,9 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         *_glass(scene),
         _walled_in(scene),
         _dark(scene),
+        _twins(scene),
+        _shared_places(scene),
+        *_repeated(scene),
         *_unread(scene),
         _large_images(scene),
     )
@@ -174,6 +179,42 @@ def _dark(scene: Scene) -> str:
         "there is no light in this scene: no lamp emits and the background is black, so the "
         f"picture is black, with an estimated error of 0 %. {remedy}."
     )
+
+
+def _twins(scene: Scene) -> str:
+    """Objects that are left out, as another one has their place."""
+    pairs = [(twin.unseen, twin.seen) for twin in twins(scene.objects, scene.materials)]
+    if not pairs:
+        return ""
+    left_out = few(f"{_name(scene, a)} (in the place of {_name(scene, b)})" for a, b in pairs)
+    return (
+        f"{left_out}: an object of the same geometry covers {'it' if len(pairs) == 1 else 'each'} "
+        "from both sides, so it is left out and emits nothing. Delete one of each pair, or move it."
+    )
+
+
+def _shared_places(scene: Scene) -> str:
+    """Flat lamps that overlap other surfaces in one plane."""
+    pairs = coincidence_of(scene).pairs
+    if not pairs:
+        return ""
+    overlaps = few(
+        f"{_name(scene, a)} overlaps {_name(scene, b) if a != b else 'itself'}" for a, b in pairs
+    )
+    return (
+        f"{overlaps} in one plane, and one of the two emits. A place shows one surface there: the "
+        "one that emits towards the ray, or else the one of the lower number. The scene renders "
+        "faster if you move one of them by a thousandth of its size."
+    )
+
+
+def _repeated(scene: Scene) -> Iterator[str]:
+    """Triangles that stand in a file twice."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file in dict.fromkeys(mesh.file for mesh in meshes):
+        if file.triangles is not None and (count := file.triangles.repeated):
+            verb = "repeats another one" if count == 1 else "repeat others"
+            yield f"{file.file}: {counted(count, 'triangle')} {verb}, and each is there once."
 
 
 def _unread(scene: Scene) -> Iterator[str]:

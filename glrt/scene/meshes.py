@@ -211,6 +211,19 @@ class Mesh(Sided):
         """Middle and radius of a ball that holds it."""
         return [*self.middle, self.reach]
 
+    def outline(self, about: Array) -> Array:
+        """Its triangles, (n, 9), each from its lowest corner on."""
+        corners = self.polygons - about
+        order = np.lexsort(corners.transpose(2, 0, 1), axis=-1)
+        rows: Array = np.take_along_axis(corners, order[..., None], axis=1).reshape(-1, 9)
+        return rows
+
+    @property
+    def polygons(self) -> Array:
+        """Its triangles."""
+        corners: Array = self.world_vertices[self.triangles.faces]
+        return corners
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
         """Of the ball."""

@@ -58,6 +58,20 @@ class Object(Tagged):
     def row(self) -> list[float]:
         """Its numbers, as `distances` takes them."""
 
+    @abstractmethod
+    def outline(self, about: Array) -> Array:
+        """(n, k): rows that say where it is, relative to `about`, (3,), in any order.
+
+        Shapes of a kind are equal where these are, whichever way they were given.
+        """
+
+    @property
+    @abstractmethod
+    def polygons(self) -> Array:
+        """(n, k, 3): its flat surfaces in scene units, convex; none without flat ones or without
+        end. The corners go round; a triangle among quads repeats its last one.
+        """
+
     @staticmethod
     @abstractmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
@@ -72,6 +86,18 @@ class Object(Tagged):
         """
 
 
+NO_POLYGONS = np.zeros((0, 3, 3))
+
+
+class Cornerless(Object):
+    """A round shape, or one without end."""
+
+    @property
+    def polygons(self) -> Array:
+        """None."""
+        return NO_POLYGONS
+
+
 class Sided(Object):
     """What every shape has whose front can emit alone."""
 
@@ -84,6 +110,24 @@ class Sided(Object):
     def is_one_sided(self) -> bool:
         """Whether it emits from its front alone."""
         return self.emission_side == "front"
+
+
+_CORNERS = 12  # of a polygon in a circle
+
+
+def ring(center: Array, normal: Array, radius: float) -> Array:
+    """A polygon in a circle, (_CORNERS, 3)."""
+    u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    u /= np.linalg.norm(u)
+    angles = 2 * math.pi * np.arange(_CORNERS)[:, None] / _CORNERS
+    points: Array = center + radius * (np.cos(angles) * u + np.sin(angles) * np.cross(normal, u))
+    return points
+
+
+def unsigned(normal: Vector) -> Array:
+    """The unit vector that a normal and its opposite share, (3,)."""
+    unit: Array = np.array(normal) / np.linalg.norm(normal)
+    return unit if unit[np.abs(unit).argmax()] > 0 else -unit
 
 
 def dots(vectors: Array, direction: Array) -> Array:

@@ -27,6 +27,7 @@ from glrt.scene.shapes import Shape
 from glrt.scene.sky_picture import SkyPicture, sky_picture
 from glrt.scene.sun import Sun
 from glrt.scene.tables import to_tables, toml_text
+from glrt.scene.twins import shown
 from glrt.scene.validation import MisfitError, Place, validated
 from glrt.scene.values import BLACK, LARGEST, Number, Radiance
 from glrt.settings import RenderSettings
@@ -95,9 +96,14 @@ class Scene(Contents):
         write_text(file, toml_text(self))
 
     @property
+    def shown(self) -> tuple[int, ...]:
+        """Numbers of the objects that rays can meet: not hidden, and not covered by a twin."""
+        return shown(self.objects, self.materials)
+
+    @property
     def visible(self) -> tuple[Shape, ...]:
-        """The objects that are not hidden."""
-        return tuple(thing for thing in self.objects if not thing.hidden)
+        """The objects that rays can meet."""
+        return tuple(self.objects[n] for n in self.shown)
 
     @property
     def meshes(self) -> tuple[Mesh, ...]:

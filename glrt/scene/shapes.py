@@ -12,12 +12,20 @@ from pydantic import Field, model_validator
 
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.meshes import Mesh
-from glrt.scene.objects import Array, Object, Sided, along_and_rest, to_planes
+from glrt.scene.objects import (
+    Array,
+    Cornerless,
+    Sided,
+    along_and_rest,
+    ring,
+    to_planes,
+    unsigned,
+)
 from glrt.scene.solids import Box
 from glrt.scene.values import Direction, Length, Number, Triple, Vector, are_parallel
 
 
-class Sphere(Object):
+class Sphere(Cornerless):
     """A sphere."""
 
     shape: Literal["sphere"] = Field("sphere", description="the kind of shape")
@@ -56,6 +64,10 @@ class Sphere(Object):
         """Centre and radius."""
         return [*self.center, self.radius]
 
+    def outline(self, about: Array) -> Array:
+        """Centre and radius."""
+        return np.array([[*(np.array(self.center) - about), self.radius]])
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
         """Of its ends along the axes."""
@@ -69,7 +81,7 @@ class Sphere(Object):
         return np.where(near > 0, near, np.where(far > 0, far, math.inf))
 
 
-class Plane(Object):
+class Plane(Cornerless):
     """An infinite plane; the inside of a dielectric is the half-space behind the normal."""
 
     shape: Literal["plane"] = Field("plane", description="the kind of shape")
@@ -107,6 +119,11 @@ class Plane(Object):
     def row(self) -> list[float]:
         """Point and normal."""
         return [*self.point, *self.normal]
+
+    def outline(self, about: Array) -> Array:
+        """Normal and height."""
+        normal = unsigned(self.normal)
+        return np.array([[*normal, normal @ (np.array(self.point) - about)]])
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
@@ -174,6 +191,18 @@ class Quad(Sided):
         """Corner and edges."""
         return [*self.corner, *self.edge_u, *self.edge_v]
 
+    def outline(self, about: Array) -> Array:
+        """Its corners."""
+        corners: Array = self.polygons[0] - about
+        return corners
+
+    @property
+    def polygons(self) -> Array:
+        """Itself."""
+        u, v = np.array(self.edge_u), np.array(self.edge_v)
+        corners: Array = np.array(self.corner) + np.array([[0 * u, u, u + v, v]])
+        return corners
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
         """Of its corners."""
@@ -235,6 +264,17 @@ class Disk(Sided):
     def row(self) -> list[float]:
         """Centre, normal and radius."""
         return [*self.center, *self.normal, self.radius]
+
+    def outline(self, about: Array) -> Array:
+        """Centre, radius and normal."""
+        place = np.array(self.center) - about
+        return np.array([[*place, self.radius, *unsigned(self.normal)]])
+
+    @property
+    def polygons(self) -> Array:
+        """One in its rim."""
+        normal = np.array(self.normal) / np.linalg.norm(self.normal)
+        return ring(np.array(self.center), normal, self.radius)[None]
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:

@@ -77,6 +77,24 @@ class Box(Object):
         """Centre, halves and axes."""
         return [*self.middle, *map(float, self.halves), *map(float, self.axes.ravel())]
 
+    def outline(self, about: Array) -> Array:
+        """Its corners."""
+        corners: Array = self.polygons[:2].reshape(-1, 3) - about
+        return corners
+
+    @property
+    def polygons(self) -> Array:
+        """Its faces, two opposite ones after the other."""
+        edges = self.axes * self.halves[:, None]
+        faces = [
+            side * edges[axis] + np.array([-u - v, u - v, u + v, v - u])
+            for axis in range(3)
+            for u, v in [(edges[axis - 2], edges[axis - 1])]
+            for side in (-1.0, 1.0)
+        ]
+        corners: Array = np.array(self.middle) + np.array(faces)
+        return corners
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
         """Of its corners."""

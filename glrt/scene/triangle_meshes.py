@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.scene.repeated_triangles import repeated
 from glrt.scene.values import LARGEST
 from glrt.scene.vertex_means import mean_normals, mean_tangents, places
 from glrt.text import counted, number
@@ -30,6 +31,7 @@ class TriangleMesh:
     labels: Ints | None = None  # (n,): the number of a name; None: the file names none
     uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None: none
     tangents: Floats | None = None  # (v, 3), where u of the first set grows; None: none were given
+    repeated: int = 0  # triangles that were left out, since one of the same corners was there
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -120,7 +122,9 @@ def checked(
     uv: Any = None,
     tangents: Any = None,
 ) -> TriangleMesh:
-    """A mesh of arrays as of `TriangleMesh`; triangles of two equal corners are left out.
+    """A mesh of arrays as of `TriangleMesh`.
+
+    Left out are triangles of two equal corners, and those that repeat another one of their label.
 
     Raises ValueError, which says what is wrong with which row.
     """
@@ -136,9 +140,11 @@ def checked(
         raise ValueError(problem)
     equal = triangles == np.roll(triangles, 1, axis=1)
     whole = ~equal.any(axis=1)
-    kept = triangles[whole]
-    if not len(kept):
+    if not whole.any():
         raise ValueError("it has no triangle with three corners")
+    again = repeated(points, triangles, labels) & whole
+    whole &= ~again
+    kept = triangles[whole]
     used = np.zeros(len(points), bool)
     used[kept] = True
     rank = np.cumsum(used) - 1
@@ -146,7 +152,7 @@ def checked(
     turned, dyes, sets, along = (None if rows is None else rows[used] for rows in given)
     labels = None if labels is None else labels[whole]
     own = points[used], rank[kept], turned, dyes
-    return TriangleMesh(*own, names, labels, sets, along)
+    return TriangleMesh(*own, names, labels, sets, along, int(again.sum()))
 
 
 def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:

@@ -4,7 +4,6 @@ Modules, each importing only what stands above it:
 
 - opengl: the window's OpenGL context
 - file_watch: files that another program changes
-- memo: results kept while a scene stays the same
 - event_wait: no frame where it would show nothing new
 - native: title, and files dropped on the window
 - state: values and pure functions behind the window

@@ -11,6 +11,7 @@ from glrt.errors import GlrtError
 from glrt.files import printable, unused, write_text
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
+from glrt.memo import kept_for_the_same
 from glrt.rendering.path_file import paths_to_json
 from glrt.rendering.path_values import PixelPaths
 from glrt.scene.catalog import MODELS
@@ -19,7 +20,6 @@ from glrt.scene.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings, Settings, settings_for
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
-from glrt.view.memo import kept_for_the_same
 from glrt.view.messages import Messages
 from glrt.view.state.controls import replaced
 from glrt.view.state.edited import State

@@ -69,6 +69,14 @@ void turn_particle(precise inout Particle self, Vertex vertex, Normals normals, 
     if (self.path.depth == 0 && turn > 0.0) self.kappa /= unlike_matte;
 }
 
+// Whether a particle comes from what is seen of its lamp, in a place that the lamp may share; `back` goes there.
+bool is_from_seen(Particle self, Ray back) {
+    if (self.light < 0) return true;
+    int lamp = light_at(self.light).shape;
+    if (self.path.ray.origin_shape != lamp || HAS_SPHERE && up_to_sphere(lamp)) return true;
+    return shows(back, lamp);
+}
+
 // Follows one segment; false when the particle ends with it. `by_spheres`: as link_to_camera has it.
 bool extend_particle(precise inout Particle self, bool by_spheres, precise inout Sampler rng) {
     precise vec3 direction = self.path.ray.direction;
@@ -79,6 +87,10 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     precise vec3 facing = true_normal(surface);
     precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
     facing *= side;
+    if (HAS_COINCIDENT && self.path.depth == 0) {
+        precise Ray back = Ray(surface.position, -direction, surface.shape, side < 0.0);
+        if (!is_from_seen(self, back)) return false;
+    }
     if (HAS_ATTENUATION) absorb(self.path, material, side < 0.0, hit.distance);
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
                   self.path.throughput);

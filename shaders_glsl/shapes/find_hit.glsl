@@ -9,7 +9,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
         for (; i < disk_count(); ++i) {
             int shape = first_disk() + i;
             precise float t = disk_distance(ray, disk_at(i));
-            if (t > 0.0 && t < hit.distance && shape != ray.origin_shape && shape != ignored) {
+            if (t > 0.0 && is_nearer(ray, t, shape, hit) && shape != ray.origin_shape && shape != ignored) {
                 hit = Hit(t, shape);
                 if (any) return hit;
             }
@@ -21,7 +21,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
         for (; i < box_count(); ++i) {
             int shape = first_box() + i;
             precise float t = box_distance(ray, box_at(i), shape);
-            if (t > 0.0 && t < hit.distance) {
+            if (t > 0.0 && is_nearer(ray, t, shape, hit)) {
                 hit = Hit(t, shape);
                 if (any) return hit;
             }
@@ -33,7 +33,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
         for (; i < cylinder_count(); ++i) {
             int shape = first_cylinder() + i;
             precise float t = cylinder_distance(ray, cylinder_at(i), shape);
-            if (t > 0.0 && t < hit.distance) {
+            if (t > 0.0 && is_nearer(ray, t, shape, hit)) {
                 hit = Hit(t, shape);
                 if (any) return hit;
             }
@@ -44,11 +44,13 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
 }
 
 // The nearest shape nearer than `limit`, apart from the shape `ignored`; of two at the same
-// distance the one with the lower number. With `any`, the first that is found.
+// distance the one with the lower number, or the one that shows (shapes/coincident.glsl). With `any`, the first that is
+// found.
 //
 // The loops stand in one function: a function for each kind, with its early exit, costs 1 to 3 % on llvmpipe.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     precise Hit hit = Hit(limit, NO_SHAPE);
+    if (HAS_COINCIDENT) ray = clear_of(ray);
     if (HAS_SPHERE_TREE) {
         hit = find_sphere_by_tree(ray, hit, ignored, any);
         if (any && hit.shape != NO_SHAPE) return hit;
@@ -69,7 +71,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
             int shape = first_plane() + i;
             precise Plane plane = plane_at(i);
             precise float t = plane_distance(ray, plane.point, plane.normal);
-            if (t > 0.0 && t < hit.distance && shape != ray.origin_shape) {
+            if (t > 0.0 && is_nearer(ray, t, shape, hit) && shape != ray.origin_shape) {
                 hit = Hit(t, shape);
                 if (any) return hit;
             }
@@ -81,7 +83,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         for (; i < quad_count(); ++i) {
             int shape = first_quad() + i;
             precise float t = quad_distance(ray, quad_at(i));
-            if (t > 0.0 && t < hit.distance && shape != ray.origin_shape && shape != ignored) {
+            if (t > 0.0 && is_nearer(ray, t, shape, hit) && shape != ray.origin_shape && shape != ignored) {
                 hit = Hit(t, shape);
                 if (any) return hit;
             }
@@ -98,17 +100,4 @@ float rays_so_far = 0.0;  // of this sample, where COUNT_RAYS
 Hit closest_hit(Ray ray) {
     if (COUNT_RAYS) rays_so_far += 1.0;
     return find_hit(ray, FAR, NO_SHAPE, false);
-}
-
-// The point hit, put back onto the shape: the distance alone leaves it beside.
-Surface surface_at(Ray ray, Hit hit) {
-    precise vec3 p = ray.origin + hit.distance * ray.direction;
-    if (HAS_SPHERE && up_to_sphere(hit.shape)) return sphere_surface(p, hit.shape);
-    if (HAS_PLANE && up_to_plane(hit.shape)) return plane_surface(p, hit.shape);
-    if (HAS_QUAD && up_to_quad(hit.shape)) return quad_surface(p, hit.shape);
-    if (HAS_DISK && up_to_disk(hit.shape)) return disk_surface(p, hit.shape);
-    if (HAS_BOX && up_to_box(hit.shape)) return box_surface(ray, p, hit.shape);
-    if (HAS_CYLINDER && up_to_cylinder(hit.shape)) return cylinder_surface(ray, p, hit.shape);
-    if (HAS_MESH && up_to_mesh(hit.shape)) return mesh_surface(ray, hit.shape);
-    return no_surface();
 }

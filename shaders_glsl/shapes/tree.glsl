@@ -5,9 +5,9 @@ const uint LEAF = 0x80000000u;
 const uint LINK = 0x0FFFFFFFu;
 
 // Keeps a hit that is nearer, or as near and of a lower number.
-Hit nearer(Hit hit, float t, int shape, int ignored) {
-    bool is_first = t == hit.distance && shape < hit.shape;
-    if (t > 0.0 && (t < hit.distance || is_first) && shape != ignored) hit = Hit(t, shape);
+Hit nearer(Ray ray, Hit hit, float t, int shape, int ignored) {
+    bool is_first = !HAS_COINCIDENT && t == hit.distance && shape < hit.shape;
+    if (t > 0.0 && (is_nearer(ray, t, shape, hit) || is_first) && shape != ignored) hit = Hit(t, shape);
     return hit;
 }
 
@@ -30,37 +30,37 @@ Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int 
         ivec2 triangles = first_triangle() + ivec2(slot.d.xy);
         if (HAS_INSTANCE) triangles += instance << INSTANCE_BITS;
         precise float first = triangle_distance(p, q, r);
-        if (triangles.x != ray.origin_shape) hit = nearer(hit, first, triangles.x, ignored);
+        if (triangles.x != ray.origin_shape) hit = nearer(ray, hit, first, triangles.x, ignored);
         precise float second = triangle_distance(p, r, s);
-        if (triangles.y != ray.origin_shape) hit = nearer(hit, second, triangles.y, ignored);
+        if (triangles.y != ray.origin_shape) hit = nearer(ray, hit, second, triangles.y, ignored);
     }
     if (!HAS_TREE) return hit;
     int shape = number_in(slot);
     if (HAS_SPHERE && !HAS_SPHERE_TREE && kind == SPHERE) {
         precise float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
-        hit = nearer(hit, t, shape, ignored);
+        hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_QUAD && kind == QUAD && shape != ray.origin_shape) {
         precise vec3 none = vec3(0.0);
         precise vec3 dual_u = vec3(b.zw, c.x);
         precise Quad quad = Quad(a.xyz, 0, vec3(a.w, b.xy), NO_LIGHT, none, 0.0, none, 0.0, dual_u, 0.0, c.yzw);
         precise float t = quad_distance(ray, quad);
-        hit = nearer(hit, t, shape, ignored);
+        hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_DISK && kind == DISK && shape != ray.origin_shape) {
         precise Disk disk = Disk(a.xyz, 0, vec3(a.w, b.xy), b.z, NO_LIGHT);
         precise float t = disk_distance(ray, disk);
-        hit = nearer(hit, t, shape, ignored);
+        hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_BOX && kind == BOX) {
         precise Box box = Box(a.xyz, 0, vec3(a.w, b.xy), b.z, vec3(b.w, c.xy), c.z, vec3(c.w, d.xy), d.z);
         precise float t = box_distance(ray, box, shape);
-        hit = nearer(hit, t, shape, ignored);
+        hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_CYLINDER && kind == CYLINDER) {
         precise Cylinder cylinder = Cylinder(a.xyz, 0, vec3(a.w, b.xy), b.z, b.w, int(slot.c.x));
         precise float t = cylinder_distance(ray, cylinder, shape);
-        hit = nearer(hit, t, shape, ignored);
+        hit = nearer(ray, hit, t, shape, ignored);
     }
     return hit;  // the nearest so far
 }
@@ -102,7 +102,7 @@ void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     precise Children children = children_of(slot, course.grid);
-    precise float limit = hit.distance;
+    precise float limit = farthest(ray, hit);
     uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
     uint k1 = meets_child(children, 1u, children.near_low, children.far_low, limit);
     uint k2 = meets_child(children, 2u, children.near_low, children.far_low, limit);
@@ -149,7 +149,7 @@ void visit_any(Ray ray, Course course, Slot slot, int ignored, precise inout Wal
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     precise Children children = children_of(slot, course.grid);
-    precise float limit = hit.distance;
+    precise float limit = farthest(ray, hit);
     uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
              | uint(meets_child(children, 1u, children.near_low, children.far_low, limit) != NO_CHILD) << 1u
              | uint(meets_child(children, 2u, children.near_low, children.far_low, limit) != NO_CHILD) << 2u

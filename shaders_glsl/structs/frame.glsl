@@ -56,4 +56,5 @@ struct Frame {
     vec3 probe_cell;        // its edges
     int probe_count;
     ivec3 probe_counts;     // along x, y and z
+    float coincident_reach; // largest coordinate of surfaces in one place, relative to the camera; where HAS_COINCIDENT
 };

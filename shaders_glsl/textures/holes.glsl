@@ -30,9 +30,17 @@ Hit solid_hit(precise inout Ray ray, float limit, int ignored) {
     return Hit(limit, NO_SHAPE);
 }
 
-// Whether anything but the lamp `ignored` stands within `limit`.
+// Whether a flat lamp is what a ray to it sees, in a place that it may share.
+bool shows(Ray ray, int lamp) {
+    if (!HAS_HOLE) return find_hit(ray, FAR, NO_SHAPE, false).shape == lamp;
+    precise Ray seen = ray;
+    return solid_hit(seen, FAR, NO_SHAPE).shape == lamp;
+}
+
+// Whether anything but the shape `ignored`, a lamp or what a link passes, stands within `limit`.
 bool occluded(Ray ray, float limit, int ignored) {
     if (COUNT_RAYS) rays_so_far += 1.0;
+    if (HAS_COINCIDENT && ignored != NO_SHAPE && !(HAS_SPHERE && up_to_sphere(ignored))) return !shows(ray, ignored);
     if (!HAS_HOLE) return find_hit(ray, limit, ignored, true).shape != NO_SHAPE;
     precise Ray seen = ray;
     return solid_hit(seen, limit, ignored).shape != NO_SHAPE;

@@ -6,6 +6,7 @@ copy of the tree and runs its test, which must fail.
 
 from tests.mutation.aovs import AOVS
 from tests.mutation.ataa import ATAA
+from tests.mutation.coincident import COINCIDENT
 from tests.mutation.comparing import COMPARING
 from tests.mutation.denoising import DENOISING
 from tests.mutation.editor import EDITOR
@@ -54,6 +55,7 @@ MUTANTS = [
     *TEXTURES,
     *GLASS,
     *LIGHTS,
+    *COINCIDENT,
     *SKY,
     *SAMPLING,
     *FILM,

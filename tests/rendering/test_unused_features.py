@@ -35,6 +35,7 @@ UNUSED: list[tuple[str, dict[str, Any], list[str]]] = [
         [
             *("shapes/sphere_tree.glsl", "shapes/disk.glsl", "shapes/box.glsl"),
             *("shapes/cylinder.glsl", "lights/sky.glsl", "film/layers.glsl", "probes/query.glsl"),
+            "shapes/coincident.glsl",
         ],
     ),
     ("cornell", {"method": "naive"}, ["lights/sampling.glsl"]),
@@ -48,7 +49,7 @@ UNUSED: list[tuple[str, dict[str, Any], list[str]]] = [
         {},
         [
             *("shapes/tree_node.glsl", "shapes/tree_stack.glsl", "shapes/tree.glsl"),
-            *("shapes/quad.glsl", "lights/choice.glsl"),
+            *("shapes/quad.glsl", "lights/choice.glsl", "shapes/coincident.glsl"),
         ],
     ),
 ]

@@ -4,10 +4,10 @@ from functools import partial
 
 from imgui_bundle import imgui
 
+from glrt.memo import kept_for_the_same
 from glrt.scene.materials import Light, Opaque
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
 from glrt.view.app import App
-from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.widgets import edited
 from glrt.view.state.controls import control_of_items, controls_of
 from glrt.view.state.costs import cost_of_light, cost_of_tint

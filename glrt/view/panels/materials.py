@@ -7,13 +7,13 @@ from typing import Any
 
 from imgui_bundle import imgui
 
+from glrt.memo import kept_for_the_same
 from glrt.scene.conductors import PRESETS
 from glrt.scene.cone import Cone
 from glrt.scene.materials import TYPES, Light, Material, Metal, Opaque, Principled
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.lights import draw_lamp
 from glrt.view.panels.widgets import beside, button, edited, edited_fields, named, tip
 from glrt.view.state.controls import Control, choice, controls_of, switch

@@ -6,12 +6,12 @@ from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 
+from glrt.memo import kept_for_the_same
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.settings import Cost
 from glrt.view import file_dialogs
 from glrt.view.app import App
-from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.tags import tag

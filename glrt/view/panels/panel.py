@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from imgui_bundle import imgui
 
+from glrt.memo import kept_for_the_same
 from glrt.methods.light_layers import MOST_LAYERS
 from glrt.methods.table import METHODS
 from glrt.scene.camera import Camera
@@ -13,7 +14,6 @@ from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
-from glrt.view.memo import kept_for_the_same
 from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.bar import bar_end, below_bar

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
+from glrt.memo import kept_for_the_same
 from glrt.rendering.path_values import Path
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.view.app import App
-from glrt.view.memo import kept_for_the_same
 from glrt.view.state.zoom import Rectangle
 from glrt.view.viewport.outline import Segments, outline, projected
 from glrt.view.viewport.path_lines import Ball, Kind, Line, lines_of, outside, surroundings

@@ -5,11 +5,11 @@ import math
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
+from glrt.memo import kept_for_the_same
 from glrt.methods.explanation import explain
 from glrt.methods.light_layers import Plan
 from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
-from glrt.view.memo import kept_for_the_same
 from glrt.view.pair import Slot
 from glrt.view.panels.widgets import tip
 from glrt.view.state.error_history import Look, Progress

@@ -2,11 +2,11 @@
 
 from typing import Literal
 
+from glrt.memo import kept_for_the_same
 from glrt.methods.light_layers import MOST_LAYERS, emitters, layer_of_group
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
-from glrt.view.memo import kept_for_the_same
 from glrt.view.state.session import Session
 
 Reach = tuple[int, Cost]  # the largest value with the cost that is told, and the cost beyond

@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.memo import kept_for_the_same
 from glrt.rendering.pack import pack_camera
 from glrt.scene.camera import Camera
 from glrt.scene.cylinder import Cylinder
 from glrt.scene.meshes import Mesh
 from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
 from glrt.scene.solids import Box
-from glrt.view.memo import kept_for_the_same
 
 Array = NDArray[np.float64]
 Segments = NDArray[np.float64]  # (n, 2, 2): ends in shares of the picture, (0, 0) upper left

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.memo import kept_for_the_same
 from glrt.rendering.pack import pack_camera
 from glrt.scene.camera import Camera
 from glrt.scene.meshes import Mesh
@@ -13,7 +14,6 @@ from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import Shape
 from glrt.scene.values import Vector
-from glrt.view.memo import kept_for_the_same
 
 Array = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""Cache what follows from a scene, since each frame asks for it."""
+"""Results that are kept as long as a function is asked about the same objects."""
 
 from collections.abc import Callable
 from functools import wraps

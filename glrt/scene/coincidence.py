@@ -1,0 +1,223 @@
+"""Flat lamps that share a place with other surfaces: within rounding, rays meet both at once.
+
+The kernel then decides which one a ray sees (shaders_glsl/shapes/coincident.glsl).
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.memo import kept_for_the_same
+from glrt.scene.flat_polygons import Polygons, joined, polygons_of
+from glrt.scene.materials import Material
+from glrt.scene.meshes import Mesh
+from glrt.scene.scene import Scene
+from glrt.scene.shapes import Plane, Shape
+
+TOGETHER = 2.0**-17  # of the size of two surfaces: twice what the kernel takes for rounding
+LEAST_OVERLAP = 1e-4  # of the smaller one, across each edge: neighbours that touch share no place
+MOST_TRIANGLES = 65_535  # that emit: of meshes with more, none is compared
+PORTION = 1 << 16  # pairs that are compared at once
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+class Coincidence(NamedTuple):
+    """Which surfaces share a place."""
+
+    pairs: tuple[tuple[int, int], ...]  # numbers of objects; of one object, where it does so itself
+    low: tuple[float, ...]  # a box around these surfaces
+    high: tuple[float, ...]
+
+
+NOWHERE = Coincidence((), (0.0,) * 3, (0.0,) * 3)
+
+
+def coincidence_of(scene: Scene) -> Coincidence:
+    """Pairs of visible objects, of which one emits, that lie in one plane and overlap there.
+
+    Spheres and the walls of cylinders are not compared: they share a circle or a line with other
+    shapes, unless they are twins.
+    """
+    return _coincidence(scene.objects, scene.materials, scene.shown)
+
+
+@kept_for_the_same
+def _coincidence(
+    objects: Sequence[Shape], materials: Mapping[str, Material], shown: Sequence[int]
+) -> Coincidence:
+    lamps = _lamps(objects, materials, shown)
+    bright_planes = [
+        n for n in shown if isinstance(objects[n], Plane) and _emits(objects[n], materials)
+    ]
+    found: list[_Shared] = []
+    if len(lamps.owner):
+        low, high = lamps.corners.min(axis=(0, 1)), lamps.corners.max(axis=(0, 1))
+        found += _overlaps(lamps, _near(objects, shown, low, high))
+        found += _on_planes(lamps, [n for n in shown if isinstance(objects[n], Plane)], objects)
+    if bright_planes:
+        everywhere = np.full(3, np.inf)
+        found += _on_planes(_near(objects, shown, -everywhere, everywhere), bright_planes, objects)
+    if not found:
+        return NOWHERE
+    corners = np.concatenate([shared.corners for shared in found])
+    return Coincidence(
+        tuple(sorted(set().union(*(shared.pairs for shared in found)))),
+        tuple(corners.min(axis=0).tolist()),
+        tuple(corners.max(axis=0).tolist()),
+    )
+
+
+class _Shared(NamedTuple):
+    pairs: set[tuple[int, int]]
+    corners: Floats  # (n, 3): of the polygons that overlap
+
+
+def _emits(thing: Shape, materials: Mapping[str, Material]) -> bool:
+    material = materials.get(thing.material)
+    return material is not None and material.emits
+
+
+def _lamps(
+    objects: Sequence[Shape], materials: Mapping[str, Material], shown: Sequence[int]
+) -> Polygons:
+    """The flat surfaces that emit."""
+    bright = [n for n in shown if _emits(objects[n], materials)]
+    meshes = [thing for n in bright if isinstance(thing := objects[n], Mesh)]
+    if any(mesh.file.triangles is None for mesh in meshes):
+        return joined([])
+    if sum(len(mesh.triangles.faces) for mesh in meshes) > MOST_TRIANGLES:
+        bright = [n for n in bright if not isinstance(objects[n], Mesh)]
+    everywhere = np.full(3, np.inf)
+    return joined([polygons_of(objects[n], n, -everywhere, everywhere) for n in bright])
+
+
+def _near(objects: Sequence[Shape], shown: Sequence[int], low: Floats, high: Floats) -> Polygons:
+    """The flat surfaces that touch a box, or nearly so."""
+    with np.errstate(invalid="ignore"):  # a box without end
+        slack = np.nan_to_num(TOGETHER * np.linalg.norm(high - low), nan=0.0, posinf=0.0)
+    low, high = low - slack, high + slack
+    near = [n for n in shown if _touches(objects[n], low, high)]
+    return joined([polygons_of(objects[n], n, low, high) for n in near])
+
+
+def _touches(thing: Shape, low: Floats, high: Floats) -> bool:
+    """Whether a box around an object touches another one."""
+    if isinstance(thing, Plane):
+        return False
+    lower, upper = (edge[0] for edge in thing.bounds(np.array([thing.row], np.float64)))
+    return bool((upper >= low).all() and (lower <= high).all())
+
+
+def _on_planes(
+    some: Polygons, planes: Sequence[int], objects: Sequence[Shape]
+) -> Iterator[_Shared]:
+    """Polygons that lie in infinite planes."""
+    for number in planes:
+        plane = objects[number]
+        assert isinstance(plane, Plane)
+        normal = np.array(plane.normal) / np.linalg.norm(plane.normal)
+        gaps = np.abs((some.corners - np.array(plane.point)) @ normal).max(axis=1)
+        low, high = some.boxes
+        there = gaps <= TOGETHER * np.linalg.norm(high - low, axis=1)
+        if there.any():
+            lying = some.of(there)
+            yield _shared(lying, np.full(len(lying.owner), number), lying.corners)
+
+
+def _overlaps(lamps: Polygons, others: Polygons) -> Iterator[_Shared]:
+    """Polygons of which one of each pair emits."""
+    for a, b in box_pairs(lamps.boxes, others.boxes):
+        first, second = lamps.of(a), others.of(b)
+        same = (first.corners[:, :3] == second.corners[:, :3]).all(axis=(1, 2))
+        same &= first.owner == second.owner
+        rows = np.flatnonzero(~same & _lie_together(first, second))
+        if len(rows):
+            yield _shared(first.of(rows), second.owner[rows], second.corners[rows])
+
+
+def _shared(some: Polygons, others: Ints, more: Floats) -> _Shared:
+    """Polygons that share places with those of other objects, (n,), which have more corners."""
+    pairs = np.unique(np.sort(np.column_stack([some.owner, others]), axis=1), axis=0)
+    corners = np.concatenate([some.corners.reshape(-1, 3), more.reshape(-1, 3)])
+    return _Shared({(int(a), int(b)) for a, b in pairs}, corners)
+
+
+def _lie_together(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
+    """(n,): whether pairs of polygons lie in one plane, within rounding, and overlap there."""
+    flat = first.normals, second.normals
+    corners = np.concatenate([first.corners, second.corners], axis=1)
+    size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
+    gaps = [
+        np.abs(_dots(there.corners - here.corners[:, :1], normal[:, None])).max(axis=1)
+        for here, there, normal in ((first, second, flat[0]), (second, first, flat[1]))
+    ]
+    together: NDArray[np.bool_] = np.minimum(*gaps) <= TOGETHER * size
+    together &= flat[0].any(axis=1) & flat[1].any(axis=1)
+    rows = np.flatnonzero(together)
+    together[rows] = _overlap(first.of(rows), second.of(rows), flat[0][rows])
+    return together
+
+
+def _overlap(first: Polygons, second: Polygons, normals: Floats) -> NDArray[np.bool_]:
+    """(n,): of pairs in one plane: no edge of either has the two on its two sides."""
+    overlap = np.ones(len(normals), bool)
+    for corners in (first.corners, second.corners):
+        edges = np.roll(corners, -1, axis=1) - corners
+        for k in range(edges.shape[1]):
+            axis = np.cross(normals, edges[:, k])[:, None]
+            ends = [_dots(it.corners, axis) for it in (first, second)]
+            low, high = ([end(side, axis=1) for side in ends] for end in (np.min, np.max))
+            depth = np.minimum(*high) - np.maximum(*low)
+            width = np.minimum(high[0] - low[0], high[1] - low[1])
+            overlap &= (depth > LEAST_OVERLAP * width) | ~axis[:, 0].any(axis=1)
+    return overlap
+
+
+def _dots(a: Floats, b: Floats) -> Floats:
+    products: Floats = (a * b).sum(axis=-1)
+    return products
+
+
+def box_pairs(
+    some: tuple[Floats, Floats], others: tuple[Floats, Floats]
+) -> Iterator[tuple[Ints, Ints]]:
+    """Rows of boxes that touch, (k,) each, in portions.
+
+    Boxes are compared along the axis on which `some` spread widest; the others by size, so that a
+    wide one does not make all small ones candidates.
+    """
+    low, high = others
+    reach = TOGETHER * (high - low).max(initial=0.0)
+    axis = int(np.ptp(some[0], axis=0).argmax()) if len(some[0]) else 0
+    width = high[:, axis] - low[:, axis] + reach
+    sizes = np.frexp(width)[1] // 2  # powers of 4
+    for size in np.unique(sizes):
+        members = np.flatnonzero(sizes == size)
+        members = members[np.argsort(low[members, axis], kind="stable")]
+        starts = low[members, axis]
+        begin = np.searchsorted(starts, some[0][:, axis] - width[members].max())
+        end = np.searchsorted(starts, some[1][:, axis] + reach, side="right")
+        for portion in _portions(end - begin):
+            count = (end - begin)[portion]
+            a = np.repeat(np.arange(len(begin))[portion], count)
+            within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+            b = members[np.repeat(begin[portion], count) + within]
+            touch = (some[0][a] <= high[b] + reach) & (low[b] <= some[1][a] + reach)
+            kept = touch.all(axis=1)
+            yield a[kept], b[kept]
+
+
+def _portions(counts: Ints) -> Iterator[slice]:
+    """Slices of rows with at most PORTION pairs together, or of one row."""
+    first, total = 0, 0
+    for row, count in enumerate(counts.tolist()):
+        if total and total + count > PORTION:
+            yield slice(first, row)
+            first, total = row, 0
+        total += count
+    if total:
+        yield slice(first, len(counts))

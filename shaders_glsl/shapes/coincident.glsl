@@ -1,0 +1,86 @@
+// Flat surfaces in one place, where one of them emits: a lamp in the plane of a ceiling, or two lamps that overlap.
+// A place has one surface, and every ray sees the same one: of those that it meets within rounding of each other, one
+// that emits towards it comes before others, then the one with the lower number. HAS_COINCIDENT: whether there are such
+// places (glrt/scene/coincidence.py).
+
+// As shares of the largest coordinate: 2^-19 and 2^-18, 32 and 64 times the rounding of a float. Two tests of a flat
+// shape round by 16 each, and a ray starts off the surface that it leaves by 32.
+const float APART = 2.0 * CLEARANCE;
+const float TOGETHER = 4.0 * CLEARANCE;
+const float STEEP = 3.90625e-3;  // 2^-8, a cosine: at smaller angles, nearly along them, surfaces do not tie
+
+bool is_box(int shape) { return shape >= first_box() && shape < first_box() + box_count(); }
+
+bool is_cylinder(int shape) { return shape >= first_cylinder() && shape < first_cylinder() + cylinder_count(); }
+
+float coincident_reach(Ray ray) {
+    precise vec3 size = abs(ray.origin);
+    precise float reach = larger(frame.coincident_reach, larger(larger(size.x, size.y), size.z));
+    return reach;
+}
+
+vec3 box_face_at(Box box, vec3 place) {
+    precise vec3 beyond = abs(along_edges(box, place - box.center)) - vec3(box.half_x, box.half_y, box.half_z);
+    if (beyond.x >= beyond.y && beyond.x >= beyond.z) return box.axis_x;
+    return beyond.y >= beyond.z ? box.axis_y : box.axis_z;
+}
+
+// The normal of the flat surface that a ray starts on, of either sign; 0 where that is round, and without one.
+vec3 normal_left(Ray ray, float reach) {
+    int shape = ray.origin_shape;
+    if (shape == NO_SHAPE || (HAS_SPHERE && up_to_sphere(shape))) return vec3(0.0);
+    if (HAS_BOX && is_box(shape)) return box_face_at(box_at(shape - first_box()), ray.origin);
+    if (HAS_CYLINDER && is_cylinder(shape)) {
+        precise Cylinder cylinder = cylinder_at(shape - first_cylinder());
+        precise float height = abs(dot(ray.origin - cylinder.center, cylinder.axis));
+        return height >= cylinder.half_height - APART * reach ? cylinder.axis : vec3(0.0);
+    }
+    return true_normal(surface_at(ray, Hit(0.0, shape)));
+}
+
+// A ray that starts clear of all surfaces in the place of the one that it leaves.
+Ray clear_of(Ray ray) {
+    precise float reach = coincident_reach(ray);
+    precise vec3 normal = normal_left(ray, reach);
+    precise float shift = dot(normal, ray.direction) < 0.0 ? -APART * reach : APART * reach;
+    ray.origin += shift * normal;
+    return ray;
+}
+
+struct Claim {
+    vec3 normal;
+    bool shines;  // towards the ray
+};
+
+Claim claim_of(Ray ray, float t, int shape) {
+    precise Surface surface = surface_at(ray, Hit(t, shape));
+    precise vec3 normal = true_normal(surface);
+    precise Material material = material_at(surface.material);
+    bool shines = material.emission != vec3(0.0);
+    if (HAS_ONE_SIDED && emitter_at(material.emitter).is_one_sided != 0) {
+        shines = shines && dot(normal, ray.direction) < 0.0;
+    }
+    return Claim(normal, shines);
+}
+
+// How far apart, along a ray, hits can be that tie.
+float tie_length(Ray ray) {
+    precise float reach = coincident_reach(ray);
+    return TOGETHER / STEEP * reach;
+}
+
+// Whether a ray that meets a shape at t sees that and not what it has met so far.
+bool comes_before(Ray ray, float t, int shape, Hit hit) {
+    bool is_before = t < hit.distance;
+    precise float apart = abs(t - hit.distance);
+    // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
+    int ties = t > 0.0 && apart <= tie_length(ray) && hit.shape != NO_SHAPE ? 1 : 0;
+    for (int i = 0; i < ties; ++i) {
+        precise Claim own = claim_of(ray, t, shape);
+        precise Claim other = claim_of(ray, hit.distance, hit.shape);
+        precise float cosine = larger(abs(dot(own.normal, ray.direction)), abs(dot(other.normal, ray.direction)));
+        if (apart * cosine > TOGETHER * coincident_reach(ray)) continue;
+        is_before = own.shines == other.shines ? shape < hit.shape : own.shines;
+    }
+    return is_before;
+}
