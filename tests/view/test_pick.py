@@ -188,3 +188,14 @@ def test_the_first_of_objects_in_one_place_is_picked_and_of_none_nothing() -> No
     assert picked
     assert picked.number == 2
     assert pick(scene_of([], {}, background={"color": [1, 1, 1]}), 1.0, 0.5, 0.5) is None
+
+
+@pytest.mark.parametrize("above", [-1e-9, 0.0, 1e-9])
+def test_a_lamp_in_the_plane_of_a_wall_is_picked(above: float) -> None:
+    """The picture shows it there; the other lamp has a twin, which is not seen."""
+    wall = quad([-5, -5, -4], [10, 0, 0], [0, 10, 0], "wall")
+    pane = quad([-1, -1, -4 + above], [2, 0, 0], [0, 2, 0], "lamp")
+    materials = {"wall": {"type": "lambertian", "color": [0.5] * 3}, "lamp": lamp(1.0)}
+    found = pick(scene_of([{**pane, "material": "wall"}, wall, pane], materials), 1.0, 0.5, 0.5)
+    assert found
+    assert found.number == 2

@@ -17,6 +17,8 @@ from glrt.scene.values import Vector
 
 Array = NDArray[np.float64]
 
+TIE = 2.0**-18  # of a distance: surfaces within it are in one place
+
 
 class Picked(NamedTuple):
     """An object of the scene by its number, and the point on it that is seen."""
@@ -51,13 +53,16 @@ def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
 def first_along(scene: Scene, origin: Array, direction: Array) -> tuple[int, float] | None:
     """The number of the object that a ray meets first, and how far away; None for none."""
     with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
-        distances = _distances(_tables(scene.objects), len(scene.objects), origin, direction)
+        tables = _tables(scene.objects, scene.shown)
+        distances = _distances(tables, len(scene.objects), origin, direction)
         for number, shape in enumerate(scene.objects):
             if isinstance(shape, Mesh) and distances[number] < math.inf:  # its ball is met
                 distances[number] = shape.distance(origin, direction)
     if not len(distances) or distances.min() == math.inf:
         return None
-    index = int(np.argmin(distances))
+    # Of surfaces in one place a lamp is seen first (shaders_glsl/shapes/coincident.glsl).
+    tied = np.flatnonzero(distances <= distances.min() * (1 + TIE)).tolist()
+    index = min(tied, key=lambda n: (not scene.finish(scene.objects[n]).group, n))
     return index, float(distances[index])
 
 
@@ -70,11 +75,10 @@ class _Table(NamedTuple):
 
 
 @kept_for_the_same
-def _tables(objects: tuple[Shape, ...]) -> list[_Table]:
+def _tables(objects: tuple[Shape, ...], shown: tuple[int, ...]) -> list[_Table]:
     found: dict[type[Object], list[int]] = {}
-    for number, shape in enumerate(objects):
-        if not shape.hidden:
-            found.setdefault(type(shape), []).append(number)
+    for number in shown:
+        found.setdefault(type(objects[number]), []).append(number)
     return [
         _Table(kind, np.array(numbers, np.intp), np.array([objects[n].row for n in numbers]))
         for kind, numbers in found.items()
