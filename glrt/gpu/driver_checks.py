@@ -78,7 +78,6 @@ def measured_loop_limit(context: Context) -> int:
     if key not in _limits:
         with context.gl as gl:
             _limits[key] = _count_rounds(gl)
-        context.make_current()  # as it may have been: leaving made none the current one
     return _limits[key]
 
 
