@@ -61,4 +61,4 @@ def _load() -> ctypes.CDLL:
             return ctypes.CDLL(name)
         except OSError:
             continue
-    raise ContextError("no OSMesa library (Debian: libosmesa6)")
+    raise ContextError("no OSMesa library; Mesa 25.1 removed it")

@@ -32,7 +32,7 @@ from tests.support.images import same_bits
 from tests.support.mixed_scene import everything
 from tests.support.numerics import Array
 from tests.support.renders import SAMPLERS, rendering, same
-from tests.support.system_packages import needs_package
+from tests.support.system_packages import needs_osmesa, needs_package
 
 SIZE: dict[str, Any] = {"width": 16, "height": 16}
 ROOT = Path(__file__).parents[2]
@@ -123,7 +123,7 @@ print(egl.is_software, same_aovs(*found))
 
 def test_egl_and_osmesa_give_the_same_aovs(tmp_path: Path) -> None:
     needs_package(bool(find_library("EGL")), "libegl1")
-    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_osmesa()
     path = os.pathsep.join([str(ROOT), *sys.path])
     told = subprocess.run(
         [sys.executable, "-W", "error", "-c", TWO_ROUTES],
