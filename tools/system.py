@@ -173,6 +173,8 @@ def _judge(missing: Missing, purpose: str, strict: bool) -> None:
     text = f"{_describe(missing)}\n{_advice(missing)}"
     if lacking:
         steps.fail(f"Missing for `make {purpose}`: {text}")
+    if set(missing) == {OSMESA} and not (_has_apt() and any(map(_is_known, OSMESA.packages))):
+        text = f"{_describe(missing)} Mesa 25.1 removed it, and EGL does the same."
     steps.say(steps.paragraph(f"Going on without {text}"))
 
 

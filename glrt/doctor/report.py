@@ -166,7 +166,7 @@ def _is_of(examination: Examination, used: Used | None) -> bool:
 def _hint(route: str) -> str:
     hints = {
         "window": "needs a display, or `xvfb-run`",
-        "osmesa": "not needed: EGL has the same software OpenGL. Mesa up to 25.0 has OSMesa",
+        "osmesa": "not needed: EGL has the same software OpenGL",
     }
     return hints.get(route, "; ".join(remedies()))
 
