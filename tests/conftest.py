@@ -14,6 +14,7 @@ import pytest
 
 from bench.screens import screen
 from glrt.errors import ContextError
+from glrt.gpu import driver_checks
 from glrt.gpu.context import Context, open_context
 from glrt.methods.features import needs_of
 from glrt.rendering.evaluation import evaluate
@@ -48,6 +49,14 @@ def context() -> Iterator[Context]:
     opened = open_context("auto")
     yield opened
     opened.gl.release()
+
+
+@pytest.fixture
+def loop_limit(context: Context, monkeypatch: pytest.MonkeyPatch) -> int:
+    """The driver is taken to end loops after as many rounds as llvmpipe in Mesa 22 does."""
+    driver = context.renderer, context.version
+    monkeypatch.setitem(driver_checks._limits, driver, driver_checks.LLVMPIPE_ROUNDS)
+    return driver_checks.LLVMPIPE_ROUNDS
 
 
 @pytest.fixture

@@ -105,13 +105,15 @@ def find_missing(purpose: str) -> Missing:
 
 
 def required(missing: Missing, strict: bool, apt: bool) -> list[Need]:
-    """Those of the missing without which it is of no use to go on.
+    """Those of the missing without which it is of no use to go on; OSMesa where apt still has it.
 
     Where apt does not manage the system the probes may not know its ways: there glrt itself
     says what OpenGL it finds.
     """
     if strict:
-        return list(missing)
+        return [
+            need for need in missing if need is not OSMESA or any(map(_is_known, need.packages))
+        ]
     no_route = apt and {EGL, OSMESA} <= missing.keys()
     return [need for need in missing if need in (CXX, VENV) or (no_route and need is EGL)]
 
@@ -171,6 +173,8 @@ def _judge(missing: Missing, purpose: str, strict: bool) -> None:
     text = f"{_describe(missing)}\n{_advice(missing)}"
     if lacking:
         steps.fail(f"Missing for `make {purpose}`: {text}")
+    if set(missing) == {OSMESA} and not (_has_apt() and any(map(_is_known, OSMESA.packages))):
+        text = f"{_describe(missing)} Mesa 25.1 removed it, and EGL does the same."
     steps.say(steps.paragraph(f"Going on without {text}"))
 
 
@@ -182,7 +186,8 @@ def _advice(missing: Missing) -> str:
     if not _has_apt():
         wishes = "; ".join(need.elsewhere for need in missing)
         return f"Install with the package manager of your system: {wishes}."
-    names = " ".join(_packages(missing))
+    packages = _packages(missing)
+    names = " ".join([name for name in packages if _is_known(name)] or packages)
     sudo = "sudo " if os.geteuid() != 0 and shutil.which("sudo") else ""
     who = "" if sudo or os.geteuid() == 0 else " as root"
     command = f"{sudo}apt-get install --no-install-recommends {names}"

@@ -161,10 +161,9 @@ OTHER_NUMBERS = Variant(texts={"sampling/hash.glsl": _OTHER_HASH})
 
 def unlimited(scene: Scene, settings: Settings, context: Context) -> Settings:
     """Settings of a reference: BOUNCES, or as many as the driver's loop limit allows."""
-    bounces = max(BOUNCES, settings.bounces)
+    bounces, rounds = max(BOUNCES, settings.bounces), usable_rounds(context)
     while True:
         wanted = settings_for(settings, method="mis", bounces=bounces, sampler=SAMPLER)
-        rounds = usable_rounds(context, iterations_per_sample(scene, wanted))
         certain = iterations_per_sample(scene, wanted, 0)
         if rounds is None or certain <= rounds or bounces <= settings.bounces:
             return wanted

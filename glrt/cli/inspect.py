@@ -84,7 +84,8 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     most = "about" if contents_of(scene).has_trees else "up to"
     print(
         f"\nA sample takes {most} {rounds:,} loop iterations; "
-        f"llvmpipe ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}."
+        f"llvmpipe in Mesa 22 ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}; "
+        "`glrt doctor` measures this machine's limit."
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")

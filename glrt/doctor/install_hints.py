@@ -7,7 +7,7 @@ from pathlib import Path
 
 REMEDIES = {
     "Debian, Ubuntu": "apt-get install libgl1 libegl1 libegl-mesa0 libgl1-mesa-dri (EGL with "
-    "software OpenGL), libosmesa6 (OSMesa), xvfb (hidden windows); for a GPU its driver",
+    "software OpenGL), xvfb (hidden windows); for a GPU its driver",
     "Fedora": "dnf install mesa-libEGL mesa-libGL mesa-dri-drivers (EGL with software OpenGL), "
     "xorg-x11-server-Xvfb (hidden windows); for a GPU its driver",
     "Arch": "pacman -S mesa (EGL with software OpenGL), xorg-server-xvfb (hidden windows); for a "

@@ -164,7 +164,11 @@ def _is_of(examination: Examination, used: Used | None) -> bool:
 
 
 def _hint(route: str) -> str:
-    return "needs a display, or `xvfb-run`" if route == "window" else "; ".join(remedies())
+    hints = {
+        "window": "needs a display, or `xvfb-run`",
+        "osmesa": "not needed: EGL has the same software OpenGL",
+    }
+    return hints.get(route, "; ".join(remedies()))
 
 
 def _furnace(finding: Finding | None) -> str:

@@ -2,6 +2,9 @@
 
 Modules, each importing only what stands above it:
 
+- osmesa: Mesa's software renderer in plain memory
+- xlib: X servers that go away
+- turns: contexts that take turns in one thread
 - context: routes to an OpenGL context: EGL, OSMesa, a hidden window
 - structs: GLSL structs read as numpy dtypes
 - glsl: shader files put together into what the driver gets

@@ -1,22 +1,26 @@
 """OpenGL contexts without a window: EGL, OSMesa, moderngl's own hidden window.
 
-EGL needs no display server. OSMesa is software drawn into plain memory (Mesa 25.1 removed it).
+EGL needs no display server. OSMesa is software, drawn into plain memory.
 The hidden window is what Windows, macOS and an X server offer.
 """
 
 import ctypes
 import os
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property, partial
 from itertools import takewhile
 from typing import Any, Literal
 
+import glcontext  # type: ignore[import-untyped]
 import moderngl
 
 from glrt.errors import ContextError, RenderError
+from glrt.gpu.osmesa import OSMesa
+from glrt.gpu.turns import TurnTaker
 
 Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]
@@ -30,7 +34,6 @@ _RESETS = {  # values of glGetGraphicsResetStatus: whose fault it was
     0x8255: "for a reason of its own",
 }
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi")
-_OSMESA_LIBRARIES = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
 ADVICE = (
     "On Debian or Ubuntu install libgl1 libegl1 libegl-mesa0 libgl1-mesa-dri (software OpenGL is "
     "among them), or the driver of your GPU; `glrt doctor` tries every route."
@@ -74,10 +77,6 @@ class Context:
                 "gone. Another program may have crashed it, or a dispatch took too long; then a "
                 "smaller picture, or a --crop, may do."
             )
-
-    def make_current(self) -> None:
-        """Make it the current context, where no `with` block does."""
-        self.gl.mglo.__enter__()
 
     def checked(self, what: str) -> AbstractContextManager[None]:
         """`checked` of this context."""
@@ -127,12 +126,12 @@ def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Contex
     required = COMPUTE if pipeline == "compute" else FRAGMENT
     software: Context | None = None
     for route in ROUTES if choice == "auto" else (choice,):
+        if software and not (route == "window" and _window_is_hardware(_display())):
+            break
         for context in _try_route(route, failures, required):
             if choice != "auto" or not context.is_software:
                 return _prefer(context, software)
             software = _prefer(software or context, context)
-        if software and not _may_be_hardware(route):
-            break
     if software:
         return software
     raise ContextError(f"no usable OpenGL {required / 100}: {'; '.join(failures)}. {ADVICE}")
@@ -152,13 +151,40 @@ def _prefer(chosen: Context, other: Context | None) -> Context:
     return chosen
 
 
-def _may_be_hardware(route: str) -> bool:
-    """Whether a later route than this one can be hardware."""
-    return route == "egl" and _has_display()
+# A process of its own: Xlib ends the process whose X server refuses a request or goes away.
+_ASK_WINDOW = """
+from glrt.gpu.context import open_device
+print("software" if open_device("window").is_software else "hardware")
+"""
+PATIENCE = 10.0  # seconds for a hidden window, where there is another context already
+
+
+@cache
+def _window_is_hardware(display: str) -> bool:
+    """Whether a hidden window on this display opens, and draws by hardware."""
+    if not _has_display() or getattr(sys, "frozen", False):  # then sys.executable is no Python
+        return False
+    command = [sys.executable, "-P", "-c", _ASK_WINDOW]
+    paths = {"PYTHONPATH": os.pathsep.join(sys.path)}
+    try:
+        done = subprocess.run(
+            command,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=PATIENCE,
+            env={**os.environ, **paths},
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == 0 and done.stdout.strip() == b"hardware"
 
 
 def _has_display() -> bool:
-    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY"))
+    return sys.platform in ("win32", "darwin") or bool(_display())
+
+
+def _display() -> str:
+    return os.environ.get("DISPLAY", "")
 
 
 def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Iterator[Context]:
@@ -193,82 +219,21 @@ def _create_newest(route: str, device: int, required: int) -> moderngl.Context:
 def _create(route: str, device: int, required: int) -> moderngl.Context:
     if route == "window" and not _has_display():
         raise ContextError("there is no display (DISPLAY is not set)")
-    options: dict[str, Any] = {"standalone": True}
-    if route == "egl":
-        options |= {"backend": "egl", "device_index": device}
-    if route == "osmesa":
-        options = {"context": OSMesa(5 if required == COMPUTE else 1)}
-    return moderngl.create_context(require=required, **options)
-
-
-# In OSMesa's names: FORMAT = RGBA, DEPTH_BITS, PROFILE = CORE, CONTEXT_MAJOR_VERSION and _MINOR_.
-_ATTRIBUTES = (0x22, 0x1908, 0x30, 24, 0x33, 0x34, 0x36, 4, 0x37)
-_UNSIGNED_BYTE = 0x1401
-
-
-class OSMesa:
-    """The loader that moderngl asks for: OSMesa through ctypes."""
-
-    def __init__(self, minor: int = 5) -> None:
-        """Open a core context of OpenGL 4.`minor`; 4.5 is the newest that OSMesa has."""
-        self._library = _load_osmesa()
-        create = self._library.OSMesaCreateContextAttribs
-        create.restype, create.argtypes = ctypes.c_void_p, [ctypes.c_void_p, ctypes.c_void_p]
-        attributes = (*_ATTRIBUTES, minor, 0)
-        self._context = create((ctypes.c_int * len(attributes))(*attributes), None)
-        if not self._context:
-            raise ContextError(f"OSMesa has no OpenGL 4.{minor} core context")
-        self._pixel = (ctypes.c_ubyte * 4)()  # the default framebuffer: unused, but required
-        self.__enter__()
-
-    def load_opengl_function(self, name: str) -> int:
-        """The address of an OpenGL function, 0 if there is none."""
-        find = self._library.OSMesaGetProcAddress
-        find.restype, find.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
-        return find(name.encode()) or 0
-
-    def __enter__(self) -> "OSMesa":
-        """Make the context current."""
-        _leave_egl()
-        bind = self._library.OSMesaMakeCurrent
-        bind.restype = ctypes.c_ubyte
-        bind.argtypes = [ctypes.c_void_p, ctypes.c_void_p, *[ctypes.c_int] * 3]
-        if not bind(self._context, self._pixel, _UNSIGNED_BYTE, 1, 1):
-            raise ContextError("OSMesaMakeCurrent failed")
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Stay current: OSMesa knows no previous context."""
-
-    def release(self) -> None:
-        """Destroy the context."""
-        if self._context:
-            destroy = self._library.OSMesaDestroyContext
-            destroy.restype, destroy.argtypes = None, [ctypes.c_void_p]
-            destroy(self._context)
-            self._context = None
-
-
-def _leave_egl() -> None:
-    """Make no EGL context current.
-
-    EGL does not see OSMesa take over: it would hold its context to be current still, and not make
-    it so when it is entered again.
-    """
+    loader: Any = TurnTaker(partial(_loader, route, device, required))
     try:
-        egl = ctypes.CDLL("libEGL.so.1")
-    except OSError:
-        return
-    egl.eglGetCurrentDisplay.restype = ctypes.c_void_p
-    egl.eglMakeCurrent.argtypes = [ctypes.c_void_p] * 4
-    if display := egl.eglGetCurrentDisplay():
-        egl.eglMakeCurrent(display, None, None, None)
+        with loader:
+            gl = moderngl.create_context(require=required, context=loader)
+            assert gl.info  # read while the context is current; moderngl keeps it
+            return gl
+    except Exception:
+        loader.release()
+        raise
 
 
-def _load_osmesa() -> ctypes.CDLL:
-    for name in _OSMESA_LIBRARIES:
-        try:
-            return ctypes.CDLL(name)
-        except OSError:
-            continue
-    raise ContextError("no OSMesa library (Debian: libosmesa6)")
+def _loader(route: str, device: int, required: int) -> Any:
+    if route == "osmesa":
+        return OSMesa(5 if required == COMPUTE else 1)
+    options: dict[str, Any] = {"mode": "standalone", "glversion": required}
+    if route == "egl":
+        return glcontext.get_backend_by_name("egl")(device_index=device, **options)
+    return glcontext.default_backend()(**options)

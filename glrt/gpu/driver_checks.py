@@ -16,7 +16,8 @@ from glrt.gpu.evaluate import Probe
 Array = np.ndarray[Any, Any]
 
 MOST_ROUNDS = 1 << 17  # counted in the test of loops; a driver that runs them all has no limit
-LLVMPIPE_ROUNDS = 65_535  # of every version so far; beyond, all loops of a SIMD group just end
+# Of llvmpipe in Mesa 22: beyond, all loops of a SIMD group just end. That in Mesa 25 has no limit.
+LLVMPIPE_ROUNDS = 65_535
 ROWS = 1 << 14  # inputs of the other tests
 
 _limits: dict[tuple[str, str], int] = {}  # by renderer and version: measured once a process
@@ -48,18 +49,14 @@ def self_test(context: Context) -> SelfTest:
         )
 
 
-def usable_rounds(context: Context, wanted: int) -> int | None:
+def usable_rounds(context: Context) -> int | None:
     """How many rounds of loops a dispatch may plan with, a twelfth below the limit; None: any.
 
-    `wanted` are those that the smallest dispatch takes. llvmpipe's limit is known, and measured
-    only where that is not enough; of any other driver it is measured at once, by a dispatch of one
-    invocation.
+    The limit is measured by a dispatch of one invocation. Without compute shaders, a software
+    driver is taken for llvmpipe in Mesa 22.
     """
-    known = _with_reserve(LLVMPIPE_ROUNDS)
-    if "llvmpipe" in context.renderer.lower() and (wanted <= known or not context.has_compute):
-        return known
     if not context.has_compute:
-        return known if context.is_software else None
+        return _with_reserve(LLVMPIPE_ROUNDS) if context.is_software else None
     limit = measured_loop_limit(context)
     return None if limit >= MOST_ROUNDS else _with_reserve(limit)
 
@@ -72,13 +69,12 @@ def measured_loop_limit(context: Context) -> int:
     """After how many rounds the driver ends the loops of an invocation; MOST_ROUNDS if never.
 
     The rounds of all loops add up, nested ones too, and the last look at each loop's condition is
-    a round; llvmpipe counts those in which any lane of a SIMD group takes part.
+    a round; llvmpipe in Mesa 22 counts those in which any lane of a SIMD group takes part.
     """
     key = context.renderer, context.version
     if key not in _limits:
         with context.gl as gl:
             _limits[key] = _count_rounds(gl)
-        context.make_current()  # as it may have been: leaving made none the current one
     return _limits[key]
 
 

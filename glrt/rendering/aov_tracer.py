@@ -197,7 +197,7 @@ def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> i
     """How many observations a dispatch takes; SceneError if not even one."""
     block, is_of_paths = plan.settings.block, aovs[0] in OF_PATHS
     iterations, certain = _rounds_of_paths(plan) if is_of_paths else _rounds_of_rays(plan)
-    rounds = usable_rounds(context, block * iterations)
+    rounds = usable_rounds(context)
     if rounds is not None and block * certain > rounds:
         what = f"{block} {'paths' if is_of_paths else 'camera rays'}"
         which = f"--aov {aovs[0]}" if is_of_paths else "--aov"

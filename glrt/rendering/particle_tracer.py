@@ -218,6 +218,6 @@ def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     """How many rounds of loops a dispatch may take, None: any; and how many particles a lane."""
     iterations = iterations_per_sample(plan.scene, plan.settings)
     iterations += rounds_for_particles(plan.scene, plan.settings)
-    rounds = usable_rounds(context, iterations)
+    rounds = usable_rounds(context)
     block = plan.settings.block
     return rounds, block if rounds is None else max(1, min(block, rounds // iterations))

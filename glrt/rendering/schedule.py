@@ -158,7 +158,7 @@ def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     scene, settings = plan.scene, plan.settings
     more = rounds_for_particles(scene, settings) + rounds_for_reuse(scene, settings)
     iterations = iterations_per_sample(scene, settings) + more
-    rounds = usable_rounds(context, iterations)
+    rounds = usable_rounds(context)
     least = iterations_per_sample(scene, settings, 0) + more
     return rounds, most_samples(iterations, rounds, least)
 

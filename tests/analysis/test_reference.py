@@ -266,9 +266,8 @@ def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> 
     assert truth.radiance.mean() == pytest.approx(1.0, rel=0.01)
 
 
-def test_the_loop_limit_of_software_bounds_the_paths(context: Context) -> None:
-    if not context.is_software:
-        pytest.skip("the driver has no loop limit")
+@pytest.mark.usefixtures("loop_limit")
+def test_the_loop_limit_bounds_the_paths(context: Context) -> None:
     walls = [plane([0, 0, -3 - i], [0, 0, 1], "lamp") for i in range(400)]
     scene = scene_of(walls, {"lamp": lamp()})
     truth = reference_for(scene, small(scene), context, 1.0, 0.1)

@@ -44,11 +44,10 @@ def test_each_crowd_is_measured_with_a_tree_and_without(context: Context) -> Non
     assert f"{64 / rows[0].tree_seconds / 1e6:.2f}" in lines[2]
 
 
+@pytest.mark.usefixtures("loop_limit")
 def test_a_crowd_beyond_the_loop_limit_is_measured_with_a_tree_alone(
-    context: Context, capsys: pytest.CaptureFixture[str]
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    if not context.is_software:
-        pytest.skip("this machine renders on hardware")
     assert main(["--counts", "6000", "--size", "8", "--rounds", "2"]) == 0
     (line,) = (line for line in capsys.readouterr().out.splitlines() if "6,000" in line)
     assert line.split("|")[3].strip() == "refused"

@@ -1,7 +1,6 @@
 """`--caustics auto`: a pilot decides, alike for each part, crop, seed and driver, by no clock."""
 
 import json
-from ctypes.util import find_library
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,7 @@ from glrt.image.image import Image, read_recipe
 from glrt.image.recipe import Recipe
 from glrt.settings import Settings, settings_for
 from tests.support.renders import same
-from tests.support.system_packages import needs_package
+from tests.support.system_packages import needs_osmesa
 
 SIZE = ("--width", "24", "--height", "24", "--bounces", "4")
 LONG = (*SIZE, "--samples", "64")  # as much as a pilot, where `folder` has lowered what it takes
@@ -124,7 +123,7 @@ def test_the_pilot_is_the_same_for(words: tuple[str, ...], folder: Path) -> None
 
 
 def test_egl_and_osmesa_decide_alike(folder: Path) -> None:
-    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_osmesa()
     one, other = (rendered(BALL, *LONG, "--context", route) for route in ("egl", "osmesa"))
     assert recipe_of(one).renderer == recipe_of(other).renderer
     assert chosen(one)[0] == "on"

@@ -18,7 +18,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings, ToneMap
 from tests.support.builders import scene_of, sphere
 from tests.support.mixed_scene import MATERIALS, everything
-from tests.support.system_packages import needs_package
+from tests.support.system_packages import needs_osmesa, needs_package
 from tests.wgsl import table
 from tests.wgsl.crosscheck import (
     FRAMES,
@@ -222,7 +222,7 @@ def test_the_table_of_the_cross_check_can_be_made_again(
     webgpu: Device, capsys: pytest.CaptureFixture[str]
 ) -> None:
     needs_package(bool(find_library("EGL")), "libegl1")
-    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_osmesa()
     assert table.main(["--size", "8", "--scenes", "lamps"]) == 0
     printed = capsys.readouterr().out
     assert printed.count("| lamps | ") == 3

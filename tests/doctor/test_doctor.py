@@ -3,6 +3,7 @@
 import json
 import sys
 from collections.abc import Callable
+from ctypes.util import find_library
 from dataclasses import replace
 from typing import Any
 
@@ -46,9 +47,11 @@ def told(examined: list[Examination], monkeypatch: pytest.MonkeyPatch) -> Callab
 def test_each_route_is_examined_and_the_one_that_is_used_is_named(told: Callable[..., str]) -> None:
     lines = told().splitlines()
     assert any(line.startswith("egl     works: ") and line.endswith("<- used") for line in lines)
-    assert any(line.startswith("osmesa  works: ") for line in lines)
+    has_osmesa = bool(find_library("OSMesa"))
+    assert any(line.startswith("osmesa  works: ") for line in lines) == has_osmesa
     assert any(line.startswith("window  does not work: there is no display") for line in lines)
-    assert sum("a furnace is exact to the last bit" in line for line in lines) == 4
+    exact = sum("a furnace is exact to the last bit" in line for line in lines)
+    assert exact == (4 if has_osmesa else 2)
     assert "  random        those of Python's integers" in lines
 
 

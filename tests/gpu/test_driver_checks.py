@@ -46,32 +46,30 @@ def test_this_driver_computes_what_the_renderer_takes_for_granted(context: Conte
     assert found.trig_error <= 2**13  # 2^-11, what WGSL asks for; GLSL asks for nothing
 
 
-def test_llvmpipe_counts_loops_as_the_scheduler_believes(
-    context: Context, call_glsl: CallGlsl
-) -> None:
-    """All loops of a SIMD group together, and the last look at each loop's condition."""
-    if "llvmpipe" not in context.renderer:
-        pytest.skip("of llvmpipe alone")
-    assert measured_loop_limit(context) == driver_checks.LLVMPIPE_ROUNDS
+def test_loops_end_where_the_scheduler_believes(context: Context, call_glsl: CallGlsl) -> None:
+    """All loops of a SIMD group together, with the last look at each condition; or never."""
+    limit = measured_loop_limit(context)
     nested = """
         uvec2 count = uvec2(0u);
         for (uint k = 0u; k < rounds; ++k) {
             count.x += 1u;
             for (uint j = 0u; j < inner; ++j) if (++count.y == never) break;
         }"""
-    counts = call_glsl("count", "uvec2", setup=nested, **rounds(inner=10))[0]
-    assert counts.tolist() == [5462, 54613]
-    assert abs(counts[0] * (1 + 10 + 1) - driver_checks.LLVMPIPE_ROUNDS) < 12
+    outer, inner = call_glsl("count", "uvec2", setup=nested, **rounds(inner=10))[0].tolist()
+    if limit == MOST_ROUNDS:
+        assert (outer, inner) == (MOST_ROUNDS, 10 * MOST_ROUNDS)
+    else:
+        assert abs(outer * (1 + 10 + 1) - limit) < 12
+        assert 10 * (outer - 1) <= inner <= 10 * outer
     in_turn = "uint count = 0u; for (uint k = 0u; k < mine; ++k) if (++count == never) break;"
     mine = 10_000 * np.arange(1, 9, dtype=np.uint32)
     counts = call_glsl("count", "uint", setup=in_turn, mine=mine, **rounds())
-    assert counts.tolist() == np.minimum(mine, driver_checks.LLVMPIPE_ROUNDS).tolist()
+    assert counts.tolist() == np.minimum(mine, limit).tolist()
 
 
-def test_llvmpipe_counts_the_rounds_of_any_lane(context: Context, call_glsl: CallGlsl) -> None:
+def test_rounds_of_any_lane_count(context: Context, call_glsl: CallGlsl) -> None:
     """Four lanes take turns: each runs 30,000 rounds, and one of them in 96,000 together."""
-    if "llvmpipe" not in context.renderer:
-        pytest.skip("of llvmpipe alone")
+    limit = measured_loop_limit(context)
     turns = """
         uint count = 0u;
         for (uint k = 0u; k < outer; ++k) {
@@ -81,7 +79,7 @@ def test_llvmpipe_counts_the_rounds_of_any_lane(context: Context, call_glsl: Cal
     lanes = np.arange(64, dtype=np.uint32)
     counts = call_glsl("count", "uint", setup=turns, lane=lanes, **rounds(outer=8000, inner=10))
     assert counts.max() == 20_000
-    assert counts.min() < 20_000
+    assert (counts.min() < 20_000) == (limit < 96_000)
 
 
 def rounds(**more: int) -> dict[str, np.ndarray[tuple[int], np.dtype[np.uint32]]]:
@@ -112,20 +110,15 @@ def test_rounding_against_the_text_is_seen(
     assert driver_checks._rounding_changes(ctx, "precise ")
 
 
-def test_llvmpipe_is_not_measured_before_a_scene_needs_more(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    known = usable_rounds(Driver("llvmpipe (LLVM 15)"), 60_000)  # type: ignore[arg-type]
-    assert known is not None
-    assert 60_000 <= known <= 65_535
-    newer = driver(monkeypatch, "llvmpipe (LLVM 99)", MOST_ROUNDS)
-    assert usable_rounds(newer, 60_000) == known
-    assert usable_rounds(newer, 70_000) is None
+def test_each_version_of_llvmpipe_is_taken_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    older = driver(monkeypatch, "llvmpipe (LLVM 15)", 65_535)
+    assert 60_000 < (usable_rounds(older) or 0) <= 65_535
+    assert usable_rounds(driver(monkeypatch, "llvmpipe (LLVM 99)", MOST_ROUNDS)) is None
 
 
 def test_other_drivers_are_taken_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert usable_rounds(driver(monkeypatch, "A card", MOST_ROUNDS), 1) is None
-    rounds = usable_rounds(driver(monkeypatch, "A slow one", 12_000), 1)
+    assert usable_rounds(driver(monkeypatch, "A card", MOST_ROUNDS)) is None
+    rounds = usable_rounds(driver(monkeypatch, "A slow one", 12_000))
     assert rounds == 11_000
     assert most_samples(1000, rounds) == 11
     with pytest.raises(SceneError, match="11001 rounds of its loops"):
@@ -136,11 +129,10 @@ def test_other_drivers_are_taken_as_they_are(monkeypatch: pytest.MonkeyPatch) ->
 def test_without_compute_nothing_is_measured(monkeypatch: pytest.MonkeyPatch) -> None:
     """A software driver is taken for llvmpipe, a GPU for one without a limit."""
     monkeypatch.setattr(driver_checks, "_count_rounds", lambda _: pytest.fail("measured"))
-    known = usable_rounds(Driver("llvmpipe (LLVM 15)"), 1)  # type: ignore[arg-type]
     for name in ("llvmpipe (LLVM 99)", "softpipe"):
-        old = Driver(name, has_compute=False)
-        assert usable_rounds(old, 10**6) == known  # type: ignore[arg-type]
-    assert usable_rounds(Driver("Apple M1", "4.1", False, False), 10**6) is None  # type: ignore[arg-type]
+        old = usable_rounds(Driver(name, has_compute=False))  # type: ignore[arg-type]
+        assert 60_000 < (old or 0) <= 65_535
+    assert usable_rounds(Driver("Apple M1", "4.1", False, False)) is None  # type: ignore[arg-type]
 
 
 def test_a_loop_limit_is_measured_once_a_process(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bench.screens import screen
 from tests.support.images import same_bits
 from tests.support.renders import METHODS
-from tests.support.system_packages import needs_package
+from tests.support.system_packages import needs_osmesa, needs_package
 
 DRAW = """
 import sys
@@ -71,7 +71,7 @@ def by_egl(tmp_path_factory: pytest.TempPathFactory) -> Pictures:
 
 @pytest.fixture(scope="module")
 def by_osmesa(tmp_path_factory: pytest.TempPathFactory) -> Pictures:
-    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_osmesa()
     return draw("osmesa", tmp_path_factory.mktemp("osmesa"))
 
 
@@ -108,7 +108,7 @@ def test_hidden_window_shows_the_same_picture(
 
 
 def test_egl_and_osmesa_take_turns_in_one_process(tmp_path: Path) -> None:
-    needs_package(bool(find_library("OSMesa")), "libosmesa6")
+    needs_osmesa()
     code = """
 from glrt.gpu.context import open_context
 from glrt.image.sources import load

@@ -9,6 +9,7 @@ import argparse
 import gc
 import random
 import time
+from ctypes.util import find_library
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -102,7 +103,8 @@ def change(renderer: Renderer, scene: Scene, chance: random.Random) -> None:
 
 def open_another(context: Context | None, scene: Scene, chance: random.Random, file: Path) -> None:
     """As a script does: a picture, saved and read again; without a context, in one of its own."""
-    route: Choice = chance.choice(["egl", "osmesa"])
+    routes: list[Choice] = ["egl", "osmesa"] if find_library("OSMesa") else ["egl"]
+    route = chance.choice(routes)
     settings = any_settings(chance)
     ways = any_way(chance, settings["method"])
     renderer = Renderer(scene, context=context or route, **ways, **settings)

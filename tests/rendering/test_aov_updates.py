@@ -154,7 +154,7 @@ def software(context: Context) -> None:
 @pytest.fixture
 def short_loops(monkeypatch: pytest.MonkeyPatch) -> None:
     """The driver ends loops where 16 rays take 40 quads, and single ones far fewer."""
-    monkeypatch.setattr(aov_tracer, "usable_rounds", lambda *_: 600)
+    monkeypatch.setattr(aov_tracer, "usable_rounds", lambda _: 600)
 
 
 NAIVE: dict[str, Any] = {**SMALL, "bounces": 0, "method": "naive"}
@@ -188,8 +188,8 @@ def test_a_scene_beyond_the_loop_limit_leaves_aovs_as_they_were(context: Context
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("software")
-def test_the_loop_limit_of_the_driver_itself_is_known(context: Context) -> None:
+@pytest.mark.usefixtures("loop_limit")
+def test_a_loop_limit_as_that_of_llvmpipe_is_heeded(context: Context) -> None:
     """A sample of 4000 quads fits into a dispatch, and 16 camera rays do not; of 3000 they do."""
     with pytest.raises(SceneError, match="--aov is beyond"):
         Renderer(tiles(4000), context=context, aov=SOME, **NAIVE)

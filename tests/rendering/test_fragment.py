@@ -25,6 +25,7 @@ from tests.support.images import same_bits
 from tests.support.mixed_scene import everything
 from tests.support.processes import glrt
 from tests.support.renders import METHODS, SAMPLERS
+from tests.support.system_packages import needs_osmesa
 
 SMALL: dict[str, Any] = {"width": 19, "height": 13, "bounces": 6}
 
@@ -164,6 +165,8 @@ def test_a_driver_without_compute_renders_the_same_picture(
 ) -> None:
     if not context.is_software:
         pytest.skip("the old driver is Mesa's software with parts taken away")
+    if route == "osmesa":
+        needs_osmesa()
     arguments = ["--width", "32", "--height", "24", "--samples", "5", "--context", route]
     told = glrt("render", "cornell", "-o", f"{tmp_path}/a.exr", "--json", *arguments)
     assert told.returncode == 0, told.stderr

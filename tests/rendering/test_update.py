@@ -128,9 +128,8 @@ def too_large() -> Scene:
     return everything([*OBJECTS, *walls])
 
 
+@pytest.mark.usefixtures("loop_limit")
 def test_scene_beyond_the_loop_limit_is_refused(context: Context) -> None:
-    if not context.is_software:
-        pytest.skip("this machine renders on hardware")
     with pytest.raises(SceneError, match="loop limit"), rendering(too_large(), context, bounces=50):
         pass
 

@@ -1,6 +1,9 @@
 """What to do about a system package, or something else of a machine, that is not there."""
 
 import os
+import shutil
+import subprocess
+from ctypes.util import find_library
 from typing import Literal, NoReturn, overload
 
 import pytest
@@ -23,3 +26,20 @@ def needs(is_there: bool, what: str) -> None:
 def needs_package(is_there: bool, package: str) -> None:
     """The same of a system package, by its name."""
     needs(is_there, f"the system package {package}")
+
+
+def needs_osmesa() -> None:
+    """OSMesa. Mesa 25.1 removed it: where apt does not know its package, CI skips the test, too."""
+    is_there = bool(find_library("OSMesa"))
+    if not is_there and not offers("libosmesa6"):
+        pytest.skip("this system has no OSMesa: Mesa 25.1 removed it")
+    needs_package(is_there, "libosmesa6")
+
+
+def offers(package: str) -> bool:
+    """Whether apt knows a package."""
+    command = ["apt-cache", "show", package]
+    return (
+        bool(shutil.which("apt-cache"))
+        and not subprocess.run(command, capture_output=True).returncode
+    )

@@ -98,9 +98,8 @@ def frame_of(scene: Scene, height: int) -> Settings:
 
 def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
     """Whether one sample stays within the loop limit of the driver."""
-    rounds = iterations_per_sample(scene, settings)
-    usable = usable_rounds(context, rounds)
-    return usable is None or rounds <= usable
+    usable = usable_rounds(context)
+    return usable is None or iterations_per_sample(scene, settings) <= usable
 
 
 def _missing_rounds(
