@@ -9,7 +9,7 @@ from glrt.errors import SceneError
 from glrt.scene.assets import AssetReader, folder_of
 from glrt.scene.file_contents import Beside, with_content
 from glrt.scene.gltf.document import Document
-from glrt.scene.gltf.looks import Look, looks_of, make_pane, without_image
+from glrt.scene.gltf.looks import Look, dye_unlit, looks_of, make_pane, without_image
 from glrt.scene.materials import Dielectric, Material, Opaque, Principled
 from glrt.scene.mesh_formats import libraries
 from glrt.scene.meshes import Mesh
@@ -98,6 +98,8 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
             if look.table.get("transmission") and not look.table["thin"] and part.opening:
                 look.unread.append("the volume of glass that is not closed")
                 make_pane(look)
+            if look.is_unlit and part.colors is not None:
+                dye_unlit(look, part.colors)
             own[name] = images.with_pixels(_of_look(look, images))
             unread += look.unread
     except ValueError as error:

@@ -15,7 +15,7 @@ Table = dict[str, Any]
 Vector = NDArray[np.float64]
 
 LIGHT, GROUND = "studio light", "studio ground"  # names of objects and materials
-SKY = {"bottom": [0.2] * 3, "horizon": [0.32] * 3, "top": [0.55] * 3}  # radiance
+SKY = {"bottom": [0.23] * 3, "horizon": [0.23] * 3, "top": [0.65] * 3}  # radiance
 
 LEAST_RADIUS = 1e-9  # of a model, scene units
 _LEAST_EMISSION = 0.05  # mean radiance over all surfaces of a model that lights itself
@@ -41,19 +41,14 @@ def lights_itself(scene: Scene) -> bool:
     for mesh in scene.meshes:
         size, material = _area(mesh.triangles), scene.materials[mesh.material]
         area += size
-        if material.emits and not (is_unlit(material) or _glows_by_an_image(material)):
+        if material.emits and not _shows_a_color(material):
             flux += size * sum(scene.emission_of(mesh)) / 3
     return flux >= _LEAST_EMISSION * area
 
 
-def is_unlit(material: Material) -> bool:
-    """Whether it emits its color and reflects nothing, as KHR_materials_unlit has it."""
-    is_black = isinstance(material, Principled) and not (any(material.color) or material.specular)
-    return is_black and material.emits
-
-
-def _glows_by_an_image(material: Material) -> bool:
-    return isinstance(material, Opaque) and "emission" in material.textures
+def _shows_a_color(material: Material) -> bool:
+    is_unlit = isinstance(material, Principled) and material.is_unlit
+    return is_unlit or (isinstance(material, Opaque) and "emission" in material.textures)
 
 
 def _area(mesh: TriangleMesh) -> float:

@@ -3,6 +3,9 @@
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from glrt.scene.gltf.document import Document, number, numbers
 from glrt.scene.gltf.primitives import material_names
 from glrt.scene.gltf.textures import TextureTables
@@ -29,6 +32,7 @@ class Look:
 
     table: dict[str, Any]
     unread: list[str] = field(default_factory=list)
+    is_unlit: bool = False
 
     def number(self, value: Any, where: str, most: float = 1.0) -> float:
         """A number, moved into 0 to `most`; what is moved by more than rounding was left out."""
@@ -59,9 +63,12 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
     look = Look(dict(_PLAIN))
     _metallic_roughness(document, textures, given, here, look)
     _surface(document, textures, given, here, look)
-    _emission(document, textures, given, here, look)
+    is_unlit = document.extension(given, "KHR_materials_unlit", here) is not None
+    if not is_unlit:
+        _emission(document, textures, given, here, look)
     _layers(document, textures, given, here, look)
-    if document.extension(given, "KHR_materials_unlit", here) is not None:
+    look.is_unlit = is_unlit
+    if is_unlit:
         _let_shine(look)
     return look
 
@@ -69,7 +76,8 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
 def _let_shine(look: Look) -> None:
     """Let it emit its colour and reflect nothing: it looks the same in every light."""
     shown = {"emission": look.table["color"], "color": (0.0, 0.0, 0.0), "specular": 0.0}
-    kept = {key: look.table[key] for key in ("type", "ior")}
+    keys = ("type", "ior", "alpha", "alpha_cutoff")
+    kept = {key: look.table[key] for key in keys if key in look.table}
     look.table.clear()
     look.table.update(kept | shown | {"metallic": 0.0, "roughness": 1.0, "thin": True})
 
@@ -116,7 +124,7 @@ def _emission(
         return
     image = textures.table(given.get("emissiveTexture"), f"{here}.emissiveTexture")
     look.table["emission"] = {**image, "factor": emission} if image else emission
-    if look.table.pop("alpha", None) is not None:
+    if not image and look.table.pop("alpha", None) is not None:  # a lamp has no holes
         look.table.pop("alpha_cutoff", None)
         look.unread.append("alphaMode of what emits")
 
@@ -171,6 +179,22 @@ def _fit_glass(look: Look) -> None:
         look.unread.append("metallicRoughnessTexture beside transmission")
     if look.table["thin"]:
         make_pane(look)
+
+
+def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
+    """Multiply what is unlit by the colors of its vertices, (v, 3), where they are all the same.
+
+    Emission cannot vary from vertex to vertex: what has other colors is lit, and matte.
+    """
+    emission = look.table.pop("emission")
+    given = emission["factor"] if isinstance(emission, dict) else emission
+    if np.ptp(colors, axis=0).max() > _ROUNDING:
+        look.table["color"] = emission
+        look.unread.append("KHR_materials_unlit of what has colors of vertices")
+        return
+    factor = tuple(float(a * b) for a, b in zip(given, colors[0], strict=True))
+    dyed = {**emission, "factor": factor} if isinstance(emission, dict) else factor
+    look.table["emission"] = dyed
 
 
 def without_image(look: Look, key: str) -> None:
