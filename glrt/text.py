@@ -64,5 +64,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def plural(noun: str) -> str:
-    """Lamps, boxes, meshes."""
+    """Lamps, boxes, meshes, vertices."""
+    if noun == "vertex":
+        return "vertices"
     return f"{noun}{'es' if noun.endswith(('x', 'sh')) else 's'}"

@@ -1,8 +1,19 @@
 """What the commands say of a picture that is not to be believed."""
 
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
 from glrt.image.image import Image
+from glrt.image.tonemap import expose_and_encode
+from glrt.scene.limits import is_dark
 from glrt.text import counted
 
+_BLACK = 3  # 8-bit codes below it look black on a screen
+_MOSTLY = 0.99  # share of the pixels
+_SHOWN = 0.5  # radiance that is bright and not clipped at exposure 0
 _LESS_SURE = {"naive", "nee"}  # methods by which more light is found by luck than by `mis`
 
 
@@ -28,4 +39,28 @@ def clipped(particles: int) -> str:
     return (
         f"{counted(particles, 'particle')} brought more light than a pixel takes at once: it is "
         "too dark there. Use --caustics off."
+    )
+
+
+def too_dark(image: Image, outputs: Sequence[str]) -> str:
+    """A paragraph where a PNG file looks black though its scene has light; else ""."""
+    if not image.recipe or not any(Path(name).suffix.lower() == ".png" for name in outputs):
+        return ""
+    settings = image.recipe.settings
+    codes = expose_and_encode(image.shown, settings.exposure, settings.tonemap)
+    is_black = codes.max(axis=2) < _BLACK
+    if is_black.mean() < _MOSTLY or is_dark(image.recipe.scene):
+        return ""
+    share = f"{100 * math.floor(1000 * is_black.mean()) / 1000:g} % of the picture is black"
+    brightest = image.shown.max(axis=2)
+    seen = brightest[is_black & (brightest > 0)].astype(np.float64)
+    if seen.size < (1 - _MOSTLY) * is_black.size:
+        return (
+            f"{share} at every exposure: no light reaches what is in view there. Move the camera, "
+            "or add a light."
+        )
+    exposure = min(round(math.log2(_SHOWN / np.quantile(seen, 0.9))), 50)
+    return (
+        f"{share}: its light is too dim for exposure {settings.exposure:g}. Use --exposure "
+        f"{exposure}, or brighter lights."
     )

@@ -4,7 +4,7 @@ import argparse
 import sys
 from typing import Any, NamedTuple
 
-from glrt.cli.doubts import clipped, doubt
+from glrt.cli.doubts import clipped, doubt, too_dark
 from glrt.cli.process import file_names, peak_bytes, print_figures
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
@@ -63,7 +63,12 @@ def tell(arguments: argparse.Namespace, done: Done) -> None:
                 "loop limit. If there are many, the picture is biased: use fewer bounces.",
                 file=sys.stderr,
             )
-    doubts = [clipped(renderer.lost_particles.clipped), doubt(done.image), _noisy(done.image)]
+    doubts = [
+        clipped(renderer.lost_particles.clipped),
+        doubt(done.image),
+        _noisy(done.image),
+        too_dark(done.image, arguments.outputs),
+    ]
     for text in filter(None, [] if arguments.quiet else doubts):
         print(f"glrt: caution: {text}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from glrt.cli.doubts import doubt
+from glrt.cli.doubts import doubt, too_dark
 from glrt.cli.options import add_outputs, add_summary
 from glrt.cli.process import file_names, print_figures
 from glrt.errors import UsageError
@@ -73,7 +73,8 @@ def _tell(arguments: argparse.Namespace, image: Image) -> None:
             f"{counted(image.samples, 'sample')}{known}.",
             file=sys.stderr,
         )
-    if not arguments.quiet and (caution := doubt(image)):
+    doubts = [] if arguments.quiet else [doubt(image), too_dark(image, arguments.outputs)]
+    for caution in filter(None, doubts):
         print(f"glrt: caution: {caution}", file=sys.stderr)
     ways = [way for way in (recipe.renderer, recipe.pipeline, recipe.tier) if " and " in way]
     if ways and not arguments.quiet:

@@ -199,7 +199,9 @@ def contents_of(scene: Scene, apart: Apart = "repeated") -> Contents:
 
 
 def is_sampled(material: Material) -> bool:
-    """Whether a lamp of this material can be sampled: one whose emission is an image is not."""
+    """Whether a lamp of this material can be sampled: not by an image, and not with holes."""
+    if isinstance(material, Principled) and material.has_holes:
+        return False
     return material.emits and not (isinstance(material, Opaque) and "emission" in material.textures)
 
 

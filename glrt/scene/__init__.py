@@ -41,6 +41,7 @@ Modules, each importing only what stands above it:
 - file_contents: what the files hold that a scene names
 - mtl_files: materials of OBJ files
 - own_trees: which meshes have a tree of their own
+- file_materials: the materials that OBJ and glTF files bring along
 - own_materials: meshes divided by the materials of their files
 - loading: the files that a scene names, read into it
 - file_copies: copies of them elsewhere
@@ -51,6 +52,7 @@ Modules, each importing only what stands above it:
 - flat_polygons: flat surfaces of objects as polygons
 - coincidence: lamps that share a place with other surfaces
 - names: scenes without their names, which no light depends on
+- studio: light and ground for models without light of their own
 - model_scene: scenes of model files alone
 - toml: scene files read
 - toml_lists: objects that come and go in the text of a scene file

@@ -10,11 +10,13 @@ import os
 import posixpath
 import re
 import stat
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from errno import EINVAL, EISDIR
 from itertools import islice
 from pathlib import Path
+from urllib.parse import unquote
 
 from glrt.errors import SceneError
 from glrt.files import check_regular, reason
@@ -103,6 +105,27 @@ class AssetReader:
         except ValueError:  # of the system's functions, for a NUL or half a pair of surrogates
             raise SceneError(f"{place}: no file can have the name {quoted(path)}.") from None
 
+    def spelled(self, path: str, folder: str = "") -> str:
+        """The path of a file that a model in a folder names, from the base folder.
+
+        As the file system spells it, where something fits: models name files with '\\' between
+        folders, by paths of another machine, in letters of another case, with accents in another
+        normal form, or with '%20' for a blank. A path that leads out is not looked for.
+        """
+        joined = posixpath.join(folder, path)
+        if self._folder.allow_outside and (self._folder.base / joined).is_file():
+            return joined
+        given = path.replace("\\", "/")
+        if given.startswith("/") or _DRIVE.match(given):
+            given = posixpath.basename(given)
+        parts = posixpath.normpath(posixpath.join(folder, given)).split("/")
+        if parts[0] in ("", ".."):
+            return joined
+        found = ""
+        for part in parts:
+            found = posixpath.join(found, _entry_like(part, self._folder.base / found))
+        return found
+
     def _read(self, name: str) -> Asset:
         if name not in self._by_path:
             _check_listed(name, self._folder)
@@ -147,11 +170,12 @@ def _joined(path: str, named_by: Asset | None) -> str:
         raise _RefusedError("the path of a file is empty. Give the path of one.")
     if "\\" in path:
         raise _RefusedError(f"{quoted(path)} holds a backslash. Write '/' between folders.")
-    return posixpath.normpath(posixpath.join(_folder_of(named_by), path))
+    return posixpath.normpath(posixpath.join(folder_of(named_by.path) if named_by else "", path))
 
 
-def _folder_of(asset: Asset | None) -> str:
-    return posixpath.dirname(asset.path) if asset else ""
+def folder_of(path: str) -> str:
+    """The folder of a file, by their paths from the base folder; "" for that folder."""
+    return posixpath.dirname(path)
 
 
 def _located(name: str, folder: AssetFolder) -> str:
@@ -236,6 +260,22 @@ def _neighbours(folder: str) -> tuple[str, ...]:
             return tuple(sorted(e.name for e in islice(entries, _MOST_NEIGHBOURS) if e.is_file()))
     except OSError:
         return ()
+
+
+def _entry_like(name: str, folder: Path) -> str:
+    """What a folder holds under a name, else under another spelling of it, else the name."""
+    if (folder / name).exists():
+        return name
+    try:
+        with os.scandir(folder) as entries:
+            names = sorted(entry.name for entry in islice(entries, _MOST_NEIGHBOURS))
+    except (OSError, ValueError):  # ValueError for a NUL
+        return name
+    return next((entry for entry in names if _plain(entry) == _plain(name)), name)
+
+
+def _plain(name: str) -> str:
+    return unicodedata.normalize("NFC", unquote(name)).casefold()
 
 
 def _size(count: int) -> str:

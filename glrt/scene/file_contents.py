@@ -3,7 +3,7 @@
 import numpy as np
 
 from glrt.errors import SceneError
-from glrt.scene.assets import Asset, AssetReader
+from glrt.scene.assets import Asset, AssetReader, folder_of
 from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.images import image_content
 from glrt.scene.image_files import decode_image
@@ -48,7 +48,8 @@ class Beside:
 
     def __call__(self, path: str) -> bytes:
         """The content; raises `SceneError`."""
-        found = self._reader.read(path, self._where, self._asset)
+        spelled = self._reader.spelled(path, folder_of(self._asset.path))
+        found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
         self.hashes[found.path] = found.sha256
         return found.content
 

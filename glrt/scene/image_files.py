@@ -1,7 +1,7 @@
-"""Images in files as arrays of linear values: PNG, JPEG, WebP, Radiance .hdr and OpenEXR.
+"""Images in files as arrays of linear values: PNG, JPEG, WebP, BMP, TGA, Radiance and OpenEXR.
 
-PNG, JPEG and WebP hold codes: colours are decoded by the sRGB curve, data are scaled to 0..1; gAMA
-chunks and colour profiles are ignored, as in glTF. Radiance and OpenEXR files hold linear values.
+All but the last two hold codes: colours are decoded by the sRGB curve, data are scaled to 0..1;
+gAMA chunks and colour profiles are ignored, as in glTF. Radiance and OpenEXR hold linear values.
 """
 
 import io
@@ -66,7 +66,7 @@ def decode_srgb(code: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
 
 
-# --- PNG, JPEG and WebP ----------------------------------------------------------------------
+# --- codes ----------------------------------------------------------------------
 
 
 def _decode_png(content: bytes, color: bool) -> Pixels:
@@ -99,6 +99,26 @@ def _decode_webp(content: bytes, color: bool) -> Pixels:
         check_size(*image.size)
         _check_still(image)
         return _linear(_planes(image), color)
+
+
+def _decode_bmp(content: bytes, color: bool) -> Pixels:
+    from PIL.BmpImagePlugin import BmpImageFile
+
+    return _plain(lambda: BmpImageFile(io.BytesIO(content)), color)
+
+
+def _decode_tga(content: bytes, color: bool) -> Pixels:
+    from PIL.TgaImagePlugin import TgaImageFile
+
+    return _plain(lambda: TgaImageFile(io.BytesIO(content)), color)
+
+
+def _plain(opened: Callable[[], Any], color: bool) -> Pixels:
+    """Of 8 bits, perhaps with a palette."""
+    with _reading(), opened() as image:
+        check_size(*image.size)
+        is_plain = image.mode in ("L", "LA", "RGB", "RGBA")
+        return _linear(_planes(image if is_plain else image.convert("RGB")), color)
 
 
 @contextmanager
@@ -188,4 +208,6 @@ _DECODERS: dict[bytes, Callable[[bytes, bool], Pixels]] = {
     rb"RIFF....WEBP": _decode_webp,
     rb"#\?": decode_hdr,
     rb"\x76\x2f\x31\x01": decode_exr,
+    rb"BM....\0\0\0\0": _decode_bmp,
+    rb".[\0\1][\1-\3\x09-\x0b]": _decode_tga,  # it has no mark of its own
 }

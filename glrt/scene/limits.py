@@ -163,13 +163,16 @@ def _walled_in(scene: Scene) -> str:
     return ""
 
 
+def is_dark(scene: Scene) -> bool:
+    """Whether nothing emits: the picture is black, and sure of it."""
+    emits = any(any(scene.emission(finish)) for finish in scene.finishes)
+    return not (emits or any(map(any, (scene.sun_radiance, *scene.background_colors))))
+
+
 def _dark(scene: Scene) -> str:
-    """Nothing that emits: the picture is black, and sure of it."""
-    finishes = scene.finishes
-    emits = any(any(scene.emission(finish)) for finish in finishes)
-    if emits or any(map(any, (scene.sun_radiance, *scene.background_colors))):
+    if not is_dark(scene):
         return ""
-    lamps = any(finish.group for finish in finishes)
+    lamps = any(finish.group for finish in scene.finishes)
     remedy = (
         "Raise the emission of a lamp, or the intensity of its group under [lights] or with --light"
         if lamps

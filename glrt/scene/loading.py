@@ -9,7 +9,7 @@ from glrt.errors import SceneError
 from glrt.scene.assets import AssetFolder, AssetReader
 from glrt.scene.contents import Contents
 from glrt.scene.file_contents import NamedContent, is_read, with_content
-from glrt.scene.materials import Opaque, glass_of
+from glrt.scene.materials import Material, Opaque, glass_of
 from glrt.scene.meshes import Mesh
 from glrt.scene.named_images import ImageFile, TextureImage
 from glrt.scene.own_materials import lacks_material, part_problem, with_own_materials
@@ -41,15 +41,18 @@ def sources_of(scene: Contents) -> dict[str, str]:
     return hashes_of(scene) | {path: sha for file in files for path, sha in file.libraries.items()}
 
 
-def with_files(scene: SceneType, folder: AssetFolder, source: str) -> SceneType:
+def with_files(
+    scene: SceneType, folder: AssetFolder, source: str, rest: Material | None = None
+) -> SceneType:
     """The scene with the content of its files; the same one if it names none, or has all.
 
-    Raises `SceneError`, as `source: key: ...`, for a file that is missing, too large, outside of
+    `rest` is the material of what has none in an OBJ file, which is refused without it. Raises
+    `SceneError`, as `source: key: ...`, for a file that is missing, too large, outside of
     the folder, no image or mesh, or not as expected.
     """
     reader = AssetReader(folder)
     scene = _read(scene, reader, source)
-    scene = _read(with_own_materials(scene, reader, source), reader, source)
+    scene = _read(with_own_materials(scene, reader, source, rest), reader, source)
     problem = next(mesh_problems(scene), None)
     if problem:
         raise SceneError(f"{source}: {problem}")

@@ -16,7 +16,7 @@ from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.draco import NotInstalledError
 from glrt.scene.gltf.primitives import mesh_of
 from glrt.scene.image_files import decode_srgb
-from glrt.scene.triangle_meshes import TriangleMesh, checked
+from glrt.scene.triangle_meshes import NO_MATERIAL, TriangleMesh, of_file
 from glrt.scene.vertex_means import places
 from glrt.text import quoted
 
@@ -24,7 +24,9 @@ FORMATS = (".ply", ".obj", ".stl", ".glb", ".gltf")
 GLTF = (".glb", ".gltf")
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
+_BOM = b"\xef\xbb\xbf"
 _LIBRARY = re.compile(rb"^mtllib[ \t]+(.+)$", re.MULTILINE)
+_IDLE = re.compile(rb"^[ \t]*(?:#.*|[gos](?:[ \t].*)?)$|[ \t]#[ \t].*$", re.MULTILINE)
 _FILES = re.compile(r"\S.*?\.mtl(?=\s|$)", re.IGNORECASE)  # names may have blanks
 _PARTS = re.compile(rb"^(?:usemtl (.*)|f)", re.MULTILINE)
 
@@ -48,8 +50,9 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
             warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
             if suffix in GLTF:
                 return mesh_of(Document(content, fetch or _alone))
-            if suffix == ".obj" and b"usemtl" in content:
+            if suffix == ".obj":
                 content = _plain_lines(content)
+            if suffix == ".obj" and b"usemtl" in content:
                 return _mesh(_reader(suffix)(BytesIO(content)), suffix, _names(content))
             return _mesh(_reader(suffix)(BytesIO(content)), suffix)
     except SceneError:
@@ -80,10 +83,13 @@ def libraries(content: bytes) -> list[str]:
 
 
 def _plain_lines(content: bytes) -> bytes:
-    """An OBJ file without comments and continued lines, which trimesh takes for materials."""
-    text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b"")
-    text = re.sub(rb"^[ \t]*#.*$", b"", text, flags=re.MULTILINE)
-    return re.sub(rb"^[ \t]*usemtl[ \t]+", b"usemtl ", text, flags=re.MULTILINE)
+    """An OBJ file without comments, continued lines and names of other things than materials.
+
+    trimesh takes "usemtl" for a material wherever it stands. A '#' may be part of a name.
+    """
+    text = content.removeprefix(_BOM).replace(b"\r\n", b"\n").replace(b"\\\n", b"")
+    text = _IDLE.sub(b"", text)
+    return re.sub(rb"^[ \t]*(usemtl|mtllib)[ \t]+", rb"\1 ", text, flags=re.MULTILINE)
 
 
 def _names(content: bytes) -> list[str]:
@@ -139,10 +145,10 @@ def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> Tr
         raise ValueError("it has no triangles")
     points, triangles = np.concatenate(vertices), np.concatenate(faces)
     if suffix == ".stl":  # no triangles share vertices there
-        return checked(points, places(points)[triangles])
+        return of_file(points, places(points)[triangles])
     names, labels = _labels(owners, [len(rows) for rows in faces])
     rows = _joined(normals), _joined(colors), names, labels, _joined(sets)
-    return checked(points, triangles, *rows)
+    return of_file(points, triangles, *rows)
 
 
 def _uv(visual: Any, count: int) -> NDArray[np.float64] | None:
@@ -155,11 +161,14 @@ def _uv(visual: Any, count: int) -> NDArray[np.float64] | None:
 
 
 def _labels(owners: Sequence[str], counts: list[int]) -> tuple[tuple[str, ...], Any]:
-    """Each name once, and for each triangle its number; none where trimesh cut in other places."""
-    if len(owners) != len(counts) or not any(owners):
+    """Each name once, and for each triangle its number; none where no face has a name."""
+    if not any(owners):
         return (), None
-    numbers = {name: number for number, name in enumerate(dict.fromkeys(reversed(owners)))}
-    return tuple(numbers), np.repeat([numbers[name] for name in owners], counts)
+    if len(owners) != len(counts):
+        raise ValueError("its faces cannot be told apart by their materials (usemtl)")
+    named = [name or NO_MATERIAL for name in owners]
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(reversed(named)))}
+    return tuple(numbers), np.repeat([numbers[name] for name in named], counts)
 
 
 def _joined(parts: list[Any]) -> NDArray[Any] | None:

@@ -40,12 +40,13 @@ class MeshFile(NamedFile):
     @property
     def unread(self) -> tuple[str, ...]:
         """What of those files and of its own was left out."""
-        return self._unread
+        own = self._triangles.unread if self._triangles else ()
+        return tuple(sorted({*self._unread, *own}))
 
     def with_libraries(self, hashes: Mapping[str, str], unread: tuple[str, ...]) -> "MeshFile":
         """The mesh, which knows where its materials were taken from, and what else was left out."""
         found = self.model_copy()
-        found._libraries, found._unread = hashes, tuple(sorted({*self._unread, *unread}))
+        found._libraries, found._unread = hashes, (*self._unread, *unread)
         return found
 
     def read_as(self, sha256: str, triangles: TriangleMesh, origin: Path | None) -> "MeshFile":

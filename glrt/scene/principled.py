@@ -50,7 +50,8 @@ class Principled(Opaque):
         False, description="whether its glass is a pane, which has roughness 0"
     )
     alpha: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
-        1.0, description="share of the surface that is there; light passes the rest; not of lamps"
+        1.0,
+        description="share of the surface that is there; light passes the rest; not of lamps",
     )
     clearcoat: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         0.0, description="weight of a clear coat of index 1.5; not with transmission"
@@ -114,7 +115,7 @@ class Principled(Opaque):
     def _has_glass_that_can_be(self) -> Self:
         if self.transmission > 0 and self.clearcoat > 0:
             raise ValueError("a coat over transmission is not known; leave one of the two out")
-        if self.has_holes and self.emits:
+        if self.has_holes and self.emits and not (self.is_unlit or self.emission_map):
             raise ValueError("a lamp has no alpha; leave alpha or emission out")
         if self.metallic_map and self.transmission > 0:
             raise ValueError("metallic as a texture with transmission is not known; give a number")
@@ -133,6 +134,11 @@ class Principled(Opaque):
             attenuation_distance=self.attenuation_distance,
             thin=self.thin,
         )
+
+    @property
+    def is_unlit(self) -> bool:
+        """Whether it shows its emission and reflects nothing, as KHR_materials_unlit has it."""
+        return self.emits and not (any(self.color) or self.specular)
 
     @property
     def has_holes(self) -> bool:

@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 MOST_TRIANGLES = 4_000_000  # of a scene
+ROUNDING = 1e-3  # how far out of its range a color may be by rounding
+NO_MATERIAL = "without material"  # the name of what has none, in a file that has materials
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,13 +27,14 @@ class TriangleMesh:
 
     vertices: Floats  # (v, 3)
     faces: Ints  # (n, 3): numbers of vertices
-    normals: Floats | None  # (v, 3), of any length above 0; None: none were given
+    normals: Floats | None  # (v, 3), of any length, 0: unknown; None: none were given
     colors: Floats | None = None  # (v, 3), linear sRGB, 0 to 1 each; None: none were given
-    names: tuple[str, ...] = ()  # of the materials of the file; empty: before the first
+    names: tuple[str, ...] = ()  # of the materials of the file
     labels: Ints | None = None  # (n,): the number of a name; None: the file names none
     uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None: none
     tangents: Floats | None = None  # (v, 3), where u of the first set grows; None: none were given
     repeated: int = 0  # triangles that were left out, since one of the same corners was there
+    unread: tuple[str, ...] = ()  # what of the file was left out
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -45,9 +48,19 @@ class TriangleMesh:
         return places(self.vertices)
 
     @cached_property
+    def _sums(self) -> Floats:
+        """(v, 3), of any length: normals that were given; those of no length are means, too."""
+        if self.normals is None:
+            return self._mean_normals()
+        is_given = self.normals.any(axis=1, keepdims=True)
+        if is_given.all():
+            return self.normals
+        return np.where(is_given, self.normals, self._mean_normals())
+
+    @cached_property
     def shading_normals(self) -> Floats:
         """(v, 3), unit: those that were given, else means of the triangles around each vertex."""
-        given = self.normals if self.normals is not None else self._mean_normals()
+        given = self._sums
         length = np.linalg.norm(given, axis=1, keepdims=True)
         unit: Floats = np.divide(given, length, out=np.zeros_like(given), where=length > 0)
         return unit
@@ -91,7 +104,7 @@ class TriangleMesh:
         """The triangles of each material of the file, with the normals of the whole mesh."""
         if self.labels is None:
             return {}
-        sums = self.normals if self.normals is not None else self._mean_normals()
+        sums = self._sums
         counts = np.bincount(self.labels, minlength=len(self.names))
         rows = np.split(np.argsort(self.labels, kind="stable"), np.cumsum(counts)[:-1])
         named = zip(self.names, rows, strict=True)
@@ -153,6 +166,32 @@ def checked(
     labels = None if labels is None else labels[whole]
     own = points[used], rank[kept], turned, dyes
     return TriangleMesh(*own, names, labels, sets, along, int(again.sum()))
+
+
+def of_file(
+    vertices: Any,
+    faces: Any,
+    normals: Any = None,
+    colors: Any = None,
+    names: tuple[str, ...] = (),
+    labels: Ints | None = None,
+    uv: Any = None,
+    tangents: Any = None,
+) -> TriangleMesh:
+    """As `checked`, but colors and texture coordinates that are none are left out, at a vertex."""
+    unread = list[str]()
+    if colors is not None:
+        colors = np.array(colors, np.float64)
+        wrong = ~((colors >= -ROUNDING) & (colors <= 1 + ROUNDING)).all(axis=1)
+        colors = np.where(wrong[:, None], 1.0, colors.clip(0, 1))
+        unread += [f"the color of {counted(int(wrong.sum()), 'vertex')}"] if wrong.any() else []
+    if uv is not None:
+        wrong = ~(np.abs(uv) <= LARGEST).all(axis=1)
+        uv = np.where(wrong[:, None], 0.0, uv)
+        count = counted(int(wrong.sum()), "vertex")
+        unread += [f"the texture coordinates of {count}"] if wrong.any() else []
+    found = checked(vertices, faces, normals, colors, names, labels, uv, tangents)
+    return replace(found, unread=tuple(unread))
 
 
 def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:

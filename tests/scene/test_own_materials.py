@@ -161,7 +161,6 @@ def test_what_is_not_read_is_told_once(folder: Path, capsys: pytest.CaptureFixtu
 WRONG: dict[str, tuple[str, str, str, str]] = {
     "no such file": (obj("red", "red", library="tow.mtl"), MTL, OBJECT, "did you mean 'two.mtl'?"),
     "outside": (obj("red", "red", library="../../x.mtl"), MTL, OBJECT, "lies outside the folder"),
-    "a bad line": (obj("red", "red"), MTL + "Kd 1 2 3", OBJECT, "models/two.mtl, line 6: Kd must"),
     "no such name": (obj("red", "rod"), MTL, OBJECT, "unknown material 'rod'"),
     "no mtllib": (obj("red", "red")[15:], MTL, OBJECT, "names no MTL file by mtllib"),
     "no usemtl": (obj("", ""), MTL, OBJECT, "uses no materials of its own (usemtl)"),
@@ -180,6 +179,12 @@ WRONG: dict[str, tuple[str, str, str, str]] = {
         "the intensity times the emission",
     ),
     "nothing wrong with closed glass": (obj("red", "a lamp"), MTL + "illum 4", OBJECT, ""),
+    "nothing wrong with a color too bright": (
+        obj("red", "red"),
+        MTL + "newmtl b\nKd 1 2 3",
+        OBJECT,
+        "",
+    ),
     "nothing wrong with a part": (obj("red", "rod"), MTL, OBJECT + 'part = "red"\n', ""),
 }
 

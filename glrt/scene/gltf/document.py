@@ -183,7 +183,7 @@ def _parsed(text: bytes) -> dict[str, Any]:
     if len(text) > _LONGEST_JSON:
         raise ValueError(f"its JSON is longer than {_LONGEST_JSON >> 20} MiB")
     try:
-        found = json.loads(text.decode("utf-8-sig"), parse_constant=_refused)
+        found = json.loads(text.rstrip(b"\0").decode("utf-8-sig"), parse_constant=_refused)
     except RecursionError:
         raise ValueError("its JSON is nested too deeply") from None
     except UnicodeDecodeError:
@@ -204,7 +204,8 @@ def _data(uri: str, where: str) -> bytes:
     if not comma or not head.endswith(";base64"):
         raise ValueError(f"{where} is a data URI without ';base64,'")
     try:
-        return base64.b64decode(body, validate=True)
+        plain = "".join(body.split()).rstrip("=")  # in lines, and without padding, as some write
+        return base64.b64decode(plain + "=" * (-len(plain) % 4), validate=True)
     except binascii.Error:
         raise ValueError(f"{where} is damaged base64") from None
 

@@ -3,10 +3,15 @@
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from glrt.scene.gltf.document import Document, number, numbers
 from glrt.scene.gltf.primitives import material_names
 from glrt.scene.gltf.textures import TextureTables
+from glrt.scene.triangle_meshes import NO_MATERIAL
 from glrt.scene.values import LARGEST
+from glrt.text import quoted
 
 _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
@@ -16,6 +21,7 @@ _UNREAD = {  # textures that have no counterpart, by extension
         "clearcoatNormalTexture",
     ),
 }
+_ROUNDING = 1e-3  # how far out of its range a value may be by rounding
 _PLAIN = {"type": "principled", "color": (1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
 _GREY = {"type": "principled", "color": (0.8, 0.8, 0.8), "roughness": 0.5}
 
@@ -26,6 +32,19 @@ class Look:
 
     table: dict[str, Any]
     unread: list[str] = field(default_factory=list)
+    is_unlit: bool = False
+
+    def number(self, value: Any, where: str, most: float = 1.0) -> float:
+        """A number, moved into 0 to `most`; what is moved by more than rounding was left out."""
+        given = number(value, where)
+        found = min(max(given, 0.0), most)
+        if abs(given - found) > _ROUNDING:
+            self.unread.append(f"the part of {where} outside 0 to {most:g}")
+        return found
+
+    def numbers(self, value: Any, count: int, where: str, most: float = 1.0) -> tuple[float, ...]:
+        """So many of them."""
+        return tuple(self.number(each, where, most) for each in numbers(value, count, where))
 
 
 def looks_of(document: Document, path: str) -> dict[str, Look]:
@@ -36,7 +55,7 @@ def looks_of(document: Document, path: str) -> dict[str, Look]:
         name: _look(document, textures, index)
         for index, name in enumerate(material_names(document))
     }
-    return {**found, "without material": Look(dict(_GREY))}
+    return {**found, NO_MATERIAL: Look(dict(_GREY))}
 
 
 def _look(document: Document, textures: TextureTables, index: int) -> Look:
@@ -44,9 +63,12 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
     look = Look(dict(_PLAIN))
     _metallic_roughness(document, textures, given, here, look)
     _surface(document, textures, given, here, look)
-    _emission(document, textures, given, here, look)
+    is_unlit = document.extension(given, "KHR_materials_unlit", here) is not None
+    if not is_unlit:
+        _emission(document, textures, given, here, look)
     _layers(document, textures, given, here, look)
-    if document.extension(given, "KHR_materials_unlit", here) is not None:
+    look.is_unlit = is_unlit
+    if is_unlit:
         _let_shine(look)
     return look
 
@@ -54,7 +76,8 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
 def _let_shine(look: Look) -> None:
     """Let it emit its colour and reflect nothing: it looks the same in every light."""
     shown = {"emission": look.table["color"], "color": (0.0, 0.0, 0.0), "specular": 0.0}
-    kept = {key: look.table[key] for key in ("type", "ior")}
+    keys = ("type", "ior", "alpha", "alpha_cutoff")
+    kept = {key: look.table[key] for key in keys if key in look.table}
     look.table.clear()
     look.table.update(kept | shown | {"metallic": 0.0, "roughness": 1.0, "thin": True})
 
@@ -64,7 +87,7 @@ def _metallic_roughness(
 ) -> None:
     here = f"{here}.pbrMetallicRoughness"
     own = document.table(given.get("pbrMetallicRoughness", {}), here)
-    *color, alpha = numbers(own.get("baseColorFactor", [1, 1, 1, 1]), 4, f"{here}.color", 0, 1)
+    *color, alpha = look.numbers(own.get("baseColorFactor", [1, 1, 1, 1]), 4, f"{here}.color")
     image = textures.table(own.get("baseColorTexture"), f"{here}.baseColorTexture")
     look.table["color"] = {**image, "factor": tuple(color)} if image else tuple(color)
     mode = given.get("alphaMode", "OPAQUE")
@@ -77,7 +100,7 @@ def _metallic_roughness(
         look.table["alpha_cutoff"] = min(cutoff, 1.0)
     rest = textures.table(own.get("metallicRoughnessTexture"), f"{here}.metallicRoughnessTexture")
     for key, channel in (("metallic", "b"), ("roughness", "g")):
-        factor = number(own.get(f"{key}Factor", 1), f"{here}.{key}Factor", 0, 1)
+        factor = look.number(own.get(f"{key}Factor", 1), f"{here}.{key}Factor")
         look.table[key] = {**rest, "channel": channel, "factor": factor} if rest else factor
 
 
@@ -94,14 +117,14 @@ def _emission(
     document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
 ) -> None:
     own = document.extension(given, "KHR_materials_emissive_strength", here) or {}
-    strength = number(own.get("emissiveStrength", 1), f"{here}: emissiveStrength", 0, 1e9)
-    factor = numbers(given.get("emissiveFactor", [0, 0, 0]), 3, f"{here}.emissiveFactor", 0, 1e6)
+    strength = look.number(own.get("emissiveStrength", 1), f"{here}: emissiveStrength", 1e9)
+    factor = look.numbers(given.get("emissiveFactor", [0, 0, 0]), 3, f"{here}.emissiveFactor", 1e6)
     emission = tuple(min(value * strength, LARGEST) for value in factor)
     if not any(emission):
         return
     image = textures.table(given.get("emissiveTexture"), f"{here}.emissiveTexture")
     look.table["emission"] = {**image, "factor": emission} if image else emission
-    if look.table.pop("alpha", None) is not None:
+    if not image and look.table.pop("alpha", None) is not None:  # a lamp has no holes
         look.table.pop("alpha_cutoff", None)
         look.unread.append("alphaMode of what emits")
 
@@ -117,7 +140,7 @@ def _layers(
         return found
 
     def value(table: dict[str, Any], key: str, default: float, most: float = 1.0) -> float:
-        return number(table.get(key, default), f"{here}: {key}", 0, most)
+        return look.number(table.get(key, default), f"{here}: {key}", most)
 
     ior = value(own("ior"), "ior", 1.5, 1e3)
     look.table["ior"] = ior if ior >= 1 else 1e3  # 0: what reflects everything
@@ -132,7 +155,7 @@ def _layers(
     distance = volume.get("attenuationDistance")
     if distance is not None and not look.table["thin"]:
         color = volume.get("attenuationColor", [1, 1, 1])
-        look.table["attenuation_color"] = numbers(color, 3, f"{here}: attenuationColor", 0, 1)
+        look.table["attenuation_color"] = look.numbers(color, 3, f"{here}: attenuationColor")
         look.table["attenuation_distance"] = number(
             distance, f"{here}: attenuationDistance", 1e-15, 1e15
         )
@@ -156,6 +179,30 @@ def _fit_glass(look: Look) -> None:
         look.unread.append("metallicRoughnessTexture beside transmission")
     if look.table["thin"]:
         make_pane(look)
+
+
+def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
+    """Multiply what is unlit by the colors of its vertices, (v, 3), where they are all the same.
+
+    Emission cannot vary from vertex to vertex: what has other colors is lit, and matte.
+    """
+    emission = look.table.pop("emission")
+    given = emission["factor"] if isinstance(emission, dict) else emission
+    if np.ptp(colors, axis=0).max() > _ROUNDING:
+        look.table["color"] = emission
+        look.unread.append("KHR_materials_unlit of what has colors of vertices")
+        return
+    factor = tuple(float(a * b) for a, b in zip(given, colors[0], strict=True))
+    dyed = {**emission, "factor": factor} if isinstance(emission, dict) else factor
+    look.table["emission"] = dyed
+
+
+def without_image(look: Look, key: str) -> None:
+    """Leave the image of a key out: its factor remains, but what glows in places emits nothing."""
+    table = look.table.pop(key)
+    look.unread.append(f"{key} {quoted(table['image'])}, which cannot be read")
+    if key not in ("normal", "emission"):
+        look.table[key] = table["factor"]
 
 
 def make_pane(look: Look) -> None:

@@ -10,11 +10,10 @@ from glrt.scene.gltf.attributes import Attributes, weights_of
 from glrt.scene.gltf.document import Document
 from glrt.scene.gltf.nodes import Matrix, Placed, placed_nodes
 from glrt.scene.gltf.skins import skin_matrices
-from glrt.scene.triangle_meshes import MOST_TRIANGLES, TriangleMesh, checked
+from glrt.scene.triangle_meshes import MOST_TRIANGLES, NO_MATERIAL, TriangleMesh, of_file
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _WITHOUT_AREA = (0, 1, 2, 3)  # points and lines
-_NO_MATERIAL = "without material"
 
 
 class _Part(NamedTuple):
@@ -49,7 +48,7 @@ def mesh_of(document: Document) -> TriangleMesh:
     faces = [part.faces + first for part, first in zip(parts, firsts, strict=True)]
     used = list(dict.fromkeys(part.material for part in parts))
     labels = [np.full(len(part.faces), used.index(part.material)) for part in parts]
-    return checked(
+    return of_file(
         np.concatenate([part.points for part in parts]),
         np.concatenate(faces),
         np.concatenate([part.normals for part in parts]),
@@ -67,7 +66,7 @@ def material_names(document: Document) -> list[str]:
     for index, material in enumerate(document.items("materials")):
         given = document.table(material, f"materials[{index}]").get("name")
         name = _one_line(given) if isinstance(given, str) else ""
-        if not name or name in found or name == _NO_MATERIAL:
+        if not name or name in found or name == NO_MATERIAL:
             name = f"{name or 'material'} {index}"
         while name in found:
             name += "'"
@@ -158,7 +157,7 @@ def _for_normals(linear: Floats) -> Floats:
 
 def _material(document: Document, primitive: dict[str, Any], names: list[str], here: str) -> str:
     if "material" not in primitive:
-        return _NO_MATERIAL
+        return NO_MATERIAL
     document.item("materials", primitive["material"], f"{here}.material")
     index: int = primitive["material"]
     return names[index]
