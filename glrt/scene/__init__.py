@@ -48,10 +48,10 @@ Modules, each importing only what stands above it:
 - scene: all of it together, and whether the parts fit
 - names: scenes without their names, which no light depends on
 - model_scene: scenes of model files alone
+- catalog: the scenes that come with glrt, by name
 - toml: scene files read
 - toml_lists: objects that come and go in the text of a scene file
 - toml_writer: scene files written, with their comments kept
-- catalog: the scenes that come with glrt, by name
 - glasses: the glasses of a scene, and what is around its camera
 - summary: what a scene holds, in words
 - flat_faces: whether solids share a part of a plane
