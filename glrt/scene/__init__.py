@@ -5,6 +5,7 @@ Modules, each importing only what stands above it:
 - facets: what facets of rough glass lose to each other
 - gloss: what the facets of principled surfaces reflect
 - values: numbers, vectors and colours with their ranges
+- path_text: names of files as text that a scene can hold
 - assets: files that a scene names, held to its folder and hashed
 - float_images: Radiance .hdr and OpenEXR files as arrays
 - image_files: images in files, of any format, as arrays of linear values

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from glrt.errors import SceneError
 from glrt.files import check_regular, reason
+from glrt.scene.path_text import has_stray_backslash, name_of, text_of, text_of_bytes
 from glrt.text import nearest, quoted
 
 LARGEST = 1 << 30  # bytes of a file
@@ -145,9 +146,10 @@ def _joined(path: str, named_by: Asset | None) -> str:
     """A path from the base folder; raises `_RefusedError` for what is no path with '/'."""
     if not path:
         raise _RefusedError("the path of a file is empty. Give the path of one.")
-    if "\\" in path:
+    if has_stray_backslash(path):
         raise _RefusedError(f"{quoted(path)} holds a backslash. Write '/' between folders.")
-    return posixpath.normpath(posixpath.join(_folder_of(named_by), path))
+    whole = posixpath.normpath(posixpath.join(_folder_of(named_by), path))
+    return text_of_bytes(whole.encode())
 
 
 def _folder_of(asset: Asset | None) -> str:
@@ -160,11 +162,11 @@ def _located(name: str, folder: AssetFolder) -> str:
     A name that leads out is refused before the system is asked, which would tell whether it exists.
     """
     if folder.allow_outside:
-        return os.path.realpath(folder.base / name)
+        return os.path.realpath(folder.base / name_of(name))
     if name.split("/")[0] == ".." or name.startswith("/") or _DRIVE.match(name):
         raise _RefusedError(_outside(f"{quoted(name)} lies outside", folder))
     base = os.path.realpath(folder.base)
-    real = os.path.realpath(os.path.join(base, name))
+    real = os.path.realpath(os.path.join(base, name_of(name)))
     if not Path(real).is_relative_to(base):
         raise _RefusedError(_outside(f"{quoted(name)} is a link that leads out of", folder))
     return real
@@ -222,7 +224,7 @@ def _obstacle(error: OSError, name: str, real: str, folder: AssetFolder) -> str:
 
 def _advice(real: str, folder: AssetFolder) -> str:
     """What to do about a missing file, which lies inside the folder, or the user allows others."""
-    near = nearest(os.path.basename(real), _neighbours(os.path.dirname(real)))
+    near = nearest(text_of(os.path.basename(real)), _neighbours(os.path.dirname(real)))
     if near:
         return f"; did you mean {quoted(near)}?"
     if folder.expected is None:
@@ -233,7 +235,8 @@ def _advice(real: str, folder: AssetFolder) -> str:
 def _neighbours(folder: str) -> tuple[str, ...]:
     try:
         with os.scandir(folder) as entries:
-            return tuple(sorted(e.name for e in islice(entries, _MOST_NEIGHBOURS) if e.is_file()))
+            files = (entry.name for entry in islice(entries, _MOST_NEIGHBOURS) if entry.is_file())
+            return tuple(sorted(map(text_of, files)))
     except OSError:
         return ()
 

@@ -16,6 +16,7 @@ from glrt.scene.gltf.stage import camera_of, left_out, lights_of
 from glrt.scene.loading import with_files
 from glrt.scene.mesh_formats import FORMATS, GLTF, libraries
 from glrt.scene.named_meshes import MeshFile
+from glrt.scene.path_text import name_of, text_of
 from glrt.scene.scene import Scene
 from glrt.scene.triangle_meshes import TriangleMesh
 from glrt.scene.validation import validated
@@ -41,12 +42,13 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
     of a studio stands beside it. Raises `SceneError`.
     """
     reader = AssetReader(folder)
-    asset = reader.read(path.name, source)
-    file = with_content(MeshFile(file=path.name), reader, source)
+    name = text_of(path.name)
+    asset = reader.read(name, source)
+    file = with_content(validated(MeshFile, {"file": name}, source), reader, source)
     assert isinstance(file, MeshFile)
     assert file.triangles
     tables: Table = {
-        "title": path.name,
+        "title": name,
         "materials": {},
         "objects": [{"shape": "mesh", "file": file, "material": ""}],
         **_view(file.triangles),
@@ -90,7 +92,7 @@ def _add_stage(
 def _has_materials(asset: Asset, folder: AssetFolder, mesh: TriangleMesh) -> bool:
     """Whether a file uses materials that lie beside it."""
     paths = libraries(asset.content) if PurePosixPath(asset.path).suffix.lower() == ".obj" else []
-    there = [(folder.base / path).is_file() for path in paths]
+    there = [(folder.base / name_of(path)).is_file() for path in paths]
     return bool(paths) and all(there) and bool(mesh.parts) and "" not in mesh.parts
 
 

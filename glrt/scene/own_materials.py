@@ -4,8 +4,6 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 from typing import Any, TypeVar
 
-from pydantic import ValidationError
-
 from glrt.errors import SceneError
 from glrt.scene.assets import AssetReader
 from glrt.scene.contents import MAX_OBJECTS, Contents
@@ -18,7 +16,6 @@ from glrt.scene.meshes import Mesh
 from glrt.scene.mtl_files import Entry, decode_mtl, material_of
 from glrt.scene.named_meshes import MeshFile
 from glrt.scene.validation import validated
-from glrt.scene.values import plain
 from glrt.text import counted, quoted, unknown
 
 SceneType = TypeVar("SceneType", bound=Contents)
@@ -139,21 +136,15 @@ def _of_gltf(shape: Mesh, reader: AssetReader, where: str) -> tuple[MeshFile, di
             if look.table.get("transmission") and not look.table["thin"] and part.opening:
                 look.unread.append("the volume of glass that is not closed")
                 make_pane(look)
-            own[name] = Principled.model_validate(plain(look.table), strict=True)
+            here = f"{where}: {shape.file.file}: material {quoted(name)}"
+            own[name] = validated(Principled, look.table, here)
             unread += look.unread
     except ValueError as error:
-        raise SceneError(f"{where}: {shape.file.file}: {_first_line(error)}.") from None
+        raise SceneError(f"{where}: {shape.file.file}: {error}.") from None
     unread += document.unknown_extensions
     if document.items("animations"):
         unread.append("animations")
     return shape.file.with_libraries({}, tuple(unread)), own
-
-
-def _first_line(error: ValueError) -> str:
-    if isinstance(error, ValidationError):
-        detail = error.errors()[0]
-        return f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
-    return str(error)
 
 
 def _names(shape: Mesh, where: str) -> list[str]:

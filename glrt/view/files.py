@@ -8,7 +8,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from glrt.errors import GlrtError
-from glrt.files import printable, unused, write_text
+from glrt.files import unused, write_text
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
 from glrt.rendering.path_file import paths_to_json
@@ -17,6 +17,7 @@ from glrt.scene.catalog import MODELS
 from glrt.scene.scene import Scene
 from glrt.scene.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings, Settings, settings_for
+from glrt.text import escaped
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.memo import kept_for_the_same
@@ -76,7 +77,7 @@ class Files:
         """Of the window: what is open, and a star where a save would write something else."""
         name = Path(self.source).name if self.source else "recipe"
         is_other = _is_other(self.written, self.session.scene, self.session.settings)
-        return f"{printable(name)}{' *' if is_other or self.is_lost else ''} - glrt"
+        return f"{escaped(name)}{' *' if is_other or self.is_lost else ''} - glrt"
 
     def open(self, source: str) -> None:
         """Another scene, or the scene, view and settings of a picture."""
