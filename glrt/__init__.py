@@ -6,8 +6,8 @@ Modules and packages, each importing only what stands above it:
 
 - version: the version of glrt
 - early: Ctrl-C before anything else is imported
-- errors: what can go wrong, with the exit code of each kind
 - text: words and numbers of the user in messages
+- errors: what can go wrong, with the exit code of each kind
 - signals: Ctrl-C, SIGTERM and SIGHUP
 - silence: what compiled libraries print by themselves
 - resources: where shaders and scenes lie

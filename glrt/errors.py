@@ -1,17 +1,19 @@
 """The errors of glrt, by who can correct them; each class has the exit code of the commands."""
 
+from glrt.text import escaped
+
 
 class GlrtError(Exception):
-    """An error with one paragraph for the user: what is wrong, where, and what to do.
+    r"""An error with one paragraph for the user: what is wrong, where, and what to do.
 
-    Control characters are removed: what it quotes may come from a damaged file.
+    It is one line of printable text: a line break in a name of a file is shown as `\n`.
     """
 
     exit_code = 4
 
     def __init__(self, paragraph: str) -> None:
-        """Make one line of it, without control characters."""
-        super().__init__("".join(sign if sign.isprintable() else " " for sign in paragraph))
+        """Escape what cannot be printed; what it quotes may come from a damaged file."""
+        super().__init__(escaped(paragraph))
 
 
 class UsageError(GlrtError):

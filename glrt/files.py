@@ -10,6 +10,7 @@ from errno import EFBIG, EINVAL, EISDIR
 from pathlib import Path
 
 from glrt.errors import RenderError, UsageError
+from glrt.text import one_line
 
 # Of libraries, not only of the system: OpenEXR raises RuntimeError when a disk is full, and Python
 # ValueError for names that no system takes.
@@ -95,7 +96,7 @@ def reason(error: BaseException) -> str:
         return "a text in it is damaged, or not in UTF-8"
     if isinstance(error, UnicodeEncodeError):
         return "a text for it, as the name of a file, has signs that UTF-8 cannot hold"
-    return (str(error) or type(error).__name__).rstrip(".")
+    return one_line(str(error) or type(error).__name__).rstrip(".")
 
 
 def _write_text(file: Path, text: str) -> None:
@@ -153,8 +154,3 @@ def unused(name: str) -> str:
         number += 1
         path = path.with_stem(f"{Path(name).stem}-{number}")
     return str(path)
-
-
-def printable(name: str) -> str:
-    """A name of a file as text: systems have names that are none, which no window can draw."""
-    return name.encode(errors="replace").decode()

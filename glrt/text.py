@@ -12,8 +12,8 @@ def number(value: float) -> str:
 
 def shortened(text: str) -> str:
     """Text of the user, fit for a message: short, on one line."""
-    printable = "".join(letter if letter.isprintable() else " " for letter in text)
-    return printable if len(printable) <= 60 else printable[:57] + "..."
+    whole = escaped(text[:61])
+    return whole if len(whole) <= 60 else whole[:57] + "..."
 
 
 def escaped(text: str) -> str:
@@ -22,6 +22,11 @@ def escaped(text: str) -> str:
         letter if letter.isprintable() else letter.encode("unicode_escape").decode()
         for letter in text
     )
+
+
+def one_line(text: str) -> str:
+    """Text of a library or a driver, on one line."""
+    return " ".join(text.split())
 
 
 def quoted(word: str) -> str:

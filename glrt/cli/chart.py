@@ -30,6 +30,7 @@ from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.rendering.stopping import Interruption
 from glrt.rendering.temporal import Mode, Way
 from glrt.rendering.wrls import Predictor
+from glrt.scene.path_text import text_of
 from glrt.scene.scene import Scene
 from glrt.signals import INTERRUPTED
 
@@ -218,7 +219,7 @@ def _plan(arguments: argparse.Namespace) -> Plan:
 def _scenes(sources: Sequence[str], rules: FileRules) -> dict[str, Scene]:
     scenes: dict[str, Scene] = {}
     for source in sources:
-        name = "standard-input" if source == STANDARD_INPUT else Path(source).stem
+        name = "standard-input" if source == STANDARD_INPUT else text_of(Path(source).stem)
         if name in scenes:
             raise UsageError(f"Two scenes are called {name}: their charts would share a file.")
         scenes[name], _ = load_recipe(source, rules)

@@ -10,7 +10,7 @@ from glrt.scene.catalog import find
 from glrt.scene.limits import cautions
 from glrt.scene.model_scene import is_model
 from glrt.settings import settings_for
-from glrt.text import counted
+from glrt.text import counted, escaped
 
 DESCRIPTION = "Write the scene of a model (.glb, .gltf, .obj, .ply or .stl) as a scene file."
 EPILOG = (
@@ -44,5 +44,5 @@ def run(arguments: argparse.Namespace) -> int:
     for text in cautions(scene, settings_for(scene.render)):
         print(f"glrt: caution: {text}", file=sys.stderr)
     what = counted(len(scene.objects), "object"), counted(len(scene.materials), "material")
-    print(f"Wrote {arguments.scene}: {', '.join(what)}.")
+    print(f"Wrote {escaped(arguments.scene)}: {', '.join(what)}.")
     return 0

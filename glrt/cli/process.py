@@ -55,7 +55,9 @@ class Patient(io.TextIOWrapper):
 
 
 def make_patient() -> None:
-    """Let no failure to write to stderr end the command."""
+    """Let no failure to write to stderr end the command, nor a letter that stdout does not hold."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
     old = sys.stderr
     if isinstance(old, io.TextIOWrapper):
         sys.stderr = Patient(old.buffer, old.encoding, old.errors, line_buffering=True)
@@ -71,7 +73,7 @@ def tell(text: str) -> None:
 
 def fail(message: str, code: int) -> int:
     """Tell why the command fails, in one paragraph; returns the exit code."""
-    tell(f"glrt: {' '.join(message.split())}")
+    tell(f"glrt: {escaped(message)}")
     return code
 
 

@@ -18,6 +18,7 @@ from glrt.gpu.driver_checks import self_test
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
 from glrt.scene.toml import parse_scene
+from glrt.text import one_line
 
 BOUNCES = 8
 _ROOM = {
@@ -57,7 +58,7 @@ def _tell(step: str, find: Any) -> None:
     try:
         found = find()
     except GlrtError as error:
-        found = {"error": " ".join(str(error).split())}
+        found = {"error": one_line(str(error))}
     print(json.dumps({"step": step, "seconds": time.perf_counter() - start, **found}), flush=True)
 
 

@@ -9,6 +9,7 @@ from glrt.errors import RenderError
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.structs import read_constants
 from glrt.signals import postponed
+from glrt.text import one_line
 
 TILE = read_constants(read("passes/tiles.glsl"))["TILE"]  # pixels along the edge of a tile
 
@@ -136,5 +137,5 @@ def _bind_textures(
 
 
 def _refusal(source: Source, error: moderngl.Error) -> RenderError:
-    message = " ".join(source.explain(str(error)).split())
+    message = one_line(source.explain(str(error)))
     return RenderError(f"the driver refuses a shader: {message}")

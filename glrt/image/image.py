@@ -19,7 +19,7 @@ from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.layer_sums import LayerSums
 from glrt.image.particle_film import ParticleFilm
-from glrt.image.picture_files import check_name, read_exr, read_png_metadata
+from glrt.image.picture_files import exr_name, read_exr, read_png_metadata
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode
 from glrt.settings import Aov, Settings, ToneMap
@@ -116,15 +116,15 @@ class Image:
         """Write an EXR, PNG or NPY file, by suffix.
 
         `exposure` in EV and `tonemap` apply to PNG alone, by default those of the recipe. Raises
-        `UsageError` for another suffix, `RenderError` if the file cannot be written; an existing
-        file is then unchanged.
+        `UsageError` for another suffix, or an EXR name that is no UTF-8; `RenderError` if the file
+        cannot be written: an existing one is then unchanged.
         """
         writers: dict[str, Callable[[Path], None]] = {
             ".exr": self._write_exr,
             ".png": lambda file: self._write_png(file, exposure, tonemap),
             ".npy": lambda file: np.save(file, self.shown),
         }
-        files.write_whole(Path(path), writers[_known_suffix(Path(path))])
+        files.write_whole(Path(path), writers[_suffix_to_write(Path(path))])
 
     @classmethod
     def load(cls, path: str | Path) -> "Image":
@@ -170,9 +170,7 @@ class Image:
             header |= denoised_channels.to_attributes(self.denoising)
         # OpenEXR scrambles arrays that are not contiguous, without a word.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
-        name = str(path)
-        name.encode()  # of another name the library says something else
-        OpenEXR.File(header, contiguous).write(name)
+        OpenEXR.File(header, contiguous).write(exr_name(path))
 
     def _write_png(
         self,
@@ -220,17 +218,19 @@ def read_recipe(path: str | Path) -> Recipe:
 
 def check_writable(path: str | Path) -> None:
     """Raise `UsageError` if `Image.save` could not write there; leaves nothing behind."""
-    if _known_suffix(Path(path)) == ".exr":
-        check_name(Path(path))
+    _suffix_to_write(Path(path))
     files.check_writable(Path(path))
 
 
-def _known_suffix(path: Path) -> str:
+def _suffix_to_write(path: Path) -> str:
+    """Raises UsageError for another suffix, and for a name that OpenEXR does not take."""
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
         raise UsageError(
             f"Cannot write {path}: the name of an image must end in .exr, .png or .npy."
         )
+    if suffix == ".exr":
+        exr_name(path.absolute())
     return suffix
 
 

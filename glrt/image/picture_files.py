@@ -1,5 +1,6 @@
 """Channels and metadata of picture files, read; what is damaged is told in a paragraph."""
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -34,10 +35,10 @@ def _opened_exr(
     """Header and channels; the library's own words say nothing of what is wrong."""
     import OpenEXR  # type: ignore[import-not-found]
 
-    check_name(path)
+    name = exr_name(path)
     try:
         with silenced():
-            file = OpenEXR.File(str(path), separate_channels=True, header_only=header_only)
+            file = OpenEXR.File(name, separate_channels=True, header_only=header_only)
             channels = {name: channel.pixels for name, channel in file.channels().items()}
             return file.header(), channels
     except UnicodeError as error:
@@ -47,10 +48,13 @@ def _opened_exr(
         raise UsageError(f"{path}: cannot read this image: {damage}. {advice}") from None
 
 
-def check_name(path: Path) -> None:
-    """Raise UsageError for a name of an EXR file that the library does not take."""
+def exr_name(path: Path) -> str:
+    """The path of an EXR file as the library takes it: bytes in UTF-8, whatever the locale.
+
+    Raises UsageError where it cannot be.
+    """
     try:
-        str(path.absolute()).encode()
+        return os.fsencode(path).decode()
     except UnicodeError:
         advice = "OpenEXR takes only names in UTF-8; rename the file or its folder."
         raise UsageError(f"{escaped(str(path))}: {advice}") from None

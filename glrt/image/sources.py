@@ -45,7 +45,7 @@ def load(
 ) -> Scene:
     """The scene of a TOML file, of a name in the folder `scenes`, of a model or of a picture.
 
-    A path comes first, then a name with or without `.toml`; a name may contain folders, as
+    A path comes first, then a name, which has no suffix and may contain folders, as
     `methods/glass`. A model is a glTF, OBJ, PLY or STL file. `-` is a TOML file on standard input.
     The files that the scene names are read from its folder, or that of the picture, or from
     `assets_from`, and not from outside of it unless `allow_outside`. Those of a picture must be the

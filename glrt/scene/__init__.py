@@ -5,6 +5,7 @@ Modules, each importing only what stands above it:
 - facets: what facets of rough glass lose to each other
 - gloss: what the facets of principled surfaces reflect
 - values: numbers, vectors and colours with their ranges
+- path_text: names of files as text that a scene can hold
 - assets: files that a scene names, held to its folder and hashed
 - float_images: Radiance .hdr and OpenEXR files as arrays
 - image_files: images in files, of any format, as arrays of linear values
@@ -54,10 +55,10 @@ Modules, each importing only what stands above it:
 - names: scenes without their names, which no light depends on
 - studio: light and ground for models without light of their own
 - model_scene: scenes of model files alone
+- catalog: the scenes that come with glrt, by name
 - toml: scene files read
 - toml_lists: objects that come and go in the text of a scene file
 - toml_writer: scene files written, with their comments kept
-- catalog: the scenes that come with glrt, by name
 - glasses: the glasses of a scene, and what is around its camera
 - summary: what a scene holds, in words
 - flat_faces: whether solids share a part of a plane

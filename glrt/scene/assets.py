@@ -20,6 +20,13 @@ from urllib.parse import unquote
 
 from glrt.errors import SceneError
 from glrt.files import check_regular, reason
+from glrt.scene.path_text import (
+    has_stray_backslash,
+    name_of,
+    text_of,
+    text_of_bytes,
+    with_slashes,
+)
 from glrt.text import nearest, quoted
 
 LARGEST = 1 << 30  # bytes of a file
@@ -113,9 +120,9 @@ class AssetReader:
         normal form, or with '%20' for a blank. A path that leads out is not looked for.
         """
         joined = posixpath.join(folder, path)
-        if self._folder.allow_outside and (self._folder.base / joined).is_file():
+        if self._folder.allow_outside and (self._folder.base / name_of(joined)).is_file():
             return joined
-        given = path.replace("\\", "/")
+        given = with_slashes(path)
         if given.startswith("/") or _DRIVE.match(given):
             given = posixpath.basename(given)
         parts = posixpath.normpath(posixpath.join(folder, given)).split("/")
@@ -123,7 +130,7 @@ class AssetReader:
             return joined
         found = ""
         for part in parts:
-            found = posixpath.join(found, _entry_like(part, self._folder.base / found))
+            found = posixpath.join(found, _entry_like(part, self._folder.base / name_of(found)))
         return found
 
     def _read(self, name: str) -> Asset:
@@ -168,9 +175,10 @@ def _joined(path: str, named_by: Asset | None) -> str:
     """A path from the base folder; raises `_RefusedError` for what is no path with '/'."""
     if not path:
         raise _RefusedError("the path of a file is empty. Give the path of one.")
-    if "\\" in path:
+    if has_stray_backslash(path):
         raise _RefusedError(f"{quoted(path)} holds a backslash. Write '/' between folders.")
-    return posixpath.normpath(posixpath.join(folder_of(named_by.path) if named_by else "", path))
+    folder = folder_of(named_by.path) if named_by else ""
+    return text_of_bytes(posixpath.normpath(posixpath.join(folder, path)).encode())
 
 
 def folder_of(path: str) -> str:
@@ -184,11 +192,11 @@ def _located(name: str, folder: AssetFolder) -> str:
     A name that leads out is refused before the system is asked, which would tell whether it exists.
     """
     if folder.allow_outside:
-        return os.path.realpath(folder.base / name)
+        return os.path.realpath(folder.base / name_of(name))
     if name.split("/")[0] == ".." or name.startswith("/") or _DRIVE.match(name):
         raise _RefusedError(_outside(f"{quoted(name)} lies outside", folder))
     base = os.path.realpath(folder.base)
-    real = os.path.realpath(os.path.join(base, name))
+    real = os.path.realpath(os.path.join(base, name_of(name)))
     if not Path(real).is_relative_to(base):
         raise _RefusedError(_outside(f"{quoted(name)} is a link that leads out of", folder))
     return real
@@ -246,7 +254,7 @@ def _obstacle(error: OSError, name: str, real: str, folder: AssetFolder) -> str:
 
 def _advice(real: str, folder: AssetFolder) -> str:
     """What to do about a missing file, which lies inside the folder, or the user allows others."""
-    near = nearest(os.path.basename(real), _neighbours(os.path.dirname(real)))
+    near = nearest(text_of(os.path.basename(real)), _neighbours(os.path.dirname(real)))
     if near:
         return f"; did you mean {quoted(near)}?"
     if folder.expected is None:
@@ -257,18 +265,19 @@ def _advice(real: str, folder: AssetFolder) -> str:
 def _neighbours(folder: str) -> tuple[str, ...]:
     try:
         with os.scandir(folder) as entries:
-            return tuple(sorted(e.name for e in islice(entries, _MOST_NEIGHBOURS) if e.is_file()))
+            files = (entry.name for entry in islice(entries, _MOST_NEIGHBOURS) if entry.is_file())
+            return tuple(sorted(map(text_of, files)))
     except OSError:
         return ()
 
 
 def _entry_like(name: str, folder: Path) -> str:
     """What a folder holds under a name, else under another spelling of it, else the name."""
-    if (folder / name).exists():
-        return name
     try:
+        if (folder / name_of(name)).exists():
+            return name
         with os.scandir(folder) as entries:
-            names = sorted(entry.name for entry in islice(entries, _MOST_NEIGHBOURS))
+            names = sorted(text_of(entry.name) for entry in islice(entries, _MOST_NEIGHBOURS))
     except (OSError, ValueError):  # ValueError for a NUL
         return name
     return next((entry for entry in names if _plain(entry) == _plain(name)), name)

@@ -1,5 +1,6 @@
 """The scenes that come with glrt, by name."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from glrt.errors import SceneError
@@ -28,24 +29,28 @@ def file_of(name: str) -> Path:
 
 
 def find(source: str | Path) -> Path:
-    """The file that a path or a name means; SceneError for an unknown name."""
+    """The file that a path or a name means; SceneError for an unknown name.
+
+    A word that ends as a scene file, a model or a picture is a path, and never a name: a file that
+    is missing must not be replaced by another one.
+    """
     path = Path(source)
-    if _is_file(path):
+    is_path = path.suffix.lower() in (".toml", *PICTURES, *MODELS)
+    if is_path or _is(path.is_file):
         return path
-    named = file_of(str(path).removesuffix(".toml"))
-    if not (path.is_absolute() or ".." in path.parts) and _is_file(named):
+    named = file_of(str(path))
+    if not (path.is_absolute() or ".." in path.parts) and _is(named.is_file):
         return named
-    if str(path) != path.name or path.suffix.lower() in (*PICTURES, *MODELS):
+    if str(path) != path.name or _is(path.is_dir):
         return path  # meant as a path: its reader says what is wrong with it
     names = all_scene_names()
     short = {name.rpartition("/")[2]: name for name in reversed(names)}
-    word, owner = path.name.removesuffix(".toml"), "Scenes that come with glrt"
-    advice = unknown("scene", word, names, owner, short)
+    advice = unknown("scene", path.name, names, "Scenes that come with glrt", short)
     raise SceneError(f"{advice[0].upper()}{advice[1:]} Or give the path of a scene file.")
 
 
-def _is_file(path: Path) -> bool:
+def _is(kind: Callable[[], bool]) -> bool:
     try:
-        return path.is_file()
+        return kind()
     except OSError:  # a name too long for the system, or a folder closed to the user
         return False

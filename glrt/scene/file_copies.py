@@ -11,6 +11,7 @@ from glrt.scene.contents import Contents
 from glrt.scene.file_contents import NamedContent
 from glrt.scene.loading import named_files
 from glrt.scene.named_meshes import MeshFile
+from glrt.scene.path_text import name_of
 
 
 class _Source(NamedTuple):
@@ -32,7 +33,7 @@ def copy_files(scene: Contents, folder: Path) -> None:
         is_beside = ".." not in PurePosixPath(source.path).parts
         if not is_beside or (source.origin is None and source.content is None):
             continue
-        target = folder / source.path
+        target = folder / name_of(source.path)
         if target.exists():
             if _hash(target) != source.sha256:
                 raise UsageError(
@@ -55,9 +56,10 @@ def _sources(scene: Contents) -> Iterator[_Source]:
 
 def _beside(named: NamedContent, path: str) -> Path | None:
     """Where a file was read that another one names, both by paths from the same folder."""
-    if named.origin is None or not named.origin.as_posix().endswith(named.path):
+    end = name_of(named.path)
+    if named.origin is None or not named.origin.as_posix().endswith(end):
         return None
-    return Path(named.origin.as_posix().removesuffix(named.path)) / path
+    return Path(named.origin.as_posix().removesuffix(end)) / name_of(path)
 
 
 def _unchanged(source: _Source) -> bytes:

@@ -3,8 +3,6 @@
 Looks that cannot be had are left out, and the file of the mesh knows which.
 """
 
-from pydantic import ValidationError
-
 from glrt.errors import SceneError
 from glrt.scene.assets import AssetReader, folder_of
 from glrt.scene.file_contents import Beside, with_content
@@ -17,7 +15,7 @@ from glrt.scene.mtl_files import Entry, decode_mtl, material_of
 from glrt.scene.named_images import TextureImage
 from glrt.scene.named_meshes import MeshFile
 from glrt.scene.triangle_meshes import NO_MATERIAL
-from glrt.scene.values import plain
+from glrt.scene.validation import validated
 from glrt.text import counted, quoted
 
 REMEDY = "give the object a `material`"
@@ -100,24 +98,25 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
                 make_pane(look)
             if look.is_unlit and part.colors is not None:
                 dye_unlit(look, part.colors)
-            own[name] = images.with_pixels(_of_look(look, images))
+            here = f"{where}: {shape.file.file}: material {quoted(name)}"
+            own[name] = images.with_pixels(_of_look(look, images, here))
             unread += look.unread
     except ValueError as error:
-        raise SceneError(f"{where}: {shape.file.file}: {_first_line(error)}.") from None
+        raise SceneError(f"{where}: {shape.file.file}: {error}.") from None
     unread += document.unknown_extensions
     if document.items("animations"):
         unread.append("animations")
     return shape.file.with_libraries({}, tuple(unread)), own
 
 
-def _of_look(look: Look, images: "_Images") -> Material:
-    material = Principled.model_validate(plain(look.table), strict=True)
+def _of_look(look: Look, images: "_Images", here: str) -> Material:
+    material = validated(Principled, look.table, here)
     lost = images.lost(material)
     if not lost:
         return material
     for key in lost:
         without_image(look, key)
-    return Principled.model_validate(plain(look.table), strict=True)
+    return validated(Principled, look.table, here)
 
 
 class _Images:
@@ -154,10 +153,3 @@ class _Images:
             return None
         assert isinstance(found, TextureImage)
         return found
-
-
-def _first_line(error: ValueError) -> str:
-    if isinstance(error, ValidationError):
-        detail = error.errors()[0]
-        return f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
-    return str(error)

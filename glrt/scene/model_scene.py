@@ -16,6 +16,7 @@ from glrt.scene.loading import with_files
 from glrt.scene.materials import Lambertian
 from glrt.scene.mesh_formats import FORMATS, GLTF
 from glrt.scene.named_meshes import MeshFile
+from glrt.scene.path_text import text_of
 from glrt.scene.scene import Scene
 from glrt.scene.studio import LEAST_RADIUS, lights_itself, with_studio
 from glrt.scene.triangle_meshes import TriangleMesh
@@ -41,12 +42,13 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
     no lights and its own emission does not light it. Raises `SceneError`.
     """
     reader = AssetReader(folder)
-    asset = reader.read(path.name, source)
-    file = with_content(MeshFile(file=path.name), reader, source)
+    name = text_of(path.name)
+    asset = reader.read(name, source)
+    file = with_content(validated(MeshFile, {"file": name}, source), reader, source)
     assert isinstance(file, MeshFile)
     assert file.triangles
     tables: Table = {
-        "title": path.name,
+        "title": name,
         "materials": {},
         "objects": [{"shape": "mesh", "file": file, "material": ""}],
         **_view(file.triangles),

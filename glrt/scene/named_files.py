@@ -10,7 +10,7 @@ from pydantic import Field, PrivateAttr
 from glrt.scene.values import Name
 from glrt.settings import Frozen
 
-_LONGEST = 1000  # characters of a path
+_LONGEST = 4096  # characters of a path, as on Linux
 PATH_SCHEMA = {"type": "string", "minLength": 1, "maxLength": _LONGEST}
 
 
@@ -18,7 +18,8 @@ class NamedFile(Frozen):
     """A file; equal to another of its kind if path and content are."""
 
     file: Annotated[Name, Field(max_length=_LONGEST)] = Field(
-        description="path with '/', relative to the folder of the scene"
+        description="path with '/', relative to the folder of the scene; `\\xHH` is a byte of a "
+        "name that text cannot hold"
     )
     sha256: str | None = Field(None, description="of the content, in hex, where it is known")
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from glrt.files import read_at_most
+from glrt.scene.catalog import all_scene_names
 from glrt.scene.scene import Scene
 from glrt.scene.tables import scene_to_dict as scene_to_dict
 from glrt.scene.validation import scene_error, validated
@@ -58,10 +59,12 @@ def _content(path: Path, source: str) -> bytes:
         return read_at_most(path, LARGEST)
     except FileNotFoundError:
         raise scene_error(source, f"no such file{_neighbour(path)}") from None
+    except IsADirectoryError:
+        raise scene_error(source, "is a folder; name a scene file in it") from None
     except OSError as error:
-        if path.is_dir():
-            raise scene_error(source, "is a folder; name a scene file in it") from None
         raise scene_error(source, _obstacle(error)) from None
+    except ValueError:  # a NUL, or what the encoding of the system does not hold
+        raise scene_error(source, "no file can have this name; check it") from None
 
 
 def _obstacle(error: OSError) -> str:
@@ -74,7 +77,11 @@ def _obstacle(error: OSError) -> str:
 
 def _neighbour(path: Path) -> str:
     near = nearest(path.name, tuple(sorted(other.name for other in path.parent.glob("*.toml"))))
-    return f"; did you mean {quoted(near)}?" if near else "; check the path"
+    if near:
+        return f"; did you mean {quoted(near)}?"
+    if (name := path.with_suffix("").as_posix()) in all_scene_names():
+        return f"; the scene that comes with glrt is called {quoted(name)}"
+    return "; check the path"
 
 
 def _toml(text: str, source: str) -> dict[str, Any]:

@@ -27,7 +27,7 @@ from glrt.text import nearest, number, shortened, unknown
 MOST_PROBLEMS_NAMED = 3
 MOST_MISTAKES = 1 << 17  # that are worth being told apart: each takes a kilobyte
 
-Model = TypeVar("Model", bound=Contents)
+Model = TypeVar("Model", bound=BaseModel)
 Place = tuple[int | str, ...]
 
 _TABLES: dict[str, type[BaseModel]] = {
@@ -49,7 +49,7 @@ class MisfitError(ValueError):
 
 
 def validated(model: type[Model], data: Mapping[str, Any], source: str) -> Model:
-    """The model of a scene in plain tables; `source` is what messages call it.
+    """A scene or a part of one in plain tables; `source` is what messages call it.
 
     Raises `SceneError` with one paragraph that begins with `source`.
     """

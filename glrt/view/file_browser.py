@@ -4,7 +4,7 @@ from pathlib import Path
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
-from glrt.files import printable
+from glrt.text import escaped
 from glrt.view.state.folders import Listing, listing, nearest_folder
 
 _WIDTH, _ROWS = 34.0, 14.0  # letters' heights
@@ -24,7 +24,7 @@ class FileBrowser:
 
     def _go(self, folder: Path) -> None:
         self._folder = nearest_folder(folder)
-        self._typed = printable(str(self._folder))
+        self._typed = escaped(str(self._folder))
         self._listing: Listing = listing(self._folder, self._suffixes)
 
     def answer(self) -> str | None:
@@ -65,7 +65,7 @@ class FileBrowser:
         size = ImVec2(hello_imgui.em_size(_WIDTH), hello_imgui.em_size(_ROWS))
         if imgui.begin_child("names", size, imgui.ChildFlags_.borders.value):
             if self._listing.problem:
-                imgui.text_wrapped(printable(self._listing.problem))
+                imgui.text_wrapped(escaped(self._listing.problem))
             for name in self._listing.folders:
                 if self._row(f"{name}/"):
                     self._go(self._folder / name)
@@ -80,7 +80,7 @@ class FileBrowser:
 
     def _row(self, name: str) -> bool | None:
         """Of the list: None where it was not clicked, else whether it was clicked twice."""
-        is_picked = imgui.selectable(printable(name), name == self._name, int(_DOUBLE))[0]
+        is_picked = imgui.selectable(escaped(name), name == self._name, int(_DOUBLE))[0]
         left = imgui.MouseButton_.left.value
         return imgui.is_mouse_double_clicked(left) if is_picked else None
 
@@ -92,7 +92,7 @@ class FileBrowser:
         flags = int(
             imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
         )
-        shown = printable(self._name)
+        shown = escaped(self._name)
         is_entered, typed = imgui.input_text("##name", shown, flags)
         self._name = self._name if typed == shown else typed
         imgui.same_line()

@@ -8,7 +8,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from glrt.errors import GlrtError
-from glrt.files import printable, unused, write_text
+from glrt.files import unused, write_text
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
 from glrt.memo import kept_for_the_same
@@ -18,6 +18,7 @@ from glrt.scene.catalog import MODELS
 from glrt.scene.scene import Scene
 from glrt.scene.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings, Settings, settings_for
+from glrt.text import escaped
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.messages import Messages
@@ -50,6 +51,7 @@ class Files:
     picture_name: str = PICTURE_NAME  # that numbers are put to
     scene_path: str = field(init=False)
     watch: Watch | None = field(init=False)  # of the scene file, if the scene came from one
+    model: Path | None = field(init=False)  # the scene file whose comments a save keeps
     saved: Scene = field(init=False)  # as the file has it, or as it was opened
     written: Scene = field(init=False)  # with its camera and settings
     recent: tuple[str, ...] = field(init=False)
@@ -63,14 +65,19 @@ class Files:
     @property
     def is_changed(self) -> bool:
         """Whether the scene has edits that no file has; camera and settings alone are none."""
-        return _differs(self.saved, self.session.scene)
+        return self.is_lost or _differs(self.saved, self.session.scene)
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the file that the scene came from is no longer there."""
+        return self.watch is not None and self.watch.has_lost
 
     @property
     def title(self) -> str:
         """Of the window: what is open, and a star where a save would write something else."""
         name = Path(self.source).name if self.source else "recipe"
         is_other = _is_other(self.written, self.session.scene, self.session.settings)
-        return f"{printable(name)}{' *' if is_other else ''} - glrt"
+        return f"{escaped(name)}{' *' if is_other or self.is_lost else ''} - glrt"
 
     def open(self, source: str) -> None:
         """Another scene, or the scene, view and settings of a picture."""
@@ -128,6 +135,7 @@ class Files:
     def _came_from(self, source: str) -> None:
         """A scene that came from a file is saved there again, and another one elsewhere."""
         self.source, self.watch = source, watch_for(source)
+        self.model = scene_file_of(source) if source else None
         self.scene_path = source if self.watch else unused("scene.toml")
         self._mark_saved()
         self._remember(source)
@@ -151,13 +159,21 @@ class Files:
 
     def follow(self, now: float) -> None:
         """Take in what another program has changed in the scene file."""
-        if self.watch and self.watch.has_changed(now):
+        if not (self.watch and self.watch.has_changed(now)):
+            return
+        if self.is_lost:
+            self.messages.complain(
+                f"The file {self.source} is no longer there. The scene stays open; save it to "
+                "write the file again."
+            )
+        else:
             self.reload()
 
     def reload(self) -> None:
         """The scene as its file has it now; the camera and the settings stay."""
         with self.messages.telling():
-            found, lost = load(self.source), "; undo brings your edits back" * self.is_changed
+            found, is_edited = load(self.source), _differs(self.saved, self.session.scene)
+            lost = "; undo brings your edits back" * is_edited
             self.session.problem = ""
             self.session.edit(replaced(found, camera=self.session.scene.camera))
             self.saved, self.written = found, scene_with(found, self.session.settings)
@@ -168,12 +184,14 @@ class Files:
         self.scene_path = path or self.scene_path
         whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
         try:
-            model = scene_file_of(self.source) if self.source else None
+            model = None if self.is_lost else self.model
             has_comments = write_scene(whole, file, model)
         except GlrtError as error:
             self.messages.complain(str(error))
             return False
-        self.source, self.watch = str(file), watch_for(str(file))
+        if self.is_lost:
+            self.session.problem = ""
+        self.source, self.watch, self.model = str(file), watch_for(str(file)), file
         self._mark_saved()
         self._remember(self.source)
         lost = "" if has_comments or not model else f", without the comments of {model.name}"

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from glrt.errors import GlrtError
-from glrt.files import printable
+from glrt.text import escaped
 from glrt.view.state.session import Session
 
 SHOWN = 5.0  # seconds that a message of what was done stays in sight
@@ -32,7 +32,7 @@ class Messages:
 
     def tell(self, message: str) -> None:
         """Show for a while what was done."""
-        self.last, self.told = printable(message), time.perf_counter()
+        self.last, self.told = escaped(message), time.perf_counter()
 
     def recent(self, now: float) -> str:
         """What was done a moment ago; "" for nothing."""
@@ -40,7 +40,7 @@ class Messages:
 
     def complain(self, problem: str) -> None:
         """Show what went wrong, if anything did."""
-        self.session.problem = printable(problem) or self.session.problem
+        self.session.problem = escaped(problem) or self.session.problem
 
     @contextmanager
     def telling(self) -> Iterator[None]:
@@ -53,4 +53,4 @@ class Messages:
     def ask(self, title: str, text: str, **answers: Callable[[], object]) -> None:
         """Put a question; names of answers have _ for a blank."""
         shown = {name.replace("_", " "): act for name, act in answers.items()}
-        self.question = Question(title, printable(text), shown)
+        self.question = Question(escaped(title), escaped(text), shown)

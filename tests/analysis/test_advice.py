@@ -10,7 +10,7 @@ import pytest
 from glrt.analysis.method_choice import search, trial
 from glrt.analysis.method_choice.advice import advice, conclusion
 from glrt.analysis.method_choice.candidate import Bias
-from glrt.analysis.method_choice.search import Verdict
+from glrt.analysis.method_choice.search import TIE, Verdict
 from glrt.analysis.method_choice.trial import OutOfTimeError
 from glrt.analysis.reference import Reference
 from glrt.cli.main import main
@@ -41,6 +41,19 @@ def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
         assert words in text
     assert text.endswith(conclusion(verdict))
     assert conclusion(verdict).startswith("Enough: `")
+
+
+@pytest.mark.parametrize(("work", "chosen"), [(1.06, "mis"), (TIE + 0.01, "nee")])
+def test_the_choice_follows_the_rule_for_ties_that_it_states(work: float, chosen: str) -> None:
+    """`mis` may be chosen although another method takes less work."""
+    scene, mis = furnace(), of_bias(0.0, work=work)
+    settings = mis.settings.model_copy(update={"method": "nee"})
+    nee = replace(mis, name="nee", settings=settings, work_per_sample=1.0)
+    ones = np.ones((1, 1, 3))
+    verdict = Verdict(0.02, Reference(ones, ones, 1, 1), (nee, mis), {})
+    text = "\n".join(advice(scene, verdict))
+    assert "`mis` is chosen if it takes at most 1.25 times as much" in text
+    assert f"Enough: `{chosen}`" in text
 
 
 def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> None:

@@ -38,7 +38,7 @@ def scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("name", ["cornell", "cornell.toml", Path("cornell")])
+@pytest.mark.parametrize("name", ["cornell", Path("cornell")])
 def test_a_name_finds_a_scene_of_the_library(name: str | Path) -> None:
     assert load(name).title == "the library's cornell"
 
@@ -47,6 +47,26 @@ def test_a_name_finds_a_scene_of_the_library(name: str | Path) -> None:
 def test_a_path_comes_before_a_name(name: str) -> None:
     Path(name).write_text(TOML.format(title="mine"))
     assert load(name).title == "mine"
+
+
+@pytest.mark.parametrize("path", ["cornell.toml", "cornell.TOML", "more/glass.toml", "nosuch.toml"])
+def test_a_path_is_never_a_name(path: str, scenes: Path) -> None:
+    """Not even that of a file which was there a moment ago."""
+    (scenes / "more").mkdir()
+    (scenes / "more" / "glass.toml").write_text(TOML.format(title="deeper"))
+    with pytest.raises(SceneError, match=f"^{path}: no such file; "):
+        load(path)
+
+
+def test_a_missing_path_is_answered_with_the_name_that_was_meant() -> None:
+    with pytest.raises(SceneError, match=r"the scene that comes with glrt is called 'cornell'\.$"):
+        load("cornell.toml")
+
+
+def test_a_folder_in_place_of_a_scene_is_named() -> None:
+    Path("room").mkdir()
+    with pytest.raises(SceneError, match=r"^room: is a folder"):
+        load("room")
 
 
 def test_a_folder_with_the_name_of_a_scene_does_not_hide_it() -> None:
@@ -58,7 +78,6 @@ def test_a_name_leads_into_folders_of_the_library_but_not_out_of_it(scenes: Path
     (scenes / "more").mkdir()
     (scenes / "more" / "glass.toml").write_text(TOML.format(title="deeper"))
     assert load("more/glass").title == "deeper"
-    assert load("more/glass.toml").title == "deeper"
     with pytest.raises(SceneError):
         load("more/../cornell")
     with pytest.raises(SceneError):
@@ -131,7 +150,7 @@ def test_a_missing_picture_is_named(source: str) -> None:
         load(source)
 
 
-@pytest.mark.parametrize("source", [TOML, "x" * 5000, "", "a\0b"])
+@pytest.mark.parametrize("source", [TOML, "x" * 5000, "x" * 5000 + ".toml", "", "a\0b", "\0.toml"])
 def test_what_is_neither_path_nor_name_gets_one_paragraph(source: str) -> None:
     with pytest.raises(SceneError) as caught:
         load(source)

@@ -171,7 +171,9 @@ def test_paths_that_are_none_are_refused(base: Path) -> None:
     assert refusal(folder, "") == "the path of a file is empty. Give the path of one."
     assert "holds a backslash. Write '/'" in refusal(folder, "models\\chair.obj")
     assert "holds a backslash" in refusal(folder, "\\\\host\\share\\secret")
-    assert "no file can have the name 'sky.hdr ../secret'" in refusal(folder, "sky.hdr\0../secret")
+    assert "no file can have the name 'sky.hdr\\x00../secret'" in refusal(
+        folder, "sky.hdr\0../secret"
+    )
     assert "no file can have the name" in refusal(folder, "\ud800.hdr")
     assert "cannot be read: File name too long" in refusal(folder, "x" * 5000)
 

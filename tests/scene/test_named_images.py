@@ -70,7 +70,7 @@ def test_a_scene_file_tells_the_path_alone(folder: Path) -> None:
         ({"image": ""}, "background.image"),
         ({"image": 3}, "background.image"),
         ({"image": {"file": "a.hdr", "sha256": "0"}}, "background.image"),
-        ({"image": "a" * 1001}, "background.image"),
+        ({"image": "a" * 4097}, "background.image"),
     ],
 )
 def test_what_is_no_background_is_refused(background: object, words: str) -> None:

@@ -144,7 +144,7 @@ def test_lights_from_the_command_line_override_those_of_the_file() -> None:
         ({"ceiling": math.nan}, ("'ceiling'", "0 to 1e15", "got nan")),
         ({"ceiling": math.inf}, ("'ceiling'", "0 to 1e15", "got inf")),
         ({"ceiling": 1e15}, ("'ceiling'", "emission", "at most 1e15")),
-        ({"a\nb": 1.0}, ("'a b'",)),
+        ({"a\nb": 1.0}, (r"'a\nb'",)),
     ],
 )
 def test_wrong_lights_are_refused_with_advice(

@@ -65,7 +65,7 @@ def test_missing_file_is_named_with_its_neighbour(tmp_path: Path) -> None:
 
 
 def test_a_name_of_two_lines_does_not_break_the_paragraph() -> None:
-    with pytest.raises(SceneError, match=r"^a b\.toml: camera is missing") as caught:
+    with pytest.raises(SceneError, match=r"^a\\nb\.toml: camera is missing") as caught:
         parse_scene({}, "a\nb.toml")
     assert str(caught.value).isprintable()
 

@@ -25,6 +25,10 @@ def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
     hand.until(lambda: "edited.toml" in hand.session.problem)
     file.write_text(text)
     hand.until(lambda: hand.session.problem == "")
+    file.unlink()
+    hand.until(lambda: "edited.toml is no longer there" in hand.session.problem)
+    hand.there(app.files.save_again)
+    hand.until(lambda: file.is_file() and hand.session.problem == "")
     reopen(hand)
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from glrt.analysis.chart.words import number, percent
 from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.denoised import DenoisedChoice, denoised_choice
-from glrt.analysis.method_choice.search import WITHOUT_PROBES, Verdict, what_suffices
+from glrt.analysis.method_choice.search import TIE, WITHOUT_PROBES, Verdict, what_suffices
 from glrt.analysis.method_choice.trial import LEADER, OutOfTimeError, Tell
 from glrt.errors import UsageError
 from glrt.gpu.context import open_context
@@ -171,7 +171,8 @@ def advice(scene: Scene, verdict: Verdict) -> Iterator[str]:
     yield ""
     yield (
         "Work is counted, by rays, those of probes too, shapes and lamps: 1 is that of the method "
-        "which takes least."
+        f"which takes least. `{LEADER}` is chosen if it takes at most {number(TIE)} times as much, "
+        "since it leaves out the least light."
     )
     yield conclusion(verdict)
 

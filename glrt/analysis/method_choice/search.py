@@ -24,7 +24,7 @@ REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds th
 # What is chosen from without a look by the user: sets of probes take time to measure, and `error`
 # tells nothing of what probes blur.
 WITHOUT_PROBES = tuple(name for name, traits in METHODS.items() if not traits.has_probes)
-_TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
+TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Verdict:
     def nearest(self) -> Candidate:
         """The candidate that would reach the error so without a limit of samples."""
         nearest = min(self.candidates, key=lambda candidate: candidate.work_to(self.error))
-        tied = self.leader.work_to(self.error) <= _TIE * nearest.work_to(self.error)
+        tied = self.leader.work_to(self.error) <= TIE * nearest.work_to(self.error)
         return self.leader if tied else nearest
 
     @property

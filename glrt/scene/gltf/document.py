@@ -7,8 +7,9 @@ import struct
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
-from urllib.parse import unquote
+from urllib.parse import unquote_to_bytes
 
+from glrt.scene.path_text import text_of_bytes
 from glrt.text import quoted
 
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
@@ -125,7 +126,10 @@ def path_of(uri: str, where: str) -> str:
     """The path that a URI stands for."""
     if "://" in uri:
         raise ValueError(f"{where} is a web address, and glrt loads nothing from there")
-    return unquote(uri)
+    try:
+        return text_of_bytes(unquote_to_bytes(uri))
+    except UnicodeEncodeError:
+        raise ValueError(f"{where}: no file can have the name {quoted(uri)}") from None
 
 
 def whole(value: Any, where: str, least: int = 0) -> int:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from glrt.scene.gltf.accessors import Floats, Ints
 from glrt.scene.gltf.document import Document
 from glrt.scene.triangle_meshes import MOST_TRIANGLES
+from glrt.text import one_line
 
 EXTENSION = "KHR_draco_mesh_compression"
 
@@ -55,7 +56,7 @@ def _decoded(content: bytes, here: str) -> Any:
     try:
         found = DracoPy.decode(content)
     except Exception as error:  # of its own types, and of what it calls
-        told = " ".join(str(error).split())[:100] or type(error).__name__
+        told = one_line(str(error))[:100] or type(error).__name__
         raise ValueError(f"{here} is damaged: {told}") from None
     if not hasattr(found, "faces"):
         raise ValueError(f"{here} holds points alone")

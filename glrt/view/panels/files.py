@@ -4,8 +4,8 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
-from glrt.files import printable
 from glrt.scene.catalog import scene_names
+from glrt.text import escaped
 from glrt.view.app import App
 from glrt.view.files import Files
 from glrt.view.panels.widgets import beside, button, room_for, tip
@@ -64,7 +64,7 @@ def _recent(files: Files) -> None:
     for number, source in enumerate(files.recent):
         path = Path(source)
         shown = f"{path.name} in {path.parent}" if path.is_absolute() else source
-        if imgui.selectable(f"{printable(shown)}##{number}", False)[0]:
+        if imgui.selectable(f"{escaped(shown)}##{number}", False)[0]:
             files.ask_open(source)
     imgui.end_combo()
 
@@ -83,7 +83,7 @@ def _recipe(files: Files, has_picture: bool) -> None:
 def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
     """A box for a path: its text, and whether Enter ended it."""
     imgui.set_next_item_width(min(hello_imgui.em_size(12), 0.5 * imgui.get_window_width()))
-    shown = printable(path)
+    shown = escaped(path)
     _, typed = imgui.input_text_with_hint(f"##{name}", hint, shown)
     is_entered = imgui.is_item_deactivated() and imgui.is_key_pressed(imgui.Key.enter)
     return path if typed == shown else typed, is_entered

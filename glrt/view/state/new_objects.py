@@ -12,6 +12,7 @@ from glrt.scene.materials import Lambertian, Light, Material
 from glrt.scene.meshes import Mesh
 from glrt.scene.model_scene import model_scene
 from glrt.scene.objects import Array
+from glrt.scene.path_text import text_of
 from glrt.scene.scene import Scene
 from glrt.scene.shapes import KINDS, Shape
 from glrt.scene.values import Vector
@@ -75,7 +76,7 @@ def with_model(scene: Scene, path: Path, place: Vector, size: float) -> Scene:
     moved = np.array(place) - factor * (low + high) / 2
     where = {"scale": factor, "translate": [near(part, size) for part in moved]}
     names = {thing.name for thing in scene.objects if thing.name}
-    name = free_name(path.stem, names)
+    name = free_name(text_of(path.stem), names)
     materials = _materials(scene, model, meshes)
     for number, mesh in enumerate(meshes):
         own = name if len(meshes) == 1 else f"{name}, {mesh.part or number}"

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from glrt.errors import RenderError
-from glrt.files import printable, write_text
+from glrt.files import write_text
 
 MOST = 10
 
@@ -22,7 +22,7 @@ def load_recent(file: Path) -> tuple[str, ...]:
 def with_opened(recent: tuple[str, ...], source: str) -> tuple[str, ...]:
     """With one more in front; a file by its whole path, so that it is found from anywhere."""
     path = Path(source)
-    name = printable(str(path.absolute())) if path.is_file() else source
+    name = str(path.absolute()) if path.is_file() else source
     return (name, *(other for other in recent if other != name))[:MOST]
 
 
