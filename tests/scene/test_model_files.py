@@ -115,7 +115,8 @@ def test_too_many_triangles_of_all_meshes_are_refused(
     (tmp_path / "thing.glb").write_bytes(textured_square().glb())
     camera = "[camera]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n"
     one = '[[objects]]\nshape = "mesh"\nfile = "thing.glb"\n'
-    (tmp_path / "scene.toml").write_text(camera + 2 * one)
+    apart = "translate = [3, 0, 0]\n"
+    (tmp_path / "scene.toml").write_text(camera + one + one + apart)
     assert len(load(tmp_path / "scene.toml").meshes) == 2
     (tmp_path / "scene.toml").write_text(camera + 3 * one)
     with pytest.raises(SceneError, match="the meshes of this scene have 6 triangles"):
