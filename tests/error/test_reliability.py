@@ -54,16 +54,25 @@ def test_rare_large_hits_are_doubted(samples: int) -> None:
 
 
 def test_one_pixel_that_one_sample_lit_is_enough() -> None:
-    """Whose error is estimated as 1, whatever the sample brought; many samples are believed."""
+    """Beside one that is nearly half as bright; many samples are believed."""
     assert judged(planted()) is False
-    assert judged(planted((40.0, 40.0))) is True
-    assert judged(planted((40.0, 4.0))) is False
+    assert judged(planted((40.0, 40.0), beside=19.0)) is True
+    assert judged(planted((40.0, 4.0), beside=19.0)) is False
+
+
+def test_a_lone_pixel_that_one_sample_lit_is_in_the_estimate() -> None:
+    """Its error is relative to what is around it, so the estimate says how bad it may be."""
+    lucky, certain = planted((40.0, 40.0)), planted((40.0, 4.0))
+    assert lucky.error == pytest.approx(32 / 48, rel=0.02)
+    assert certain.error == pytest.approx(0.02, rel=0.02)
+    assert judged(lucky) is False
+    assert judged(certain) is False
 
 
 def test_at_the_rim_of_what_is_bright_for_certain_it_takes_more() -> None:
-    assert judged(planted((40.0, 28.0))) is True
-    assert judged(planted((40.0, 28.0), beside=60.0)) is False
-    assert judged(planted(*[(40.0, 28.0)] * 4, beside=60.0)) is True
+    assert judged(planted((40.0, 33.0), beside=19.0)) is True
+    assert judged(planted((40.0, 33.0), beside=60.0)) is False
+    assert judged(planted(*[(40.0, 33.0)] * 4, beside=60.0)) is True
 
 
 def test_a_dark_pixel_has_no_voice() -> None:
@@ -96,7 +105,7 @@ def test_bands_of_rows_are_judged_as_the_whole(monkeypatch: pytest.MonkeyPatch) 
     for rows in (1, 5):
         monkeypatch.setattr(reliability, "BAND", rows * image.radiance[0].size)
         banded = reliability._unsure(image.radiance, image.stderr)
-        assert all(map(np.array_equal, banded[:4], whole[:4]))
+        assert all(map(np.array_equal, banded[:5], whole[:5]))
 
 
 def rendered(scene: Scene, context: Context, samples: int, **settings: Any) -> Image:
