@@ -29,6 +29,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - reuse: what reuse of points takes from the noise of method `resampled`, and its price
 - particle_checks: pictures with particles against those without, and their errors
 - calibration: the estimated error of pictures against their true error
+- error_ratios: the same where few samples find light, and in ordinary scenes
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - methods_compared: its false alarms between different methods
 - changes_found: whether it finds changes of the size that it says it would have found

@@ -23,6 +23,8 @@ uniform int shows;
 uniform int layer_count;      // 0: the light is the mean times weights[0]
 uniform vec3 weights[MOST_LAYERS];
 uniform float dark;           // radiance^2, added so that dark pixels do not rule
+uniform float unsure;         // squared standard errors that may be luck alone
+uniform float luck;           // times the true radiance that one sample may show
 uniform float least;          // a number of its history that is above it is one
 uniform bool is_logarithmic;
 uniform vec2 range;           // the numbers of the first and the last colour
@@ -54,13 +56,33 @@ vec3 variance_by_halves(ivec2 texel) {
     return apart * apart * (counts.x * counts.y / (total * total));
 }
 
-// A pixel's share in the relative error of the picture (glrt.error.estimate.relative_error).
+// The brightest of the pixels beside one in the film, by channel; a single pixel is beside itself.
+vec3 brightest_beside(ivec2 texel) {
+    ivec2 last = textureSize(mean, 0) - 1;
+    precise vec3 most = last == ivec2(0) ? texelFetch(light, texel, 0).rgb : vec3(0.0);
+    for (int y = max(texel.y - 1, 0); y <= min(texel.y + 1, last.y); y += 1) {
+        for (int x = max(texel.x - 1, 0); x <= min(texel.x + 1, last.x); x += 1) {
+            if (ivec2(x, y) != texel) most = max(most, texelFetch(light, ivec2(x, y), 0).rgb);
+        }
+    }
+    return most;
+}
+
+// The estimated true radiance of a pixel, squared: the twin of glrt.error.estimate.squared_levels.
+vec3 squared_level(ivec2 texel, vec3 radiance, vec3 squared) {
+    precise vec3 near = min(radiance, brightest_beside(texel));
+    precise vec3 own = radiance * radiance;
+    return max(max(near * near, own - unsure * squared), own / (luck * luck));
+}
+
+// A pixel's share in the relative error of the picture (glrt.error.estimate.estimated_error).
 float relative_error(ivec2 texel) {
     precise vec3 radiance = texelFetch(light, texel, 0).rgb;
     precise vec3 squared = layer_count > 0 ? variance_by_halves(texel)
                                    : weights[0] * weights[0] * variance_of_mean(texel);
     if (squared.r < 0.0) return -1.0;
-    return sqrt(dot(squared / (radiance * radiance + dark), vec3(1.0 / 3.0)));
+    precise vec3 level = squared_level(texel, radiance, squared);
+    return sqrt(dot(squared / (level + dark), vec3(1.0 / 3.0)));
 }
 
 // Samples that are not finite, of the pixel and its neighbours: where many pixels share one of the

@@ -4,26 +4,41 @@ An estimate is a pixel's mean with the standard error of that mean; all sums are
 """
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glrt.error.neighbours import brightest_beside
+
 BAND = 1 << 20  # values in work at a time: copies in float64 stay small beside the image
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
+UNSURE = 4.0  # squared standard errors: a radiance of less than two of them may be luck alone
+LUCK = 32.0  # times the true radiance: what one lucky sample shows is no more, in 249 of 250 cases
 TWO_SIDED_95 = 1.959964  # standard deviations about the mean within which 95 % lie
 
 
-def relative_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
-    """Relative RMS error: sqrt(mean(stderr^2 / (radiance^2 + 0.01 * mean(radiance)^2))).
+def relative_error(level: ArrayLike, errors: ArrayLike) -> float | None:
+    """Relative RMS of errors about a level: sqrt(mean(errors^2 / (level^2 + 0.01 mean(level)^2))).
 
-    Both arrays have one shape, (H, W, 3) for an image; all means run over pixels and channels.
-    None where `stderr` holds NaN: there are fewer than two observations. A black image without
-    noise has error 0.
+    For a known level, such as a reference; of a picture by itself see `estimated_error`. Both
+    arrays have one shape, (H, W, 3) for an image; all means run over pixels and channels. None
+    where `errors` hold NaN. A black level without errors has error 0.
     """
-    total = sum(float(ratio.sum()) for ratio in _relative_variances(radiance, stderr))
-    return None if math.isnan(total) else math.sqrt(total / np.size(radiance))
+    values = np.atleast_1d(level)
+    squares = (np.square(values[part], dtype=np.float64) for part in _bands(values))
+    return _root_mean(_ratios(values, np.atleast_1d(errors), squares))
+
+
+def estimated_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
+    """Estimated relative RMS error of a picture: sqrt(mean(stderr^2 / (L^2 + 0.01 mean^2))).
+
+    `radiance` and its standard error are (H, W, channels); L^2 is `squared_levels`, `mean` that of
+    the radiance. None where `stderr` holds NaN: there are fewer than two observations. A black
+    image without noise has error 0.
+    """
+    return _root_mean(_estimated_ratios(radiance, stderr))
 
 
 class Band(NamedTuple):
@@ -35,13 +50,13 @@ class Band(NamedTuple):
 
 
 def error_band(radiance: ArrayLike, stderr: ArrayLike) -> Band | None:
-    """`relative_error` of an image, (H, W, 3) each, and the interval that holds it at 95 %.
+    """`estimated_error` of an image, (H, W, 3) each, and the interval that holds it at 95 %.
 
     Pixels are independent of each other, so the mean over them is as sure as their spread tells:
     the standard error s of the error's logarithm is half that of the mean, over the mean, and the
     band is error * exp(+-1.96 s). Light that no sample has met is in no estimate, nor in the band.
     """
-    parts = _relative_variances(radiance, stderr)
+    parts = _estimated_ratios(radiance, stderr)
     pixels = np.concatenate([ratio.mean(axis=-1) for ratio in parts])
     mean = float(pixels.mean())
     if math.isnan(mean):
@@ -53,17 +68,58 @@ def error_band(radiance: ArrayLike, stderr: ArrayLike) -> Band | None:
     return Band(math.sqrt(mean), math.sqrt(mean) / factor, math.sqrt(mean) * factor)
 
 
-def _relative_variances(radiance: ArrayLike, stderr: ArrayLike) -> Iterator[NDArray[np.float64]]:
-    """stderr^2 / (radiance^2 + 0.01 * mean(radiance)^2), some rows at a time; NaN stays."""
-    values, errors = np.atleast_1d(radiance), np.atleast_1d(stderr)
+def squared_levels(
+    radiance: ArrayLike, stderr: ArrayLike, rows: slice = slice(None)
+) -> NDArray[np.float64]:
+    """Squares of the estimated true radiance, (H, W, channels) or some rows; NaN where `stderr` is.
+
+    A pixel that a rare bright sample met is too bright by its own luck: its level is that of its
+    brightest neighbour within the picture, by channel, if that is darker. What its own noise
+    leaves certain stays: the root of radiance^2 - UNSURE stderr^2, and radiance / LUCK.
+    """
+    values, errors = np.asarray(radiance), np.asarray(stderr)
+    start, stop, _ = rows.indices(len(values))
+    first = max(start - 1, 0)
+    beside = brightest_beside(values[first : stop + 1])[start - first :]
+    own = values[start:stop].astype(np.float64)
+    beside = beside[: len(own)].astype(np.float64)
+    near = own if values.shape[0] * values.shape[1] == 1 else np.minimum(own, beside)
+    squares = np.square(own)
+    certain = squares - UNSURE * np.square(errors[start:stop], dtype=np.float64)
+    return np.asarray(np.maximum(np.maximum(np.square(near), certain), squares / LUCK**2))
+
+
+def _estimated_ratios(radiance: ArrayLike, stderr: ArrayLike) -> Iterator[NDArray[np.float64]]:
+    values, errors = np.asarray(radiance), np.asarray(stderr)
+    levels = (squared_levels(values, errors, part) for part in _bands(values))
+    return _ratios(values, errors, levels)
+
+
+def _bands(values: NDArray[Any]) -> list[slice]:
+    """Some rows at a time."""
     rows = max(1, BAND * len(values) // max(1, values.size))
-    parts = [slice(first, first + rows) for first in range(0, len(values), rows)]
-    dark = DARK * (sum(values[p].sum(dtype=np.float64) for p in parts) / values.size) ** 2
-    for part in parts:
+    return [slice(top, min(top + rows, len(values))) for top in range(0, len(values), rows)]
+
+
+def _ratios(
+    values: NDArray[Any], errors: NDArray[Any], squares: Iterable[NDArray[np.float64]]
+) -> Iterator[NDArray[np.float64]]:
+    """errors^2 / (squares + 0.01 mean(values)^2), band by band; NaN stays."""
+    bands = _bands(values)
+    dark = DARK * (sum(values[part].sum(dtype=np.float64) for part in bands) / values.size) ** 2
+    for part, square in zip(bands, squares, strict=True):
         variance = np.square(errors[part], dtype=np.float64)
-        scale = np.square(values[part], dtype=np.float64) + dark
+        scale = square + dark
         ratio = np.where(variance > 0, np.inf, variance)
         yield np.divide(variance, scale, out=ratio, where=scale > 0)
+
+
+def _root_mean(ratios: Iterable[NDArray[np.float64]]) -> float | None:
+    """Root of the mean over all values; None where one is NaN."""
+    total, count = 0.0, 0
+    for ratio in ratios:
+        total, count = total + float(ratio.sum()), count + ratio.size
+    return None if math.isnan(total) else math.sqrt(total / count)
 
 
 def sidak_threshold(alpha: float, tests: int) -> float:

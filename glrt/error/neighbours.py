@@ -1,14 +1,13 @@
 """What stands beside each pixel."""
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Pixels = NDArray[np.float32]
 
-
-def brightest_beside(values: Pixels) -> Pixels:
+def brightest_beside(values: NDArray[Any]) -> NDArray[Any]:
     """Of the eight neighbours of each pixel, by channel; -inf for a picture of one pixel."""
     height, width = values.shape[:2]
     framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=-math.inf)

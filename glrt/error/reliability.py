@@ -1,8 +1,9 @@
 """Whether an estimated error can be believed: not where it hangs on pixels that few samples lit.
 
 A pixel that one bright sample has met has a standard error as large as its radiance, whatever that
-sample brought: its relative error is estimated as 1. If so bright a sample is much rarer than one
-in those that were taken, the true radiance is far below, and the true error far above.
+sample brought: beside one as bright its relative error is estimated as 1 (`squared_levels`). If so
+bright a sample is much rarer than one in those that were taken, the true radiance is far below, and
+the true error far above.
 
 So each pixel was lit by h = (radiance / stderr)^2 equal samples, or is as noisy as if it were. The
 number l expected of them has the density l^(h - 1) exp(-l) where a pixel beside it is half as
@@ -16,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.error.estimate import BAND, DARK, relative_error
+from glrt.error.estimate import BAND, DARK, estimated_error, squared_levels
 from glrt.error.neighbours import brightest_beside
 from glrt.error.seen_lamps import Seen
 
@@ -25,8 +26,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 LEAST_OBSERVATIONS = 4  # fewer do not tell a standard error
-TIMES = 1.7  # the true error over the estimate
-DOUBTFUL = 0.25  # the chance of that from which on it is doubted: docs/results/stress.md
+TIMES = 2.0  # the true error over the estimate
+DOUBTFUL = 0.2  # the chance of that from which on it is doubted: docs/results/stress.md
 TOGETHER = (1, 4, 16, 64, 256)  # pixels that may bring it about
 SURE = 100  # hits: with more a pixel is known
 
@@ -41,7 +42,7 @@ def is_doubtful(
     `seen` do that by themselves. None where that cannot be judged: below four observations,
     without an estimate, or without noise or light.
     """
-    error = relative_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
+    error = estimated_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
     if not error or not math.isfinite(error):
         return None
     values, errors = np.asarray(radiance, np.float32), np.asarray(stderr, np.float32)
@@ -63,15 +64,25 @@ def _excess(values: Pixels, errors: Pixels, seen: Seen) -> float:
     mean = values.mean(dtype=np.float64)
     true_mean = max(mean - apart.sum() / values.size, 0.0)
     true = np.square(apart) / (np.square(seen.radiance) + DARK * true_mean**2)
-    estimated = variance / (np.square(value) + DARK * mean**2)
+    places = zip(seen.rows, seen.columns, strict=True)
+    levels = np.array([_squared_level(values, errors, *place) for place in places])
+    estimated = variance / (levels + DARK * mean**2)
     excess: float = (true - estimated).sum() / values.shape[2]
     return excess
+
+
+def _squared_level(values: Pixels, errors: Pixels, row: int, column: int) -> Array:
+    """`squared_levels` of one pixel, (channels,)."""
+    top, left = max(row - 1, 0), max(column - 1, 0)
+    about = slice(top, row + 2), slice(left, column + 2)
+    return np.asarray(squared_levels(values[about], errors[about])[row - top, column - left])
 
 
 class Unsure(NamedTuple):
     """The values of a picture that few samples lit, (n,) each, of so many channels."""
 
-    brightness: Array  # squared, over the squared mean
+    most: Array  # squared relative error: that of a truth as dark as its darkest neighbour
+    share: Array  # squared relative error, as estimated
     hits: Array
     shape: Array  # of the gamma distribution of the number expected
     log_gamma: Array  # of shape + 1
@@ -81,13 +92,13 @@ class Unsure(NamedTuple):
 def _chance(found: Unsure, room: float, together: int) -> float:
     """That so many pixels add `room` to the sum of squared relative errors.
 
-    A pixel brings its share of that if its relative error is the root of `bound`, for which it must
-    be bright enough: in the denominator stands no less than DARK.
+    A pixel brings its part of that if its squared relative error is above the estimated one by so
+    much, for which something beside it must be dark enough.
     """
-    bound = room / together
-    places = found.brightness > bound * DARK
-    hits, shape, log_gamma = (part[places] for part in found[1:4])
-    limit = hits / (1 + math.sqrt(bound))
+    bound = room / together + found.share
+    places = found.most > bound
+    hits, shape, log_gamma = (part[places] for part in found[2:5])
+    limit = hits / (1 + np.sqrt(bound[places]))
     expected = float(_below(limit, shape, log_gamma).sum()) / found.channels
     if expected == 0 or expected >= together:
         return float(expected > 0)
@@ -111,18 +122,30 @@ def _unsure(values: Pixels, errors: Pixels) -> Unsure:
     height, width, channels = values.shape
     rows = max(1, BAND // (width * channels))
     parts = [_of_rows(values, errors, top, top + rows) for top in range(0, height, rows)]
-    squares, hits, is_rim = (np.concatenate(part) for part in zip(*parts, strict=True))
+    squares, levels, hits, darkest, is_rim = (
+        np.concatenate(part) for part in zip(*parts, strict=True)
+    )
     shape = np.maximum(np.where(is_rim, hits, hits - 0.5), 0.5)
     log_gamma = np.array([math.lgamma(value + 1) for value in shape])
     mean = float(values.mean(dtype=np.float64))
-    return Unsure(squares / mean**2, hits, shape, log_gamma, channels)
+    dark = DARK * mean**2
+    share, most = squares / hits / (levels + dark), squares / (np.square(darkest) + dark)
+    return Unsure(most, share, hits, shape, log_gamma, channels)
 
 
-def _of_rows(values: Pixels, errors: Pixels, top: int, end: int) -> tuple[Array, Array, Mask]:
-    """Squares and hits of the values of some rows that few samples lit, and which are at a rim."""
+def _of_rows(
+    values: Pixels, errors: Pixels, top: int, end: int
+) -> tuple[Array, Array, Array, Array, Mask]:
+    """Some rows: squares of what few samples lit, squared levels, hits, darkest beside, rims."""
     value, error = (part[top:end].astype(np.float64) for part in (values, errors))
     places = (error > 0) & (value > 0) & (value**2 < SURE * error**2)
-    certain = values[max(top - 1, 0) : end + 1] - errors[max(top - 1, 0) : end + 1]
-    beside = brightest_beside(certain)[min(top, 1) :][: len(value)]
+    about = slice(max(top - 1, 0), end + 1)
+    certain, darkest = (
+        brightest_beside(part)[min(top, 1) :][: len(value)]
+        for part in (values[about] - errors[about], -values[about])
+    )
     squares = np.square(value[places])
-    return squares, squares / np.square(error[places]), beside[places] > 0.5 * value[places]
+    levels = squared_levels(values, errors, slice(top, end))[places]
+    hits = squares / np.square(error[places])
+    darkest = np.clip(np.where(np.isinf(darkest), 0.0, -darkest)[places], 0.0, value[places])
+    return squares, levels, hits, darkest, certain[places] > 0.5 * value[places]

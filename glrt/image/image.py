@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from glrt import files
 from glrt.denoise.denoising import Denoised
-from glrt.error.estimate import relative_error
+from glrt.error.estimate import estimated_error
 from glrt.error.judgement import judged
 from glrt.errors import SceneError, UsageError
 from glrt.image import aovs, denoised_channels, particle_film
@@ -63,7 +63,7 @@ class Image:
     @property
     def error(self) -> float | None:
         """Estimated relative RMS error, of the noise alone; None if it is unknown."""
-        return relative_error(self.radiance, self.stderr)
+        return estimated_error(self.radiance, self.stderr)
 
     def denoised(self) -> Denoised:
         """The picture filtered, with its error; UsageError where `denoise` did not ask for it."""

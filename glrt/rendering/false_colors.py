@@ -1,7 +1,7 @@
 """A number of each pixel as a colour: errors, dropped samples, differences, history, distances.
 
 The error of a pixel is its share in that of the picture: the mean over pixels of its square is the
-square of `glrt.error.estimate.relative_error`.
+square of `glrt.error.estimate.estimated_error`.
 """
 
 import math
@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.error.estimate import DARK
+from glrt.error.estimate import DARK, LUCK, UNSURE
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.program import drawing
 from glrt.gpu.structs import read_constants
@@ -107,6 +107,7 @@ class FalseColors:
         `mean`: of the radiance, over pixels and channels.
         """
         values: dict[str, Any] = {"shows": SHOWS["SHOWS_ERROR"], "dark": DARK * mean**2}
+        values |= {"unsure": UNSURE, "luck": LUCK}
         if not are_trivial(weights):
             values["layer_count"] = film.extent.layers
             values["weights"] = [*weights, *[NONE] * (MOST_LAYERS - len(weights))]
@@ -159,6 +160,7 @@ class FalseColors:
         for unit, texture in enumerate(parts):
             texture.use(unit)
         plain = {"layer_count": 0, "weights": [ONE] * MOST_LAYERS, "dark": 0.0, "least": 0.0}
+        plain |= {"unsure": 0.0, "luck": 1.0}
         plain["samples"] = film.samples
         range_ = {"is_logarithmic": scale.is_logarithmic, "range": (scale.low, scale.high)}
         for name, value in {**plain, **range_, "colors": scale.colors, **values}.items():

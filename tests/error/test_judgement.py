@@ -25,11 +25,15 @@ def even(size: int = SIZE) -> tuple[Pixels, Pixels]:
     return radiance, np.float32(NOISE) * radiance
 
 
-def with_rim(shown: float, error: float) -> tuple[Pixels, Pixels]:
-    """The same with a pixel in the middle that shows so much of a lamp, with so large an error."""
+def with_rim(shown: float, error: float, beside: float = SKY) -> tuple[Pixels, Pixels]:
+    """The same with a pixel in the middle that shows so much of a lamp, with so large an error.
+
+    One beside it has so much light for certain.
+    """
     radiance, stderr = even()
     middle = SIZE // 2
     radiance[middle, middle], stderr[middle, middle] = shown, error
+    radiance[middle, middle + 1] = beside
     return radiance, stderr
 
 
@@ -41,8 +45,8 @@ def verdict(made: Scene, picture: tuple[Pixels, Pixels], **settings: Any) -> boo
 def test_a_lamp_that_was_met_too_often_or_too_rarely_is_known() -> None:
     truth = float(found(scene(BALL)).radiance[0, 0])
     by_luck, twice, missed = (
-        with_rim(truth, truth),
-        with_rim(4 * truth, 4 * truth),
+        with_rim(truth, truth, beside=0.4 * truth),
+        with_rim(4 * truth, 4 * truth, beside=5 * truth),
         with_rim(SKY, NOISE * SKY),
     )
     lucky = is_doubtful(*by_luck, 16)
@@ -56,8 +60,9 @@ def test_a_lamp_that_was_met_too_often_or_too_rarely_is_known() -> None:
 
 def test_what_is_known_of_a_lamp_does_not_excuse_other_pixels() -> None:
     truth = float(found(scene(BALL)).radiance[0, 0])
-    radiance, stderr = with_rim(truth, truth)
+    radiance, stderr = with_rim(truth, truth, beside=0.9 * truth)
     radiance[1, 1] = stderr[1, 1] = 40.0
+    radiance[1, 2] = 19.0
     assert verdict(scene(BALL), (radiance, stderr)) is True
 
 

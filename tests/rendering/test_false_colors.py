@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from glrt.error.estimate import squared_levels
 from glrt.errors import RenderError
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
@@ -80,8 +81,9 @@ def assert_drawn(codes: Codes, scale: Scale, numbers: Any) -> None:
 
 
 def pixel_errors(image: Image) -> NDArray[np.float64]:
-    radiance, mean = image.radiance.astype(np.float64), image.radiance.mean(dtype=np.float64)
-    ratio = image.stderr.astype(np.float64) ** 2 / (radiance**2 + 0.01 * mean**2)
+    mean = image.radiance.mean(dtype=np.float64)
+    levels = squared_levels(image.radiance, image.stderr)
+    ratio = image.stderr.astype(np.float64) ** 2 / (levels + 0.01 * mean**2)
     return np.asarray(np.sqrt(ratio.mean(axis=2)))
 
 
@@ -102,6 +104,8 @@ def test_the_error_of_a_pixel_is_its_share_in_that_of_the_picture(
             renderer, lambda colors, light: colors.draw_error(renderer.film, light, weights, mean)
         )
     errors = pixel_errors(image)
+    by_own = np.square(image.radiance, dtype=np.float64)
+    assert (squared_levels(image.radiance, image.stderr) < 0.5 * by_own).any(), "some are lucky"
     assert np.sqrt((errors**2).mean()) == pytest.approx(image.error)
     assert len(np.unique(codes)) > 50
     assert_drawn(codes, ERROR, errors)

@@ -61,6 +61,7 @@ def test_merged_parts_are_one_render_up_to_rounding(context: Context, sampler: s
         whole = renderer.render().image()
     np.testing.assert_allclose(found.radiance, whole.radiance, rtol=2e-6)
     np.testing.assert_allclose(found.stderr, whole.stderr, rtol=1e-3)
+    assert found.error == pytest.approx(whole.error, rel=1e-4)
     assert not same_bits(found.radiance, whole.radiance), "added in another order"
     assert [*found.aovs] == [*whole.aovs]
     for name, aov in whole.aovs.items():

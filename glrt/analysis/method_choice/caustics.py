@@ -152,7 +152,8 @@ def _pilot_of(settings: Settings, samples: float) -> int:
 
 def _samples_to(error: float, plain: Image) -> float:
     """How many samples of each pixel reach it without particles, about."""
-    return SAMPLES * _relative(plain.radiance, plain.stderr) / error**2
+    assert plain.error is not None  # there are four observations or more
+    return SAMPLES * (plain.error / error) ** 2
 
 
 def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixels: int) -> float:
