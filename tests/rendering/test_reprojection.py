@@ -186,8 +186,8 @@ def test_a_finer_view_shares_the_samples_of_a_coarse_one(context: Context) -> No
 
 
 def test_scenes_of_other_objects_share_no_numbers() -> None:
-    ball = sphere([0, 0, 0], 1.0, "matte")
-    one, two = (scene_of([ball] * n, {"matte": MATTE}, CAMERA) for n in (1, 2))
+    balls = [sphere([x, 0, 0], 1.0, "matte") for x in (0, 3)]
+    one, two = (scene_of(balls[:n], {"matte": MATTE}, CAMERA) for n in (1, 2))
     moved = scene_of([sphere([1, 0, 0], 2.0, "matte")], {"matte": MATTE}, CAMERA)
     assert shares_objects(one, moved)
     assert not shares_objects(one, two)

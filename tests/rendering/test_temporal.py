@@ -183,9 +183,9 @@ def test_the_evidence_is_the_bias_beyond_chance(context: Context) -> None:
 
 @pytest.mark.parametrize("mode", HISTORIES)
 def test_a_view_of_other_objects_begins_anew(context: Context, mode: Mode) -> None:
-    ball = sphere([0, 0, -3], 1.0, "matte")
+    balls = [sphere([0, 0, z], 1.0, "matte") for z in (-3, -6)]
     camera = {"position": [0, 0, 0], "look_at": [0, 0, -1]}
-    one, two = (scene_of([ball] * n, {"matte": MATTE}, camera, **SKY) for n in (1, 2))
+    one, two = (scene_of(balls[:n], {"matte": MATTE}, camera, **SKY) for n in (1, 2))
     _, shown = pictures((one, two), context, mode)
     assert same_bits(shown, film_of(two, context, seed=1))
 
