@@ -141,7 +141,7 @@ def serve(name: str, render: Callable[[Request], tuple[Image, float]]) -> None:
             image, seconds = render(Request(**words))
             image.save(output)
         except GlrtError as error:
-            answer(error=" ".join(str(error).split()))
+            answer(error=str(error))
         else:
             answer(seconds=seconds)
 

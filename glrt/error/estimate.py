@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt.error.neighbours import brightest_beside
 
-BAND = 1 << 20  # values in work at a time: copies in float64 stay small beside the image
+BAND = 1 << 18  # values in work at a time: copies in float64 stay small beside the image
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
 UNSURE = 4.0  # squared standard errors: a radiance of less than two of them may be luck alone
 LUCK = 32.0  # times the true radiance: what one lucky sample shows is no more, in 249 of 250 cases

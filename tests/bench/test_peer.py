@@ -28,7 +28,7 @@ from bench.peer import Request, serve
 def render(request):
     print("noise of a library")
     if request.seed == 1:
-        raise SceneError("no such\\nmaterial")
+        raise SceneError("no such material")
     if request.seed == 2:
         sys.stderr.write("first\\nthe driver is gone\\n")
         os.abort()

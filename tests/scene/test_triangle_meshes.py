@@ -82,7 +82,7 @@ def test_why_a_mesh_is_open() -> None:
     turned = faces.copy()
     turned[5] = turned[5, ::-1]
     assert checked(points, turned).opening.startswith("at 3 edges neighbouring triangles face")
-    twice = np.concatenate([faces, faces[:1]])
+    twice = np.concatenate([faces, faces[:1, ::-1]])  # an equal one would be left out
     assert "more than two meet" in checked(points, twice).opening
 
 
