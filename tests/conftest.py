@@ -3,7 +3,7 @@
 import os
 import shutil
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from ctypes.util import find_library
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from glrt.gpu import driver_checks
 from glrt.gpu.context import Context, open_context
 from glrt.methods.features import needs_of
 from glrt.rendering.evaluation import evaluate
+from glrt.scene import scene as scene_module
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.system_packages import needs_package
@@ -118,3 +119,14 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
         return evaluate(ctx, expression, inputs, *ways, settings=settings)
 
     return call
+
+
+@pytest.fixture
+def twins_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Scenes show every object, also one that another one covers."""
+
+    def shown(objects: Sequence[Any], materials: object) -> tuple[int, ...]:
+        del materials
+        return tuple(range(len(objects)))
+
+    monkeypatch.setattr(scene_module, "shown", shown)

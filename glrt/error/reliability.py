@@ -26,8 +26,9 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 LEAST_OBSERVATIONS = 4  # fewer do not tell a standard error
-TIMES = 2.0  # the true error over the estimate
-DOUBTFUL = 0.2  # the chance of that from which on it is doubted: docs/results/stress.md
+TIMES = 3.0  # the true error over the estimate, by chance
+KNOWN_TIMES = 2.0  # and where the truth of its pixels is known
+DOUBTFUL = 0.05  # the chance of that from which on it is doubted: docs/results/stress.md
 TOGETHER = (1, 4, 16, 64, 256)  # pixels that may bring it about
 SURE = 100  # hits: with more a pixel is known
 
@@ -39,20 +40,22 @@ def is_doubtful(
 
     It is not where for some k there is a chance of DOUBTFUL that k pixels are too bright, each by
     so much that together they make the error TIMES as large; nor where the pixels whose truth is
-    `seen` do that by themselves. None where that cannot be judged: below four observations,
-    without an estimate, or without noise or light.
+    `seen` make it KNOWN_TIMES as large by themselves. None where that cannot be judged: below four
+    observations, without an estimate, or without noise or light.
     """
     error = estimated_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
     if not error or not math.isfinite(error):
         return None
     values, errors = np.asarray(radiance, np.float32), np.asarray(stderr, np.float32)
-    room = (TIMES**2 - 1) * values[..., 0].size * error**2
+    total = values[..., 0].size * error**2
+    room = (TIMES**2 - 1) * total
     if seen is not None and seen.rows.size:
-        room -= _excess(values, errors, seen)
+        excess = _excess(values, errors, seen)
+        if excess >= (KNOWN_TIMES**2 - 1) * total:
+            return True
+        room -= excess
         errors = errors.copy()
         errors[seen.rows, seen.columns] = 0  # no chance is left there
-    if room <= 0:
-        return True
     found = _unsure(values, errors)
     return any(_chance(found, room, k) >= DOUBTFUL for k in TOGETHER)
 

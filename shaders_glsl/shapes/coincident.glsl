@@ -29,13 +29,18 @@ vec3 box_face_at(Box box, vec3 place) {
 vec3 normal_left(Ray ray, float reach) {
     int shape = ray.origin_shape;
     if (shape == NO_SHAPE || (HAS_SPHERE && up_to_sphere(shape))) return vec3(0.0);
-    if (HAS_BOX && is_box(shape)) return box_face_at(box_at(shape - first_box()), ray.origin);
+    if (HAS_BOX && is_box(shape)) {
+        precise vec3 face = box_face_at(box_at(shape - first_box()), ray.origin);
+        return face;
+    }
     if (HAS_CYLINDER && is_cylinder(shape)) {
         precise Cylinder cylinder = cylinder_at(shape - first_cylinder());
         precise float height = abs(dot(ray.origin - cylinder.center, cylinder.axis));
-        return height >= cylinder.half_height - APART * reach ? cylinder.axis : vec3(0.0);
+        bool is_cap = height >= cylinder.half_height - APART * reach;
+        return is_cap ? cylinder.axis : vec3(0.0);
     }
-    return true_normal(surface_at(ray, Hit(0.0, shape)));
+    precise vec3 normal = true_normal(surface_at(ray, Hit(0.0, shape)));
+    return normal;
 }
 
 // A ray that starts clear of all surfaces in the place of the one that it leaves.
@@ -65,8 +70,8 @@ Claim claim_of(Ray ray, float t, int shape) {
 
 // How far apart, along a ray, hits can be that tie.
 float tie_length(Ray ray) {
-    precise float reach = coincident_reach(ray);
-    return TOGETHER / STEEP * reach;
+    precise float most = TOGETHER / STEEP * coincident_reach(ray);
+    return most;
 }
 
 // Whether a ray that meets a shape at t sees that and not what it has met so far.

@@ -8,6 +8,7 @@ bool is_nearer(Ray ray, float t, int shape, Hit hit) {
 
 // How far a shape that takes the place of a hit may lie.
 float farthest(Ray ray, Hit hit) {
-    if (HAS_COINCIDENT) return hit.distance + tie_length(ray);
-    return hit.distance;
+    precise float most = hit.distance;
+    if (HAS_COINCIDENT) most += tie_length(ray);
+    return most;
 }

@@ -16,7 +16,7 @@ SHEET = quad([0, 0, 0], [1, 0, 0], [0, 0, 1], "white")
 @pytest.mark.parametrize(
     ("objects", "reason"),
     [
-        ([plane([0, 0, 0], [0, 1, 0], "white"), plane([5, 0, 1], [0, -2, 0], "white")], "plane"),
+        ([plane([0, 0, 0], [0, 1, 0], "white"), plane([5, 0, 1], [0, -2, 0], "white")], ""),  # one
         ([plane([0, 0, 0], [0, 1, 0], "white"), SHEET], "plane"),
         ([SHEET, quad([0.9, 0, 0.9], [0, 0, 1], [1, 0, 0], "white")], "plane"),
         ([SHEET, quad([1.0, 0, 0.0], [0, 0, 1], [1, 0, 0], "white")], ""),

@@ -31,9 +31,8 @@ def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
     """Bit for bit: 300 samples a dispatch of rays that meet 300 nodes each are too many."""
     if usable_rounds(context) is None:
         pytest.skip("this driver has no loop limit")
-    scene = scene_of(
-        [sphere([0, 0, 0], 1, "m")] * 300, {"m": MATTE}, background={"color": [1, 1, 1]}
-    )
+    balls = [sphere([0, 0, 0], 1 + k / 2**20, "m") for k in range(300)]
+    scene = scene_of(balls, {"m": MATTE}, background={"color": [1, 1, 1]})
     settings = {"width": 8, "height": 8, "bounces": 3}
     with rendering(scene, context, **settings) as renderer:
         before = renderer.most_samples
@@ -56,7 +55,7 @@ def test_a_limit_that_is_measured_late_leaves_the_context_as_it_was(
 
 def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context) -> None:
     """Rays to the left meet 40,000 spheres, twice, and are lost; those to the right none."""
-    pile_of = [sphere([-3, 0, -5], 2, "white")] * 40_000
+    pile_of = [sphere([-3, 0, -5], 2 + k / 2**20, "white") for k in range(40_000)]
     white = {"white": {"type": "lambertian", "color": [1, 1, 1]}}
     scene = scene_of(pile_of, white, background={"color": [0.5, 0.5, 0.5]})
     renderer = Renderer(scene, context=context, width=64, height=16, method="naive")

@@ -61,6 +61,7 @@ SETS = {
     **{f"smallest with {flag}": smallest_with(flag) for flag in sorted(FLAGS)},
     **{f"all but {flag}": all_but(flag) for flag in sorted(FLAGS)},
 }
+pytestmark = pytest.mark.usefixtures("twins_stay")  # of many objects the number matters
 OFTEN = [  # each of the others differs from "everything" by a feature, and takes as long
     pytest.param(name, marks=pytest.mark.slow) if name.startswith("all but") else name
     for name in SETS

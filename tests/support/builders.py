@@ -13,6 +13,7 @@ _NOTHING = {**EVERYTHING, **dict.fromkeys(_FLAGS, False)}
 FEATURE_SETS: dict[str, dict[str, bool | int]] = {
     "everything": EVERYTHING,
     "nothing": _NOTHING,
+    "everything, and shared places": {**EVERYTHING, "HAS_COINCIDENT": True},
     **{f"only {name}": {**_NOTHING, name: True} for name in _FLAGS},
     **{f"all but {name}": {**EVERYTHING, name: False} for name in _FLAGS},
 }
