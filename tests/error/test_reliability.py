@@ -81,9 +81,9 @@ def test_a_lone_pixel_that_one_sample_lit_is_in_the_estimate() -> None:
 
 def test_at_the_rim_of_what_is_bright_for_certain_it_takes_more() -> None:
     assert judged(planted((40.0, 33.0), beside=19.0)) is True
-    assert judged(planted((40.0, 26.0), beside=19.0)) is True
-    assert judged(planted((40.0, 26.0), beside=60.0)) is False
-    assert judged(planted(*[(40.0, 26.0)] * 4, beside=60.0)) is True
+    assert judged(planted((40.0, 24.5), beside=19.0)) is True
+    assert judged(planted((40.0, 24.5), beside=60.0)) is False
+    assert judged(planted(*[(40.0, 24.5)] * 4, beside=60.0)) is True
 
 
 def test_a_dark_pixel_has_no_voice() -> None:

@@ -97,7 +97,11 @@ TEXTURES = [
     ),
     Mutant(
         "rays to lamps meet holes",
-        edit("textures/holes.glsl", "if (!HAS_HOLE) return find_hit", "if (true) return find_hit"),
+        edit(
+            "textures/holes.glsl",
+            "HAS_HOLE) return find_hit(ray, limit",
+            "HAS_HOLE || true) return find_hit(ray, limit",
+        ),
         f"{_TRUTHS}::test_rays_to_lights_pass_the_layers_too",
     ),
     Mutant(

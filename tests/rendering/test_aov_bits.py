@@ -183,6 +183,7 @@ def test_a_tree_and_a_loop_find_the_same(context: Context, monkeypatch: pytest.M
     assert same_aovs(gathered(load("weekend"), context, 2, **SIZE), by_tree)
 
 
+@pytest.mark.usefixtures("twins_stay")
 def test_a_dispatch_that_runs_into_the_loop_limit_is_done_again(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -143,6 +143,7 @@ def test_another_limit_begins_anew(context: Context) -> None:
 
 
 @pytest.mark.usefixtures("loop_limit")
+@pytest.mark.usefixtures("twins_stay")
 def test_what_is_beyond_the_loop_limit_is_refused_by_name(context: Context) -> None:
     pile = [quad([0, 0, -3], [1, 0, 0], [0, 1, 0], "matte")] * 10
     scene = scene_of(pile, {"matte": MATTE}, background={"color": [1, 1, 1]})

@@ -241,6 +241,7 @@ def test_instances_far_from_the_origin_keep_their_bits(context: Context) -> None
     assert same(plain, rendered(group(1.0, (2.0**20, -(2.0**19), 2.0**18)), context, 8, **settings))
 
 
+@pytest.mark.usefixtures("twins_stay")
 def test_the_triangles_of_instances_are_kept_once() -> None:
     once = tree_of(scene := placed(*PLACES[:2]), contents_of(scene))
     often = tree_of(scene := placed(*(4 * PLACES)), contents_of(scene))
