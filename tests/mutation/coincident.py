@@ -39,7 +39,7 @@ COINCIDENT = [
     Mutant(
         "particles leave a lamp where another one is seen",
         edit("integrators/particles.glsl", "    return shows(back, lamp);", "    return true;"),
-        f"{_TRUTHS}::test_so_it_is_by_particles",
+        f"{_TRUTHS}::test_particles_leave_the_lamp_that_is_seen",
     ),
     Mutant(
         "an object is left out although one of its sides is seen",

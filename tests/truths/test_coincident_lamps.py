@@ -17,6 +17,7 @@ from tests.support.builders import (
     box,
     box_of_quads,
     disk,
+    glass,
     lamp,
     plane,
     quad,
@@ -24,7 +25,15 @@ from tests.support.builders import (
     sphere,
 )
 from tests.support.meshes import mesh, quads
-from tests.support.renders import METHODS, Estimate, assert_mean, rendered, same, whole
+from tests.support.renders import (
+    METHODS,
+    Estimate,
+    assert_agree,
+    assert_mean,
+    rendered,
+    same,
+    whole,
+)
 from tests.truths.test_direct_light import rectangle_form_factor
 
 FLOOR = plane([0, 0, 0], [0, 1, 0], "floor")
@@ -146,12 +155,21 @@ def test_so_it_is_where_probes_are_asked(context: Context, method: str) -> None:
     assert_mean(Estimate(pixels.mean(axis=(0, 1)), spread), truth, within=0.07, floor=1e-5)
 
 
-def test_so_it_is_by_particles(context: Context) -> None:
-    things, truth = CASES["two that overlap, the dim one first"]
-    settings: dict[str, Any] = {"caustics": "on", "linked": 0.0, "bounces": 1}
-    made = scene(things, ASIDE | {"fov": 1.0})
-    image = rendered(made, context, 256, tier="generic", **settings)
-    assert_mean(whole(image), truth, within=0.07, floor=1e-3 * truth)
+def test_particles_leave_the_lamp_that_is_seen(context: Context) -> None:
+    """Below a glass ball most light comes by particles; apart, the lamps share no place."""
+    ball = sphere([0.5, 0.5, 0], 0.3, "glass")
+    camera = {"position": [0.5, 0.45, -1.5], "look_at": [0.5, 0, 0], "fov": 25}
+    materials = MATERIALS | {"glass": glass()}
+    together = [over(-1, 1, "lamp"), over(0, 2, "bright")]
+    apart = [over(-1, 1, "lamp"), over(1, 2, "bright")]
+    settings: dict[str, Any] = {"caustics": "on", "linked": 0.0, "bounces": 3, "tier": "generic"}
+    images = [
+        rendered(
+            scene_of([FLOOR, ball, *lamps], materials, camera), context, 512, **settings, seed=k
+        )
+        for k, lamps in enumerate((together, apart))
+    ]
+    assert_agree(*images, within=0.05)
 
 
 @pytest.mark.parametrize("turned", [False, True])
