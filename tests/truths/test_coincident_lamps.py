@@ -163,13 +163,9 @@ def test_particles_leave_the_lamp_that_is_seen(context: Context) -> None:
     together = [over(-1, 1, "lamp"), over(0, 2, "bright")]
     apart = [over(-1, 1, "lamp"), over(1, 2, "bright")]
     settings: dict[str, Any] = {"caustics": "on", "linked": 0.0, "bounces": 3, "tier": "generic"}
-    images = [
-        rendered(
-            scene_of([FLOOR, ball, *lamps], materials, camera), context, 512, **settings, seed=k
-        )
-        for k, lamps in enumerate((together, apart))
-    ]
-    assert_agree(*images, within=0.05)
+    scenes = [scene_of([FLOOR, ball, *lamps], materials, camera) for lamps in (together, apart)]
+    one, two = (rendered(it, context, 512, seed=k, **settings) for k, it in enumerate(scenes))
+    assert_agree(one, two, within=0.05)
 
 
 @pytest.mark.parametrize("turned", [False, True])
