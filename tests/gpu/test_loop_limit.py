@@ -63,7 +63,7 @@ def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context)
     dropped = renderer.nonfinite()
     if usable_rounds(context) is None:
         assert dropped == 0
-        assert image.radiance.min() < 0.5 == image.radiance.max()
+        assert set(np.unique(image.radiance)) == {0.5}, "white balls vanish under an even sky"
         renderer.release()
         return
     assert 2 * 64 * 16 / 8 < dropped < 2 * 64 * 16

@@ -134,6 +134,7 @@ def test_scene_beyond_the_loop_limit_is_refused(context: Context) -> None:
         pass
 
 
+@pytest.mark.usefixtures("loop_limit")
 @pytest.mark.parametrize(
     ("scene", "change"),
     [
@@ -145,8 +146,6 @@ def test_scene_beyond_the_loop_limit_is_refused(context: Context) -> None:
 def test_refused_update_changes_nothing(
     context: Context, scene: Scene, change: dict[str, Any]
 ) -> None:
-    if not context.is_software:
-        pytest.skip("this machine renders on hardware")
     with rendering(everything(), context) as renderer:
         renderer.render(2)
         with pytest.raises((SceneError, UsageError)):
