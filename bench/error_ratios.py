@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 
 
 class Ratios(NamedTuple):
-    """Of the pictures of a scene: the true error, and estimates over it, (seeds,) each."""
+    """The true errors of the pictures of a scene, and the ratios of estimates, (seeds,) each."""
 
     true: float
     by_own: Array
@@ -83,7 +83,7 @@ def ratios_of(
 
 
 def row(name: str, found: Ratios) -> str:
-    """Of the table, as Markdown."""
+    """Rows of the table, as Markdown."""
     return f"| {name} | {found.true:.3f} | {_told(found.by_own)} | {_told(found.estimated)} |"
 
 

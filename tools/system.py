@@ -105,7 +105,7 @@ def find_missing(purpose: str) -> Missing:
 
 
 def required(missing: Missing, strict: bool, apt: bool) -> list[Need]:
-    """Those of the missing without which it is of no use to go on; OSMesa where apt still has it.
+    """The missing packages that stop the set-up; OSMesa is one where apt still has it.
 
     Where apt does not manage the system the probes may not know its ways: there glrt itself
     says what OpenGL it finds.

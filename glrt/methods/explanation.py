@@ -147,7 +147,7 @@ def _coincident(scene: Scene) -> str:
     pairs = len(coincidence_of(scene).pairs)
     if not pairs:
         return "no flat lamp lies in the plane of another surface and overlaps it"
-    return f"{counted(pairs, 'pair')} of objects, of which one emits, in one place"
+    return f"{counted(pairs, 'pair')} of a lamp and another object overlap in one plane"
 
 
 def _textures(needs: Needs, found: Contents) -> list[Feature]:

@@ -272,7 +272,7 @@ def _neighbours(folder: str) -> tuple[str, ...]:
 
 
 def _entry_like(name: str, folder: Path) -> str:
-    """What a folder holds under a name, else under another spelling of it, else the name."""
+    """The name as the folder spells it; the name itself where the folder has nothing like it."""
     try:
         if (folder / name_of(name)).exists():
             return name

@@ -37,7 +37,7 @@ NOWHERE = Coincidence((), (0.0,) * 3, (0.0,) * 3)
 
 
 def coincidence_of(scene: Scene) -> Coincidence:
-    """Pairs of visible objects, of which one emits, that lie in one plane and overlap there.
+    """Find each pair of a lamp and another visible object that overlap in one plane.
 
     Spheres and the walls of cylinders are not compared: they share a circle or a line with other
     shapes, unless they are twins.
@@ -129,7 +129,7 @@ def _on_planes(
 
 
 def _overlaps(lamps: Polygons, others: Polygons) -> Iterator[_Shared]:
-    """Polygons of which one of each pair emits."""
+    """Find the polygons that overlap lamps in one plane."""
     for a, b in box_pairs(lamps.boxes, others.boxes):
         first, second = lamps.of(a), others.of(b)
         same = (first.corners[:, :3] == second.corners[:, :3]).all(axis=(1, 2))

@@ -23,7 +23,7 @@ Found = tuple[MeshFile, dict[str, Material]]  # a file that knows what was left 
 
 
 def of_mtl(shape: Mesh, reader: AssetReader, where: str, rest: Material | None) -> Found:
-    """What the MTL files of an OBJ file say; of two materials of a name, the first.
+    """Read the materials of an OBJ file from its MTL files; the first of a name counts.
 
     `rest` is the material of what has none there. Without it `SceneError` is raised for an MTL
     file that cannot be read; materials that the file uses may be missing then.

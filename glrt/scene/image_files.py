@@ -114,7 +114,7 @@ def _decode_tga(content: bytes, color: bool) -> Pixels:
 
 
 def _plain(opened: Callable[[], Any], color: bool) -> Pixels:
-    """Of 8 bits, perhaps with a palette."""
+    """Read an image of 8 bits a channel, perhaps with a palette."""
     with _reading(), opened() as image:
         check_size(*image.size)
         is_plain = image.mode in ("L", "LA", "RGB", "RGBA")

@@ -43,7 +43,7 @@ _OPTIONS = {  # of images, and how many arguments each has at most
 
 @dataclass
 class Entry:
-    """What a file says of a material, by key, and what of it is left out, in words."""
+    """The keys of a material in a file, and the names of those that are left out."""
 
     colors: dict[str, Radiance] = field(default_factory=dict)
     numbers: dict[str, float] = field(default_factory=dict)

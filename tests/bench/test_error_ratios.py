@@ -25,7 +25,7 @@ def test_scenes_are_ordinary_ones_and_as_many_of_each_kind() -> None:
 def test_an_ordinary_scene_is_estimated_right(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Of 16 x 12 pixels and four seeds, whose mean is known to some percent."""
+    """Render 16 x 12 pixels with four seeds; the mean is known to some percent."""
     monkeypatch.setattr("bench.error_ratios.SIZE", {"width": 16, "height": 12})
     monkeypatch.setattr("bench.error_ratios.HALF", 1024)
     found = ratios_of(load("sky"), "mis", context, 64, 4, "sobol")

@@ -27,7 +27,7 @@ RENDER = "import glrt; print(glrt.render(glrt.load('sky'), samples=1, width=8, h
 
 
 def python(code: str, **environment: str) -> str:
-    """What a program prints; it must end well, and say nothing else."""
+    """Output of a program, which must succeed and print nothing on stderr."""
     done = subprocess.run(
         [sys.executable, "-c", code],
         capture_output=True,

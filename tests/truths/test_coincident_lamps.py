@@ -55,7 +55,7 @@ def front(thing: dict[str, Any], down: bool = False) -> dict[str, Any]:
 
 
 def light_of(start: float, end: float, radiance: float) -> float:
-    """What a floor of albedo 1/2 sends on below a lamp from `start` to `end`."""
+    """Radiance of a floor of albedo 1/2 below a lamp from `start` to `end`."""
 
     def to(x: float) -> float:
         return 2 * float(np.sign(x)) * rectangle_form_factor(abs(x), DEPTH / 2)
