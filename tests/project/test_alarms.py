@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tests.support.alarms import FEWEST, assert_fits, assert_near, chi_square_tail, pooled
+from tests.support import alarms
+from tests.support.alarms import ALPHA, FEWEST, assert_fits, assert_near, chi_square_tail, pooled
 
 
 @pytest.mark.parametrize(
@@ -50,3 +51,19 @@ def test_a_mean_is_judged_by_its_deviation() -> None:
     assert_near([0.1, -0.2], 0, 0.05)
     with pytest.raises(AssertionError, match=r"6\.00 sigmas"):
         assert_near([0.1, 0.3], 0, 0.05)
+
+
+def test_verdicts_that_are_given_jointly_share_one_chance(monkeypatch: pytest.MonkeyPatch) -> None:
+    booked: list[float] = []
+    monkeypatch.setattr(alarms, "_booked", booked)
+    assert_near(np.full(20, 5.8), 0, 1)  # above 5.33, the limit of a single value
+    for _ in range(4):
+        assert_fits([50, 50], [50, 50], among=4)
+    assert booked == [ALPHA, *[ALPHA / 4] * 4]
+    with pytest.raises(AssertionError, match=r"5\.80 sigmas"):
+        assert_near(5.8, 0, 1)
+    random = np.random.default_rng(0)
+    tilted = random.multinomial(100_000, np.where(np.arange(100) < 50, 0.01035, 0.00965))
+    assert_fits(tilted, np.full(100, 1000), among=10**9)
+    with pytest.raises(AssertionError, match="chi-square"):
+        assert_fits(tilted, np.full(100, 1000))

@@ -25,31 +25,36 @@ Floats = NDArray[np.float64]
 _booked: list[float] = []
 
 
-def book(verdicts: int = 1) -> None:
+def book(verdicts: float = 1) -> None:
     """So many verdicts are given, each with a chance of ALPHA to be wrong."""
     _booked.append(verdicts * ALPHA)
 
 
 def assert_near(value: ArrayLike, truth: ArrayLike, deviation: ArrayLike) -> None:
-    """Each value lies where a normal one of this mean and standard deviation would."""
+    """Each value lies where a normal one of this mean and standard deviation would.
+
+    All of them are one verdict: its chance is shared out evenly (Bonferroni).
+    """
     scores = np.abs(np.asarray(value) - np.asarray(truth)) / np.asarray(deviation)
-    book(scores.size)
-    assert np.max(scores) <= SIGMAS, f"{np.max(scores):.2f} sigmas: {value!r} against {truth!r}"
+    book()
+    limit = NormalDist().inv_cdf(1 - ALPHA / scores.size / 2)
+    assert np.max(scores) <= limit, f"{np.max(scores):.2f} sigmas: {value!r} against {truth!r}"
 
 
-def assert_fits(counts: ArrayLike, expected: ArrayLike) -> None:
+def assert_fits(counts: ArrayLike, expected: ArrayLike, among: int = 1) -> None:
     """Counts of independent draws, whose number is fixed, are as expected: Pearson's chi-square.
 
     Cells are pooled until each expects FEWEST draws; in one that expects none there may be none.
+    A test that judges several tables as one verdict says `among` how many.
     """
     found, wanted = np.ravel(counts).astype(np.float64), np.ravel(expected).astype(np.float64)
     assert found[wanted == 0].sum() == 0, "draws where the density is 0"
     found, wanted = pooled(found, wanted)
     statistic = float(((found - wanted) ** 2 / wanted).sum())
     degrees = len(wanted) - 1
-    book()
+    book(1 / among)
     p = chi_square_tail(statistic, degrees)
-    assert p >= ALPHA, f"chi-square {statistic:.1f} of {degrees} degrees: p {p:.2g}"
+    assert p >= ALPHA / among, f"chi-square {statistic:.1f} of {degrees} degrees: p {p:.2g}"
 
 
 def pooled(found: Floats, wanted: Floats) -> tuple[Floats, Floats]:
