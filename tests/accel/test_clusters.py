@@ -171,6 +171,7 @@ def test_a_moved_camera_does_not_group_lamps_anew() -> None:
 # --- the choice --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("999")
 @pytest.mark.parametrize("count", COUNTS)
 def test_densities_are_the_chances_of_clusters_and_of_lamps_in_them(
     call_glsl: CallGlsl, count: int
@@ -190,6 +191,7 @@ def test_densities_are_the_chances_of_clusters_and_of_lamps_in_them(
         assert found.sum(dtype=np.float64) == pytest.approx(1, abs=1e-5)
 
 
+@pytest.mark.slow_cases("999")
 @pytest.mark.parametrize("count", COUNTS)
 def test_a_lamp_is_chosen_as_often_as_its_density_says(call_glsl: CallGlsl, count: int) -> None:
     """Near the lamps and far from them; the chance of a false alarm is that of `alarms`."""
@@ -228,6 +230,7 @@ def test_a_lamp_that_is_a_cluster_is_not_chosen_where_it_was_just_left(
         assert np.mean(shape == 0) == pytest.approx(share, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [MOST_NEAR, 2 * MOST_NEAR, 300])
 def test_many_lamps_bring_the_light_that_scattering_finds(context: Context, count: int) -> None:
     """Small balls under a ceiling; measured: errors of 0.03, 0.03 and 0.05."""

@@ -125,6 +125,7 @@ def verdict_within(seconds: float, context: Context, monkeypatch: pytest.MonkeyP
     return verdict_on(load("methods/glass"), 0.3, context, seconds=seconds)
 
 
+@pytest.mark.slow
 def test_a_measurement_ends_with_its_time_and_tells_what_it_did_not_try(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -106,6 +106,7 @@ def under_a_ball(radius: float) -> Scene:
     return scene_of(things, materials, camera=camera)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [0.1, 1e-4])
 def test_light_that_no_path_finds_is_not_taken_for_darkness(
     radius: float, context: Context

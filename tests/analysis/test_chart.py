@@ -89,6 +89,7 @@ def table(folder: Path, name: str) -> list[dict[str, str]]:
 # --- files ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_every_scene_gets_its_files_and_one_page_shows_all(charted: Path) -> None:
     suffixes = ("csv", "json", "png", "rounds.json", "svg")
     expected = {f"{name}.{suffix}" for name in TITLES for suffix in suffixes}
@@ -147,6 +148,7 @@ def few_variants(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(experiment, "variants_of", lambda *scene: variants_of(*scene)[:2])
 
 
+@pytest.mark.slow
 def test_the_same_command_measures_nothing_again_and_more_rounds_add(
     charted: Path, cache: str, scenes: Path
 ) -> None:
@@ -183,6 +185,7 @@ def test_rounds_of_another_measurement_or_damaged_ones_are_not_gone_on_with(
     assert len(measured(9)) == 2
 
 
+@pytest.mark.slow
 def test_interruption_keeps_the_rounds_that_are_done(
     tmp_path: Path, cache: str, scenes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -232,6 +235,7 @@ def test_an_interval_that_reaches_below_zero_makes_no_band_down_the_whole_chart(
     assert tuple(band.get_extents().extents) == (2, 6, 4, 10)
 
 
+@pytest.mark.slow
 def test_variants_beyond_the_loop_limit_are_left_out(
     context: Context, tmp_path: Path, scenes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from glrt.analysis.method_choice.advice import denoised_advice
 from glrt.analysis.method_choice.candidate import Bias, Candidate
@@ -24,6 +25,7 @@ def chosen(variance: float, bias: float = 0.0) -> Candidate:
     return Candidate("mis", WANTED, Bias(bias**2, 0.0), variance, 1.0, 1e-3)
 
 
+@pytest.mark.slow
 def test_what_is_recommended_reaches_the_error_in_truth(context: Context) -> None:
     error = 0.05
     found = denoised_choice(ROOM, chosen(8.0), error, context)  # plain: 3,200 samples
@@ -58,6 +60,7 @@ def test_half_as_many_samples_must_suffice(context: Context) -> None:
     assert found.samples == 64
 
 
+@pytest.mark.slow
 def test_what_longer_paths_leave_out_counts(context: Context) -> None:
     """A bias beside which the filter's error has no room."""
     found = denoised_choice(ROOM, chosen(8.0), 0.06, context)

@@ -46,6 +46,7 @@ def test_a_limit_that_is_given_is_kept(context: Context) -> None:
     assert {candidate.settings.bounces for candidate in verdict.candidates} == {2}
 
 
+@pytest.mark.slow
 def test_a_scene_that_reflects_nothing_needs_one_bounce_and_the_cheapest_method(
     context: Context,
 ) -> None:
@@ -103,6 +104,7 @@ def test_the_time_of_a_crop_is_its_share_of_the_frame(
 # --- biases --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_bias_of_a_model_is_what_an_independent_measurement_finds(context: Context) -> None:
     """Direct light alone in a diffuse room: against 2048 samples of other random numbers."""
     scene = load("methods/diffuse")
@@ -146,6 +148,7 @@ def test_samples_make_up_for_the_bias() -> None:
 # --- the choice ----------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("glass")
 @pytest.mark.parametrize("name", QUICK)
 def test_the_choice_reaches_the_error_on_scenes_that_separate_methods(
     context: Context, name: str
@@ -167,6 +170,7 @@ def test_no_cheaper_rung_reaches_the_error_on_scenes_that_separate_methods(
     assert judge.cheaper_ones() == []
 
 
+@pytest.mark.slow
 def test_the_judge_finds_what_is_cheaper_than_a_wasteful_choice(context: Context) -> None:
     scene = load("methods/diffuse")
     judge = Judge(scene, verdict_on(scene, 0.5, context), context)

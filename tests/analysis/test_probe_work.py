@@ -3,6 +3,8 @@
 from dataclasses import replace
 from typing import Any
 
+import pytest
+
 from glrt.analysis.chart.rays import Rays, rays_of
 from glrt.analysis.method_choice.candidate import OfProbes
 from glrt.analysis.method_choice.search import WITHOUT_PROBES
@@ -57,6 +59,7 @@ def test_work_of_probes_is_shared_by_pixels_and_blocks() -> None:
     assert one.work_to(0.1) == 112 + 7 * 1024 + 2048
 
 
+@pytest.mark.slow
 def test_probes_are_tried_where_that_is_asked_for(context: Context) -> None:
     """In a small picture their sets are most of the work, in a large one hardly any."""
     scene = load("methods/white")

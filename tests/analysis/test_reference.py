@@ -193,6 +193,7 @@ def correlations(a: Any, b: Any, block: int) -> tuple[float, float]:
     return float(np.corrcoef(means[0][lit], means[1][lit])[0, 1]), float(lit.sum() ** -0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", ["independent", "sobol"])
 def test_references_share_no_noise_with_pictures_of_the_same_seed(
     context: Context, sampler: str

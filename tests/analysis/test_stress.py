@@ -19,7 +19,6 @@ from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.resources import folder
 from tests.support.alarms import book
-from tests.support.slow_cases import some_slow
 
 TINY = 1 / 64
 VERDICTS = {
@@ -34,10 +33,11 @@ VERDICTS = {
     "dimensions": 1,
     "sparks": 6,
 }
-SLOW = (  # cases that take more than 10 s of processor time each where no kernel is known
+SLOW = (  # more than a second each, or many kernels
     *("lamps", "spots", "ceiling", "bulb", "focus", "mirrored", "ground", "many", "aperture"),
     *("near", "refracted", "slats", "contact", "leak", "wall", "rooms", "point", "polish"),
     *("stripes", "thin", "layers", "speed", "reflection", "rough", "step"),
+    *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
 )
 SWEEP = Sweep(
     parameter="size",
@@ -51,7 +51,8 @@ SWEEP = Sweep(
 )
 
 
-@pytest.mark.parametrize("name", some_slow(CASES, SLOW))
+@pytest.mark.slow_cases(*SLOW)
+@pytest.mark.parametrize("name", CASES)
 def test_every_case_holds_and_tells_the_naive_method_from_the_chosen(
     context: Context, name: str
 ) -> None:

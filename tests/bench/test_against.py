@@ -135,6 +135,7 @@ def test_the_exit_code_tells_what_is_slower(
     assert capsys.readouterr().out.endswith("\nslower\n")
 
 
+@pytest.mark.slow
 def test_the_checkout_is_compared_with_its_own_commit(capsys: pytest.CaptureFixture[str]) -> None:
     """Its files may have been edited since: whether they are slower is not for this test."""
     needs_history()

@@ -9,6 +9,7 @@ from PIL import Image
 from bench import aov_sheet
 
 
+@pytest.mark.slow
 def test_the_sheet_shows_the_picture_and_every_aov(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -7,6 +7,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 
 
+@pytest.mark.slow
 def test_a_row_has_a_ratio_for_each_choice(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -76,6 +76,7 @@ open(sys.argv[-1], "w").close()
 """
 
 
+@pytest.mark.slow
 def test_a_start_is_timed_whole_with_its_memory() -> None:
     mine = np.ones(400 << 20, np.uint8)  # memory of the process that starts it does not count
     programs = {
@@ -90,6 +91,7 @@ def test_a_start_is_timed_whole_with_its_memory() -> None:
     assert 200 << 20 < found["painter"].peak < 300 << 20
 
 
+@pytest.mark.slow
 def test_figures_are_printed_and_saved_and_absent_peers_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -70,6 +70,7 @@ def test_a_small_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert capsys.readouterr().out == told
 
 
+@pytest.mark.slow
 def test_the_sheet_has_three_pictures_of_each_scene(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -51,6 +51,7 @@ def test_each_kind_is_drawn_from_the_seed() -> None:
     assert frozen_seed() == frozen_seed()
 
 
+@pytest.mark.slow
 def test_a_table_of_two_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doubt, "HALF", 128)
     monkeypatch.setattr(doubt, "DIRECT", 256)

@@ -121,6 +121,7 @@ def test_a_picture_is_rendered_again_until_the_time_is_spent(context: Context) -
     renderer.release()
 
 
+@pytest.mark.slow
 def test_each_way_of_this_machine_is_tried(
     context: Context, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -18,6 +18,7 @@ def test_a_scene_has_as_many_lamps_as_it_is_asked_for(name: str, count: int) -> 
     assert panels == (count // 2 if name == "mixed" else 0)
 
 
+@pytest.mark.slow
 def test_nearness_takes_noise_from_a_hall_and_none_from_lamps_equally_far(
     context: Context,
 ) -> None:
@@ -31,6 +32,7 @@ def test_nearness_takes_noise_from_a_hall_and_none_from_lamps_equally_far(
         assert np.all(np.array(fewer[1:]) < most)
 
 
+@pytest.mark.slow
 def test_the_table_has_a_row_for_each_way(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["around", "--counts", "40", "--size", "8", "--rounds", "2"]) == 0
     rows = [line for line in capsys.readouterr().out.splitlines() if line.startswith("| around")]

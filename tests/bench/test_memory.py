@@ -5,6 +5,7 @@ import pytest
 from bench.memory import Row, main, measure, table
 
 
+@pytest.mark.slow
 def test_film_and_picture_account_for_what_a_larger_picture_takes() -> None:
     """Up to what bands of rows and the writing of files take: 48 MiB, of 240 here."""
     row = measure(1280, "sobol")

@@ -33,6 +33,7 @@ def test_rays_among_balls_look_at_some_nodes_and_not_at_all(context: Context) ->
     assert not np.array_equal(counts[0], counts[1]), "each sample has its own rays"
 
 
+@pytest.mark.slow
 def test_the_table_has_a_row_a_scene(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -109,6 +109,7 @@ def test_a_peer_that_does_not_start_says_why(program: str, reason: str) -> None:
         Peer([sys.executable, "-c", program])
 
 
+@pytest.mark.slow
 def test_the_wgsl_version_is_a_peer(context: Context, webgpu: Device) -> None:
     assert webgpu
     peer = Peer([sys.executable, "-m", "tests.wgsl.serve"])

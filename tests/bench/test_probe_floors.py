@@ -22,6 +22,7 @@ def test_noise_is_no_floor() -> None:
     assert floor.median == pytest.approx(0.1, abs=0.01)
 
 
+@pytest.mark.slow
 def test_a_small_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["methods/white", "--size", "8", "--seeds", "2", "--truth", "64", "--samples", "16"]
     assert probe_floors.main([*words, "--truths", str(tmp_path)]) == 0
@@ -31,6 +32,7 @@ def test_a_small_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert told.count("| methods/white | mis |") == 1
 
 
+@pytest.mark.slow
 def test_the_row_has_three_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(probe_floors, "ROW", (32, 16))
     file = tmp_path / "row.jpg"

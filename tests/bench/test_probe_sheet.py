@@ -9,6 +9,7 @@ from PIL import Image as Pillow
 from bench import probe_sheet
 
 
+@pytest.mark.slow
 def test_the_sheet_has_a_dark_room_with_a_leak_and_one_without(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -6,6 +6,7 @@ from bench.repeated_meshes import heap, main, measure, table
 from glrt.gpu.context import Context
 
 
+@pytest.mark.slow
 def test_each_heap_is_measured_in_both_ways(context: Context) -> None:
     rows = measure(context, [(2, 3), (3, 2)], size=8, rounds=6)
     assert [(row.triangles, row.copies) for row in rows] == [(320, 3), (1280, 2)]

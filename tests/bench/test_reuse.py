@@ -20,6 +20,7 @@ def test_noise_is_the_spread_over_seeds_and_gain_counts_its_square_and_time() ->
     assert one.light[1] == pytest.approx(0.2 / (64 * 32 * 32 * 3) ** 0.5, rel=0.3)
 
 
+@pytest.mark.slow
 def test_a_small_run_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert reuse.main(["methods/white", "--size", "8", "--seeds", "2"]) == 0
     told = capsys.readouterr().out
@@ -27,6 +28,7 @@ def test_a_small_run_is_told(capsys: pytest.CaptureFixture[str]) -> None:
         assert told.count(f"| methods/white | {way} |") == 1
 
 
+@pytest.mark.slow
 def test_the_row_has_six_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reuse, "ROW", (32, 16))
     monkeypatch.setattr(reuse, "MANY", 16)

@@ -31,6 +31,7 @@ def test_shapes_of_all_kinds_lie_within_their_balls(kind: str) -> None:
         assert shape.reach <= max(other.reach for other in balls) * (1 + 1e-9)
 
 
+@pytest.mark.slow
 def test_each_crowd_is_measured_with_a_tree_and_without(context: Context) -> None:
     rows = measure(context, [40, FIRST], size=8, rounds=3)
     assert [row.number for row in rows] == [40, FIRST]
@@ -44,6 +45,7 @@ def test_each_crowd_is_measured_with_a_tree_and_without(context: Context) -> Non
     assert f"{64 / rows[0].tree_seconds / 1e6:.2f}" in lines[2]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("loop_limit")
 def test_a_crowd_beyond_the_loop_limit_is_measured_with_a_tree_alone(
     capsys: pytest.CaptureFixture[str],

@@ -25,6 +25,7 @@ def picture(context: Context, way: Way, samples: int = 32, seed: int = 0) -> Ima
     return image
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("edits", sorted(EDITS), ids=lambda edits: edits[-1].new)
 def test_an_edit_gives_other_noise_and_the_same_picture(
     context: Context, edits: tuple[Edit, ...]
@@ -72,6 +73,7 @@ def test_starts_of_roulette_stand_beside_each_other() -> None:
     assert lines[3] == "| below 1/4, from bounce 3 | 8.00 (2.00) | 18.00 (2.00) | 12.00 |"
 
 
+@pytest.mark.slow
 def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     """Of all tables, or of those that are named."""
     assert main(["--scenes", "sky", "--size", "8", "--rounds", "2"]) == 0

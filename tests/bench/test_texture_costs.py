@@ -6,6 +6,7 @@ from bench import texture_costs
 from glrt.gpu.context import Context
 
 
+@pytest.mark.slow
 def test_each_choice_is_measured(
     context: Context, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -153,6 +153,7 @@ def test_what_is_no_part_of_the_program_leaves_the_seed(tree: Path) -> None:
     assert 0 <= before < 1 << 32
 
 
+@pytest.mark.slow
 def test_the_command_measures_scenes_as_long_as_there_is_time(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -130,6 +130,7 @@ def test_egl_and_osmesa_decide_alike(folder: Path) -> None:
     assert same(one, other)
 
 
+@pytest.mark.slow
 def test_parts_decide_alike_and_merge(folder: Path) -> None:
     whole = rendered(BALL, *LONG)
     for number in (1, 2):

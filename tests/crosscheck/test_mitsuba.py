@@ -122,6 +122,7 @@ def test_images_lie_on_meshes_as_mitsuba_has_them(
     assert not judged(ours(context, other), theirs(mitsuba, scene))
 
 
+@pytest.mark.slow
 def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     scene = meshes()
     picture = theirs(mitsuba, scene)
@@ -134,6 +135,7 @@ def test_meshes_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> Non
     assert not judged(ours(context, turned), picture)
 
 
+@pytest.mark.slow
 def test_glowing_surfaces_and_one_sided_lamps_look_the_same_to_mitsuba(
     context: Context, mitsuba: Peer
 ) -> None:
@@ -153,6 +155,7 @@ def test_measured_metals_look_the_same_to_mitsuba(context: Context, mitsuba: Pee
     assert not judged(ours(context, measured("brass")), picture)
 
 
+@pytest.mark.slow
 def test_rough_and_thin_glass_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     picture = theirs(mitsuba, frosted())
     found = judged(ours(context, frosted()), picture)
@@ -252,6 +255,7 @@ def test_scene_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer, name: 
     assert found.verdict == "same", str(found)
 
 
+@pytest.mark.slow
 def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:
     """In its slow mode, which needs no LLVM, and from the command line."""
     if find_spec("mitsuba") is None:

@@ -14,6 +14,7 @@ from tests.mitsuba.scenes import everything
 LINKED: dict[str, Any] = {"caustics": "on", "linked": 1.0}
 
 
+@pytest.mark.slow
 def test_particles_bring_the_same_light(context: Context, mitsuba: Peer) -> None:
     found = judged(ours(context, everything(), **LINKED), theirs(mitsuba, everything()))
     assert found, str(found)

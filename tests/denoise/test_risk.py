@@ -95,6 +95,7 @@ def test_of_a_blur_it_is_bias_and_variance_in_closed_form(counts: tuple[int, int
     assert_zero_on_average(differences(box, expected, counts))
 
 
+@pytest.mark.slow
 def test_of_the_filter_and_its_blend_it_is_the_true_error() -> None:
     """Against the truth of each draw: nothing is known of the error in closed form."""
     rng, truth = np.random.default_rng(3), truth_with_an_edge(16)

@@ -32,6 +32,7 @@ def floor_under_a_lamp() -> Scene:
     return scene_of(objects, materials, {"look_at": [0, -1, -2], "fov": 40})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", SAMPLERS)
 def test_reported_error_is_the_error_of_cornell(context: Context, sampler: str) -> None:
     """At 64 samples the block with the most noise, in the caustic, rests on 500 effective samples.

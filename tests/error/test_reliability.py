@@ -173,6 +173,7 @@ def test_it_is_known_of_a_file_and_not_of_few_samples(context: Context, tmp_path
     assert rendered(CASES["caustic"].scene, context, 48).error_doubtful is None
 
 
+@pytest.mark.slow
 def test_the_command_warns_with_and_without_a_wanted_error(tmp_path: Path) -> None:
     write_scene(CASES["caustic"].scene, tmp_path / "caustic.toml")
     write_scene(MATTE, tmp_path / "matte.toml")

@@ -157,15 +157,10 @@ def test_each_line_of_a_message_is_led_back() -> None:
     assert source.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
 
 
-OFTEN = [  # each of the others differs from "everything" by a feature, and takes as long
-    pytest.param(name, marks=pytest.mark.slow) if name.startswith("all but") else name
-    for name in FEATURE_SETS
-]
-
-
 # --- what the driver thinks ----------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("all but *")
 @pytest.mark.parametrize("features", FEATURE_SETS)
 def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: str) -> None:
     assert ctx.version_code >= 430
@@ -174,6 +169,7 @@ def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: 
     )
 
 
+@pytest.mark.slow
 def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert ctx.version_code >= 430
     for layers in ({"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}):
@@ -182,6 +178,7 @@ def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context
         assert warnings((COMPUTE, text)) == []
 
 
+@pytest.mark.slow_cases("everything-*")
 @pytest.mark.parametrize("render_pass", OF_PIXELS)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
 def test_aovs_and_surfaces_compile_without_a_warning(
@@ -196,6 +193,7 @@ def test_aovs_and_surfaces_compile_without_a_warning(
     assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
 
 
+@pytest.mark.slow_cases("everything-*")
 @pytest.mark.parametrize(
     "render_pass", [PARTICLES, SPLATS, TOLD], ids=["followed", "added", "told"]
 )
@@ -211,6 +209,7 @@ def test_other_passes_compile_without_a_warning(
     assert warnings((COMPUTE, compute.text)) == []
 
 
+@pytest.mark.slow
 def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -> None:
     number = plant(shaders / "sampling/warp.glsl", "float odd() { float x; return x; }")
     text = (shaders / "integrators/path_state.glsl").read_text()
@@ -229,7 +228,8 @@ def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -
         )
 
 
-@pytest.mark.parametrize("features", OFTEN)
+@pytest.mark.slow
+@pytest.mark.parametrize("features", FEATURE_SETS)
 def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) -> None:
     vertex, fragment = sources("fragment", FEATURE_SETS[features], WRITTEN)
     FragmentKernel(ctx, vertex, fragment).release()

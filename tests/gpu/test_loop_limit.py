@@ -53,6 +53,7 @@ def test_a_limit_that_is_measured_late_leaves_the_context_as_it_was(
     assert rendered(load("weekend"), context, 1, bounces=1000).samples == 1
 
 
+@pytest.mark.slow
 def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context) -> None:
     """Rays to the left meet 40,000 spheres, twice, and are lost; those to the right none."""
     pile_of = [sphere([-3, 0, -5], 2 + k / 2**20, "white") for k in range(40_000)]

@@ -32,6 +32,7 @@ def bits(scene: Scene, context: Context, tier: Tier, sampler: Sampler) -> bytes:
     return image.radiance.tobytes() + image.stderr.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize("name", scene_names())
 def test_constants_uniform_blocks_and_textures_give_the_same_bits(

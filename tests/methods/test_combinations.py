@@ -43,6 +43,7 @@ WORKING = [pair for pair in pairs() if works(*pair)]
 REFUSED = [pair for pair in pairs() if not works(*pair)]
 
 
+@pytest.mark.slow_cases("*--caustics*", "a merged picture-*")
 @pytest.mark.parametrize(
     ("one", "other"),
     [

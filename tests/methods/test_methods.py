@@ -35,6 +35,7 @@ def methods_agree(
     assert_agree(nee, mis, within)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HARD)
 def test_methods_agree_where_it_is_hard(context: Context, name: str) -> None:
     methods_agree(hard_scene(name), context, HARD[name][1], 0.05, width=32, height=32)
@@ -69,6 +70,7 @@ def small(name: str, height: int) -> dict[str, int]:
     return {"width": round(height * wish.width / wish.height / 8) * 8, "height": height}
 
 
+@pytest.mark.slow_cases("stage", "spot", "water", "frosted", "gloss", "table", "lamps", "lens")
 @pytest.mark.parametrize("name", LIT)
 def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
     """Blocks grow until the caustics, the rarest hits, stop ruling them."""
@@ -87,6 +89,7 @@ def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> No
     methods_agree(load(name), context, samples, 0.015, loose, **small(name, 32))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SUNNY)
 def test_methods_agree_under_a_sun(context: Context, name: str) -> None:
     """Without `naive`, which meets a sun of half a degree once in 100,000 directions."""

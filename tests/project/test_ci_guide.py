@@ -43,6 +43,7 @@ def run_pytest(project: Path) -> tuple[int, str]:
     return done.returncode, done.stdout
 
 
+@pytest.mark.slow
 def test_the_example_passes_on_a_right_picture(project: Path) -> None:
     code, told = run_pytest(project)
     assert code == 0, told
@@ -50,6 +51,7 @@ def test_the_example_passes_on_a_right_picture(project: Path) -> None:
     assert not (project / "failed").exists()
 
 
+@pytest.mark.slow
 def test_the_example_fails_on_a_wrong_picture_and_shows_it(project: Path) -> None:
     scene = project / "scenes" / "room.toml"
     right = scene.read_text()

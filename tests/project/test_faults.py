@@ -240,6 +240,7 @@ for _ in range(3):
 """
 
 
+@pytest.mark.slow
 def test_two_processes_may_share_a_cache(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, context: Context
 ) -> None:

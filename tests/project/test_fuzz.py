@@ -27,6 +27,7 @@ COUNTS = {
 }
 
 
+@pytest.mark.slow_cases("scenes by the grammar", "scenes with wrong values")
 @pytest.mark.parametrize("kind", COUNTS)
 def test_no_input_makes_a_traceback(kind: str, tmp_path: Path, context: Context) -> None:
     inputs, check = kinds(tmp_path, context)[kind]

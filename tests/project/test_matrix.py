@@ -35,6 +35,7 @@ def test_every_way_draws_the_same_bits(first: dict[str, Any], way: Way) -> None:
         assert told == "=" if is_software else float(told) < 0.01
 
 
+@pytest.mark.slow
 def test_a_driver_that_rounds_elsewhere_draws_the_same_picture() -> None:
     """Its noise too: paths part where a rounding decides, which is rare."""
     needs_package(bool(find_library("EGL")), "libegl1")

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 INI = "[pytest]\nmarkers = slow\n"
 CONFTEST = 'pytest_plugins = ["tests.support.slow_share", "tests.support.alarms"]\n'
@@ -32,6 +34,7 @@ def run_of_tests(folder: Path, processes: str, share: str) -> tuple[int, list[st
     return done.returncode, done.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_chances_of_false_alarms_and_slow_tests_are_those_of_the_whole_run(tmp_path: Path) -> None:
     for name, text in (("pytest.ini", INI), ("conftest.py", CONFTEST), ("test_it.py", BOOKING)):
         (tmp_path / name).write_text(text)

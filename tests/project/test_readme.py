@@ -48,6 +48,7 @@ def save_scenes(page: Path, folder: Path) -> None:
             (folder / named[1]).write_text(text)
 
 
+@pytest.mark.slow_cases("README", "choose-a-method", "tutorial")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_every_glrt_command_runs_in_order(page: Path, tmp_path: Path) -> None:
     """Sizes are made small, long limits short; a recipe has the size it has."""

@@ -7,6 +7,7 @@ from tests.project.soak import Look, around, held, soak, told
 GROWTH = 4.0  # megabytes in 24 stints; opening a context takes 0.04, a lost film some 0.5
 
 
+@pytest.mark.slow
 def test_stints_run_to_their_end() -> None:
     before = held()  # with what the tests before it left in this process
     looks = soak(600, seed=4, period=2)

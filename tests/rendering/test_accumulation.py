@@ -141,6 +141,7 @@ def after_a_million(call_glsl: CallGlsl, even: bool) -> tuple[Array, Array]:
     return mean, variance
 
 
+@pytest.mark.slow
 def test_film_keeps_its_digits_over_a_million_samples(call_glsl: CallGlsl) -> None:
     """2^20 samples, the most that may be asked for: even ones, spikes, and an edge of two values.
     Steps rounded to nearest would be off by ten times the noise at the edge (2.4e-3).

@@ -68,6 +68,7 @@ WAYS: list[tuple[Tier, Resolved]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tier", "way"), WAYS)
 def test_both_pipelines_and_tiers_give_the_same_aovs(
     context: Context, tier: Tier, way: Resolved

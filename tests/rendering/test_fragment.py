@@ -39,6 +39,7 @@ def bits(scene: Scene, context: Context, pipeline: Resolved, **settings: Any) ->
     return image.radiance.tobytes() + image.stderr.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize("name", scene_names())
 def test_fragment_and_compute_give_the_same_bits(name: str, sampler: str, context: Context) -> None:

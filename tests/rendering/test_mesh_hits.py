@@ -115,6 +115,7 @@ def exact(faces: Faces, origin: Array, direction: Array) -> tuple[Array, Array]:
     return best, margin
 
 
+@pytest.mark.slow_cases("blob")
 @pytest.mark.parametrize("name", sorted({*MESHES} - {"slivers"}))
 def test_rays_find_what_arithmetic_in_float64_finds(call_glsl: CallGlsl, name: str) -> None:
     origin, direction = rays(2048, 5)

@@ -14,7 +14,6 @@ from glrt.scene.shapes import Shape
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.numerics import Array
 from tests.support.renders import rendered
-from tests.support.slow_cases import some_slow
 
 ALBEDO, RADIANCE, RADIUS = 0.5, 60.0, 0.05
 MATERIALS: dict[str, dict[str, Any]] = {
@@ -36,9 +35,8 @@ SIZE, FOV = 64, 36.0
 FLOOR = -0.9
 
 
-@pytest.mark.parametrize(
-    "method", some_slow(["phong", "blinn", "whitted", "cook"], slow=["blinn", "whitted"])
-)
+@pytest.mark.slow_cases("blinn", "whitted")
+@pytest.mark.parametrize("method", ["phong", "blinn", "whitted", "cook"])
 def test_faces_of_one_plane_are_shaded_alike(context: Context, method: str) -> None:
     """A box, a disk and a cap in the place of a quad, of each material."""
     faces: dict[str, Callable[[str], dict[str, Any]]] = {

@@ -67,6 +67,7 @@ def test_a_file_holds_both_films(context: Context, tmp_path: Path) -> None:
     assert rendered(SCENE, context, 1, bounces=1).particles is None
 
 
+@pytest.mark.slow_cases("71")
 @pytest.mark.parametrize("begun", [16, 24, 71])
 def test_a_render_goes_on_to_the_same_bits(context: Context, tmp_path: Path, begun: int) -> None:
     """From the end of an observation, or from within, where its particles are there already."""

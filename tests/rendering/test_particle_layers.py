@@ -43,6 +43,7 @@ def alone(layers: int, shown: int) -> Weights:
     return tuple(ONE if layer == shown else NONE for layer in range(layers))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["by_group", "by_length"])
 def test_layers_add_up_to_all(name: str, request: pytest.FixtureRequest) -> None:
     renderer: Renderer = request.getfixturevalue(name)

@@ -27,7 +27,6 @@ from tests.support.images import same_bits
 from tests.support.meshes import icosphere, mesh
 from tests.support.particle_rooms import BALL, CAMERA, GOLD, LAMP, MATERIALS, ROOMS, room
 from tests.support.renders import assert_agree, rendered, rendering, same
-from tests.support.slow_cases import some_slow
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}
 CLOSED = room(
@@ -73,10 +72,10 @@ PLACES = {
     "a ball in the dark": in_the_dark(),
     "glossy surfaces": in_satin(),
 }
-SLOW = ("a lens", "glossy surfaces")
 
 
-@pytest.mark.parametrize("name", some_slow(PLACES, SLOW))
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PLACES)
 def test_links_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
     without = rendered(PLACES[name], context, 4096, seed=1, **size)
@@ -84,6 +83,7 @@ def test_links_change_the_noise_alone(context: Context, name: str) -> None:
     assert_agree(image, without, within=0.12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("bounces", "linked"),
     [

@@ -73,6 +73,7 @@ def test_a_matte_surface_takes_light_by_its_shading_normal(context: Context) -> 
     assert_mean(whole(image), ALBEDO / np.pi * irradiance, within=0.04)
 
 
+@pytest.mark.slow
 def test_a_mirror_reflects_by_its_shading_normal(context: Context) -> None:
     """Onto a ceiling: the light that its points see in the mirror is that of the sun, unchanged."""
     camera, things = PLACES["mirror"]
@@ -81,6 +82,7 @@ def test_a_mirror_reflects_by_its_shading_normal(context: Context) -> None:
     assert_mean(whole(image), ALBEDO / np.pi * irradiance, within=0.04)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", PLACES)
 def test_the_ways_share_light_where_normals_differ(context: Context, place: str) -> None:
     """Of a sun so large that scattering finds it as often as particles come."""
@@ -95,6 +97,7 @@ def test_the_ways_share_light_where_normals_differ(context: Context, place: str)
 BALLS = [([-0.5, -0.6, -0.5], 0.4), ([0.35, -0.6, -0.3], 0.35), ([-0.1, -0.75, 0], 0.2)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kinds",
     [

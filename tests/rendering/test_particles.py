@@ -24,16 +24,12 @@ from tests.support.builders import (
 from tests.support.images import same_bits
 from tests.support.particle_rooms import BALL, CAMERA, LAMP, MATERIALS, ROOMS
 from tests.support.renders import assert_agree, rendered, rendering, same
-from tests.support.slow_cases import some_slow
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
-SLOW = (
-    *("a disk", "a mesh that shines, one of glass", "the sun, a lamp and a drink", "a lens"),
-    *("a lamp in frosted glass", "the sun on glossy surfaces"),
-)
 
 
-@pytest.mark.parametrize("name", some_slow(ROOMS, SLOW))
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ROOMS)
 def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 6}
     without = rendered(ROOMS[name], context, 4096, seed=1, **size)
@@ -41,6 +37,7 @@ def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     assert_agree(image, without, within=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("particles", "aimed"), [(0.05, 0.98), (4.0, 0.0), (1.0, 0.5)])
 @pytest.mark.parametrize("sampler", ["sobol", "independent"])
 def test_however_many_there_are(
@@ -53,6 +50,7 @@ def test_however_many_there_are(
     assert_agree(image, without, within=0.05)
 
 
+@pytest.mark.slow
 def test_the_error_falls_where_light_comes_through_glass(context: Context) -> None:
     """Over the floor under the ball, by a factor of 2.2."""
     scene = ROOMS["a ball of glass"]
@@ -217,6 +215,7 @@ def test_a_picture_too_large_for_the_driver_is_refused(
         rendered(ROOMS["a lens"], context, 1, **ON)
 
 
+@pytest.mark.slow
 def test_cornell_keeps_its_light(context: Context) -> None:
     size: dict[str, Any] = {"width": 32, "height": 32, "sampler": "sobol"}
     one = rendered(load("cornell"), context, 2048, seed=1, **size)

@@ -51,6 +51,7 @@ def particle_files() -> str:
     return particle_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SKIES)
 def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 5}

@@ -168,6 +168,7 @@ def test_the_error_of_a_weighted_sum_takes_two_observations(context: Context, sa
         assert renderer.render(2 * block).image().error is not None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", ["independent", "sobol"])
 def test_the_error_of_a_weighted_sum_is_what_it_is(context: Context, sampler: str) -> None:
     """The estimate against the deviation from a render of 64 times as many samples."""

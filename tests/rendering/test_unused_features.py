@@ -122,6 +122,7 @@ def untold(glsl: str) -> str:
     return re.sub(r"goes_on\(\w+\)", "false", text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scene", "settings", "files"), UNUSED)
 def test_functions_that_a_scene_leaves_out_change_no_byte(
     context: Context, scene: str, settings: dict[str, Any], files: list[str]
@@ -156,6 +157,7 @@ def assert_same_program(
     assert len(beyond) <= UNDEFINED, beyond
 
 
+@pytest.mark.slow
 def test_functions_that_a_scene_uses_do(context: Context) -> None:
     plain = program_of(context, "lamps", {})
     for file in ("bsdfs/matte.glsl", "lights/sampling.glsl"):

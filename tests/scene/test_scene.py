@@ -168,6 +168,7 @@ def test_a_misspelt_key_is_not_reported_as_missing_too() -> None:
     assert "missing" not in refusal(data)
 
 
+@pytest.mark.slow
 def test_sixty_five_thousand_objects_are_the_limit() -> None:
     ball = MINIMAL["objects"][0]
     assert len(parse_scene(minimal(objects=[ball] * 65_536), "test").objects) == 65_536

@@ -26,6 +26,7 @@ PASSES = {
 }
 
 
+@pytest.mark.slow_cases("everything-*")
 @pytest.mark.parametrize("render_pass", PASSES.values(), ids=PASSES)
 @pytest.mark.parametrize("features", ["everything", "nothing"])
 def test_kernels_of_probes_compile_without_a_warning(

@@ -1,4 +1,6 @@
-"""`--slow-share K/N`: of the tests marked slow, run K in N, drawn by test and commit.
+"""Which tests are slow, and `--slow-share K/N`: of those run K in N, drawn by test and commit.
+
+A test is marked `slow`, or some of its cases are: `slow_cases("everything-*")` names their ids.
 
 Every commit draws another share, and the same commit always the same one; so a failure can be
 repeated, and over the commits all slow tests are run.
@@ -8,6 +10,7 @@ import hashlib
 import re
 import subprocess
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +50,14 @@ def commit_of(folder: Path) -> str:
     except (OSError, subprocess.CalledProcessError):
         return ""
     return told.stdout.strip()
+
+
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """Mark the cases that `slow_cases` names."""
+    case = getattr(item, "callspec", None)
+    patterns = [it for mark in item.iter_markers("slow_cases") for it in mark.args]
+    if case and any(fnmatchcase(case.id, pattern) for pattern in patterns):
+        item.add_marker(pytest.mark.slow)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

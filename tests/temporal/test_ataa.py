@@ -183,6 +183,7 @@ BALL = scene_of(
 )
 
 
+@pytest.mark.slow_cases("ddgi")
 @pytest.mark.parametrize("method", ["whitted", "cook", "ddgi"])
 def test_a_still_camera_traces_ever_less(context: Context, method: str) -> None:
     """Edges first, until history stands for enough samples."""

@@ -128,6 +128,7 @@ def spots(count: int) -> Scene:
     return scene_of([FLOOR, *lamps], materials, ABOVE)
 
 
+@pytest.mark.slow_cases("40", "7")
 @pytest.mark.parametrize("count", [1, 7, 40])
 def test_all_methods_see_the_same_light_of_many_spots(context: Context, count: int) -> None:
     """One is chosen always, few are weighed one by one, many by clusters and parts of them."""

@@ -115,6 +115,7 @@ def test_a_room_of_triangles_has_the_picture_of_one_of_quads(context: Context, m
     assert apart < 0.05 * np.sqrt(np.mean((other - theirs) ** 2))
 
 
+@pytest.mark.slow
 def test_a_finer_ball_of_triangles_comes_nearer_to_the_ball(context: Context) -> None:
     """Light of a ball with n times the triangles along each edge is 1 / n^2 as far off."""
 
@@ -196,6 +197,7 @@ def test_a_lamp_of_triangles_lights_as_one_of_a_quad(context: Context, method: s
     assert_agree(pictures[0], pictures[1], 0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [0, 2])
 def test_many_triangles_that_emit_light_alike_by_all_methods(context: Context, steps: int) -> None:
     """20 triangles are weighed one by one, 320 by clusters."""

@@ -111,6 +111,7 @@ def test_methods_agree_on_principled_surfaces(context: Context) -> None:
     assert_agree(nee, mis, within=0.05)
 
 
+@pytest.mark.slow
 def test_methods_agree_under_sky_and_sun(context: Context) -> None:
     """Whose light is weighed against all lobes at once."""
     scene = sunny()

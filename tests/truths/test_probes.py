@@ -146,6 +146,7 @@ def test_the_picture_of_other_samples_at_once_has_the_same_bits(context: Context
         assert same(renderer.render(48).image(), expected)
 
 
+@pytest.mark.slow
 def test_the_error_tells_the_noise_of_probes(context: Context) -> None:
     """Over seeds, pictures vary as each of them says: probes too, which all of its pixels share."""
     found: list[Image] = []
@@ -284,6 +285,7 @@ def leak(context: Context, thickness: float, **constants: bool) -> float:
     return float(dark)
 
 
+@pytest.mark.slow
 def test_a_dark_room_stays_dark_behind_a_thick_wall(context: Context) -> None:
     thin, thick = leak(context, 0.0), leak(context, 0.3)
     blind = leak(context, 0.0, WITHOUT_VISIBILITY=True)

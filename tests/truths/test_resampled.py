@@ -85,6 +85,7 @@ def assert_equal_means(found: Floats, truth: Floats, within: float) -> None:
 # --- means ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("both", "temporal", "none")
 @pytest.mark.parametrize("reuse", REUSES)
 def test_direct_light_and_one_bounce_are_those_of_paths(context: Context, reuse: str) -> None:
     """Without probes nothing is left out; `both` has the most noise in common."""
@@ -95,6 +96,7 @@ def test_direct_light_and_one_bounce_are_those_of_paths(context: Context, reuse:
     assert_equal_means(found, truth, 0.06 if reuse == "both" else 0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LAMPS)
 def test_points_on_all_kinds_of_lamps_are_weighed_beside_scattering(
     context: Context, name: str
@@ -104,12 +106,14 @@ def test_points_on_all_kinds_of_lamps_are_weighed_beside_scattering(
     assert_equal_means(means(scene, context, 64, bounces=1, reuse="spatial"), truth, 0.06)
 
 
+@pytest.mark.slow
 def test_lamps_with_a_cone_are_left_to_paths(context: Context) -> None:
     scene = lit_by("disk", cone={"axis": [0, -1, 0], "inner": 30, "outer": 50})
     truth = means(scene, context, 64, 1000, method="mis", bounces=2)
     assert_equal_means(means(scene, context, 64, bounces=2, reuse="spatial"), truth, 0.1)
 
 
+@pytest.mark.slow
 def test_the_light_of_all_bounces_is_that_of_a_gather(context: Context) -> None:
     scene = lit_by("sphere")
     truth = means(scene, context, 64, 1000, method="gather", bounces=6)
@@ -148,6 +152,7 @@ def test_what_a_surface_has_found_is_not_hidden_from_it(context: Context) -> Non
         assert hidden < 1e-5  # rays at the rim of a shape
 
 
+@pytest.mark.slow
 def test_a_point_that_is_asked_for_five_times_counts_once(context: Context) -> None:
     """Of the same pixel: whatever rays say of its point, they must say of each."""
     text = read(RESAMPLING)
@@ -167,6 +172,7 @@ def fence() -> Scene:
     return scene_of(things, MATERIALS, {"position": [0, -0.2, 0.6], "look_at": [0, -1, -0.2]})
 
 
+@pytest.mark.slow
 def test_points_that_neighbours_do_not_see_keep_the_mean(context: Context) -> None:
     """The biased form is too dark there."""
     ways: dict[str, Any] = {"bounces": 2, "reuse": "spatial"}
@@ -180,6 +186,7 @@ def test_points_that_neighbours_do_not_see_keep_the_mean(context: Context) -> No
 # --- noise ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_reuse_of_pixels_around_takes_noise_from_a_picture(context: Context) -> None:
     """At equal samples; what a pixel has kept itself adds noise, for samples share it."""
     scene = load("methods/diffuse")
@@ -192,6 +199,7 @@ def test_reuse_of_pixels_around_takes_noise_from_a_picture(context: Context) -> 
     assert found["temporal"] > 1.3 * found["none"]
 
 
+@pytest.mark.slow
 def test_the_error_tells_the_noise_of_what_samples_share(context: Context) -> None:
     """Over seeds, pictures vary as each of them says."""
     scene, images = load("methods/diffuse"), []

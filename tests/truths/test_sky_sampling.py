@@ -127,6 +127,7 @@ def test_a_sun_of_one_pixel_lights_a_floor_as_a_quadrature_says(
     assert_mean(whole(image), 0.5 * 4 * light.mean(axis=0), within=0.02, floor=1e-3)
 
 
+@pytest.mark.slow
 def test_methods_agree_under_a_small_sun(context: Context) -> None:
     """Over rough glass, a mirror and a matte floor, with shadows."""
     things = [FLOOR, sphere([0, 0.3, 0], 0.3, "mirror"), sphere([0.7, 0.3, 0], 0.3, "frost")]

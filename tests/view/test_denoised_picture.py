@@ -72,6 +72,7 @@ def assert_same(image: Image, other: Image) -> None:
     assert image.denoising.error == other.denoising.error
 
 
+@pytest.mark.slow_cases("a film with layers")
 def test_it_is_what_a_render_makes(session: Session, denoised: DenoisedPicture) -> None:
     """To the bit, at each doubling that there is time for, and at the end."""
     last = found(session, denoised, 256)
@@ -145,6 +146,7 @@ def test_a_filter_that_fails_is_told(
     assert not denoised.fits(session)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cornell", "lamps"], ids=["one film", "a film with layers"])
 def test_relit_lamps_are_denoised_by_their_weights(
     name: str, context: Context, denoised: DenoisedPicture

@@ -48,6 +48,9 @@ def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path:
     assert "Traceback" not in ended.stderr
 
 
+@pytest.mark.slow_cases(
+    "resting*", "dragging*", "closing_with_edits*", "choosing*", "saving_when_killed*"
+)
 @pytest.mark.parametrize(
     ("moment", "code"),
     [
