@@ -21,6 +21,7 @@ from glrt.rendering.evaluation import evaluate
 from glrt.scene import scene as scene_module
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
+from tests.support import profiles
 from tests.support.system_packages import needs_package
 from tests.wgsl.device import Device, open_device
 
@@ -42,6 +43,20 @@ if "PYTEST_XDIST_WORKER" in os.environ:
 
 Array = np.ndarray[Any, Any]
 CallGlsl = Callable[..., Array]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def shared_kernels() -> Iterator[None]:
+    """Renderers compile the kernels of profiles, which many scenes share."""
+    with profiles.shared():
+        yield
+
+
+@pytest.fixture
+def exact_kernels() -> Iterator[None]:
+    """Renderers compile what users get: each scene has a kernel of its own."""
+    with profiles.exact():
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -56,11 +56,12 @@ class Plan:
 
     def constants(self) -> dict[str, bool | int]:
         """The prelude of a kernel that fills the layers."""
+        layer_of = layer_of_group(self.scene) if self.layers else {}
         return {
             "LAYERS": self.layers,
             "BY_LENGTH": self.layering == "lengths",
-            "BACKGROUND_LAYER": layer_of_group(self.scene).get(SKY_GROUP, 0),
-            "SUN_LAYER": layer_of_group(self.scene).get(SUN_GROUP, 0),
+            "BACKGROUND_LAYER": layer_of.get(SKY_GROUP, 0),
+            "SUN_LAYER": layer_of.get(SUN_GROUP, 0),
         }
 
     def relit(self, scene: Scene, settings: Settings, layering: Layering) -> "Plan | None":

@@ -1,4 +1,4 @@
-"""`python -m tests.mutation`: plant each bug of mutants.py in a copy of the tree.
+"""`python -m tests.mutation`: plant each bug of mutants.csv in a copy of the tree.
 
 The test that is named there must fail.
 
@@ -15,13 +15,13 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 
-from tests.mutation.mutant import Edit, Mutant
-from tests.mutation.mutants import MUTANTS
+from tests.mutation.mutant import Mutant, mutants, plant
+from tests.mutation.places import places
 from tests.support.slow_share import commit_of
 
 ROOT = Path(__file__).parents[2]
@@ -32,6 +32,7 @@ FOUND = ("assert", "AssertionError", "\nNot equal to tolerance", "ValueError: Na
 class Outcome(NamedTuple):
     """What the tests named by a mutant did."""
 
+    is_fast: bool  # whether they belong to `make test`
     passed: int
     failures: tuple[str, ...]  # their messages
     errors: int  # tests that could not be run at all
@@ -59,32 +60,18 @@ def copy_tree(target: Path) -> None:
             shutil.copy(source, target / name)
 
 
-def planted(text: str, edits: Iterable[Edit]) -> str:
-    """The text with all edits; ValueError if the old text does not stand there exactly once."""
-    for edit in edits:
-        found = text.count(edit.old)
-        if found != 1:
-            raise ValueError(f"{edit.file} has {found} times: {edit.old!r}")
-        text = text.replace(edit.old, edit.new)
-    return text
+def run_test(tree: Path, test: str, stop_early: bool) -> Outcome:
+    """Run a test of the tree in a process of its own: its slow cases where it has no others."""
+    outcome = _run(tree, test, stop_early, "not slow")
+    is_there = outcome.passed or outcome.failures or outcome.errors
+    return outcome if is_there else _run(tree, test, stop_early, "slow")
 
 
-def plant(tree: Path, mutant: Mutant) -> dict[Path, str]:
-    """Change the files of the tree; returns their texts as they were."""
-    before = {tree / edit.file: (tree / edit.file).read_text() for edit in mutant.edits}
-    for path, text in before.items():
-        edits = [edit for edit in mutant.edits if tree / edit.file == path]
-        path.write_text(planted(text, edits))
-    return before
-
-
-def run_tests(tree: Path, tests: Sequence[str], stop_early: bool) -> Outcome:
-    """Run tests of the tree in a process of its own."""
+def _run(tree: Path, test: str, stop_early: bool, tier: str) -> Outcome:
     report = tree / "report.xml"
     report.unlink(missing_ok=True)
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-m", "not slow"]
-    command += [f"--junitxml={report}", *(["-x"] if stop_early else [])]
-    command += [f"tests/{test}" for test in tests]
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-m", tier]
+    command += [f"--junitxml={report}", *(["-x"] if stop_early else []), f"tests/{test}"]
     start = time.perf_counter()
     environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
     environment["LP_NUM_THREADS"] = "1"  # of small pictures: more threads wait for each other
@@ -92,42 +79,44 @@ def run_tests(tree: Path, tests: Sequence[str], stop_early: bool) -> Outcome:
     seconds = time.perf_counter() - start
     if not report.exists():
         raise RuntimeError(f"pytest did not run: {done.stdout}{done.stderr}")
-    return _read(report, seconds)
+    return _read(report, seconds, tier == "not slow")
 
 
-def _read(report: Path, seconds: float) -> Outcome:
+def _read(report: Path, seconds: float, is_fast: bool) -> Outcome:
     cases = list(ElementTree.parse(report).getroot().iter("testcase"))
     failures = tuple(f.get("message", "") for case in cases for f in case.iter("failure"))
     errors = sum(1 for case in cases for _ in case.iter("error"))
     skipped = sum(1 for case in cases for _ in case.iter("skipped"))
-    return Outcome(len(cases) - len(failures) - errors - skipped, failures, errors, seconds)
+    passed = len(cases) - len(failures) - errors - skipped
+    return Outcome(is_fast, passed, failures, errors, seconds)
 
 
-def drawn(mutants: Sequence[Mutant], count: int, commit: str) -> list[Mutant]:
+def drawn(listed: Sequence[Mutant], count: int, commit: str) -> list[Mutant]:
     """So many of the mutants, others with each commit."""
 
     def place(mutant: Mutant) -> bytes:
         return hashlib.sha256(f"{commit} {mutant.bug}".encode()).digest()
 
-    chosen = sorted(mutants, key=place)[:count]
-    return [mutant for mutant in mutants if mutant in chosen]
+    chosen = sorted(listed, key=place)[:count]
+    return [mutant for mutant in listed if mutant in chosen]
 
 
-def survivors(mutants: Sequence[Mutant]) -> list[str]:
+def survivors(chosen: Sequence[Mutant]) -> list[str]:
     """Plant one after the other, printing a table; the bugs that were not found."""
     alive = []
     with tempfile.TemporaryDirectory(prefix="glrt-mutants-") as folder:
         tree = Path(folder)
         copy_tree(tree)
-        clean = run_tests(tree, sorted({mutant.test for mutant in mutants}), stop_early=False)
-        if not clean.is_clean:
-            raise RuntimeError(f"the tests fail without any bug: {clean.failures}")
-        print("| bug | found by | seconds |\n|---|---|---|", flush=True)
-        for mutant in mutants:
-            before = plant(tree, mutant)
-            outcome = run_tests(tree, [mutant.test], stop_early=True)
-            for path, text in before.items():
-                path.write_text(text)
+        known = places(tree)
+        for test in sorted({mutant.test for mutant in chosen}):
+            clean = run_test(tree, test, stop_early=False)
+            if not clean.is_clean:
+                raise RuntimeError(f"{test} fails without any bug: {clean}")
+        print("| bug | found by | tier | seconds |\n|---|---|---|---|", flush=True)
+        for mutant in chosen:
+            file, before = plant(mutant, known)
+            outcome = run_test(tree, mutant.test, stop_early=True)
+            file.write_text(before)
             if not outcome.finds_it:
                 alive.append(f"{mutant.bug}: {outcome}")
             print(_row(mutant, outcome), flush=True)
@@ -137,7 +126,8 @@ def survivors(mutants: Sequence[Mutant]) -> list[str]:
 def _row(mutant: Mutant, outcome: Outcome) -> str:
     file, name = mutant.test.split("::")
     found = f"`{file}`: {re.sub('^test_', '', name).replace('_', ' ')}"
-    return f"| {mutant.bug} | {found if outcome.finds_it else 'NOBODY'} | {outcome.seconds:.1f} |"
+    told = (found if outcome.finds_it else "NOBODY", "fast" if outcome.is_fast else "slow")
+    return f"| {mutant.bug} | {' | '.join(told)} | {outcome.seconds:.1f} |"
 
 
 def main() -> int:
@@ -145,12 +135,14 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__)
     parser.add_argument("--drawn", type=int, help="so many mutants, others with each commit")
     parser.add_argument("-k", metavar="WORD", default="", help="only bugs with this word")
+    parser.add_argument("--part", default="1/1", help="K/N: the K-th of N parts of the list")
     arguments = parser.parse_args()
-    mutants = [mutant for mutant in MUTANTS if arguments.k in mutant.bug]
+    part, parts = map(int, arguments.part.split("/"))
+    chosen = [mutant for mutant in mutants()[part - 1 :: parts] if arguments.k in mutant.bug]
     if arguments.drawn:
-        mutants = drawn(mutants, arguments.drawn, commit_of(ROOT))
-    alive = survivors(mutants)
-    print(f"\n{len(mutants) - len(alive)} of {len(mutants)} bugs found.")
+        chosen = drawn(chosen, arguments.drawn, commit_of(ROOT))
+    alive = survivors(chosen)
+    print(f"\n{len(chosen) - len(alive)} of {len(chosen)} bugs found.")
     print("\n".join(alive))
     return 1 if alive else 0
 

@@ -1,0 +1,137 @@
+"""Six scenes that together use every feature of the kernel, and the settings that ask for them.
+
+tests/rendering/test_equal_bits.py renders each in every way, and fails if a feature is in none.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from glrt.scene.scene import Scene
+from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
+from tests.support.meshes import icosphere, mesh
+from tests.support.particle_rooms import DRINK, MATERIALS, SHADE, room
+from tests.support.sky_images import random_sky, under
+from tests.support.textures import random_image, with_images
+
+FLOOR = plane([0, -1, 0], [0, 1, 0], "matte")
+SUN = {"direction": [0.4, 0.7, 0.3], "angle": 12.0, "irradiance": [2.0, 1.9, 1.7]}
+STILL_LIFE = {
+    **MATERIALS,
+    "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7]},
+    "brass": {"type": "metal", "color": [0.9, 0.7, 0.3], "roughness": 0.4},
+}
+CHECKER = {"checker": [0.25, 0.75]}
+MAPPED: dict[str, dict[str, Any]] = {
+    "even": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},
+    "matte": {"type": "lambertian", "color": {"image": "paint.png"}},
+    "glowing": {"type": "principled", "emission": CHECKER, "roughness": CHECKER},
+    "bumpy": {"type": "principled", "normal": {"image": "bumps.png"}, "clearcoat": 0.5},
+    "torn": {"type": "principled", "alpha": CHECKER},
+    "label": {"type": "principled", "transmission": CHECKER, "roughness": 0.0},
+    "lamp": lamp(6.0),
+}
+IMAGES = {"paint.png": random_image(8, 8), "bumps.png": random_image(16, 16, 2)}
+
+
+def still_life() -> Scene:
+    """Every solid and material that is no image, through a lens, under a gradient."""
+    things = [
+        sphere([-0.6, -0.5, -2.4], 0.5, "tinted"),
+        sphere([0.5, -0.6, -2.2], 0.4, "mirror"),
+        box([-1.6, -1, -3.4], [-0.8, 0.2, -2.8], "brass", rotate=(0, 25, 0)),
+        cylinder([1.3, -1, -2.6], [1.1, 0.2, -2.9], 0.3, "gold"),
+        disk([0, 0.3, -3.5], [0.3, 0.2, 1], 0.6, "satin"),
+        quad([-0.4, -0.9, -1.6], [0.8, 0, 0], [0, 0.7, -0.2], "pane"),
+        sphere([0.1, -0.8, -1.8], 0.2, "frosted"),
+        sphere([1.1, 1.4, -2.0], 0.3, "lamp"),
+        disk([-1.2, 1.6, -2.0], [0.3, -1, 0.2], 0.4, "lamp"),
+    ]
+    sky = {"bottom": [0.1, 0.1, 0.2], "horizon": [0.5, 0.4, 0.3], "top": [0.3, 0.4, 0.6]}
+    return scene_of([FLOOR, *things], STILL_LIFE, {"defocus_angle": 2.0, "fov": 60}, background=sky)
+
+
+def mapped() -> Scene:
+    """Images on surfaces, meshes that are smooth, coloured or lamps, and the sun."""
+    points, faces = icosphere(1)
+    ball: dict[str, Any] = {"uv": points[:, :2], "smooth": True}
+    things = [
+        mesh((points, faces), "matte", translate=[-0.6, -0.4, -2.4], scale=0.5, **ball),
+        mesh(
+            (points, faces), "bumpy", translate=[0.6, -0.4, -2.4], scale=0.5, normals=points, **ball
+        ),
+        mesh((points, faces), "even", translate=[0, 0.5, -3], scale=0.4, colors=np.abs(points)),
+        quad([-1.5, -0.9, -3.2], [1, 0, 0], [0, 1.5, 0], "torn"),
+        sphere([0, -0.7, -1.8], 0.25, "label"),
+        quad([0.6, -0.9, -3.2], [1, 0, 0], [0, 1.5, 0], "glowing"),
+        mesh((SHADE, np.array([[0, 1, 2], [0, 2, 3]])), "lamp", translate=[0, 0.6, -1.5]),
+    ]
+    return with_images(
+        scene_of(
+            [FLOOR | {"material": "even"}, *things],
+            MAPPED,
+            {"fov": 60},
+            sun=SUN,
+            background={"color": [0.2] * 3},
+        ),
+        IMAGES,
+    )
+
+
+def crowd() -> Scene:
+    """Trees over spheres, over other shapes and in meshes that are repeated, and many lamps."""
+    grid = [(x, z) for x in range(-3, 4) for z in range(-7, -1)]
+    things = [sphere([0.5 * x, -0.8 + 0.03 * (x * z % 5), 0.6 * z], 0.15, "matte") for x, z in grid]
+    things += [
+        box([0.5 * x + 0.1, -1, 0.6 * z + 0.2], [0.5 * x + 0.3, -0.7, 0.6 * z + 0.4], "brass")
+        for x, z in grid
+    ]
+    things += [
+        disk([0.45 * x, 0.9 + 0.02 * z, 0.6 * z], [0, -1, 0.1], 0.05, "lamp") for x, z in grid
+    ]
+    heap = icosphere(2)
+    things += [
+        mesh(heap, "matte", translate=[0.9 * k - 1.35, 0.1, -3], scale=0.3, smooth=False)
+        for k in range(4)
+    ]
+    return scene_of([FLOOR, *things], STILL_LIFE, {"fov": 70})
+
+
+def caustics() -> Scene:
+    """Particles aimed at glass, linked through spheres, of lamps with cones and fronts."""
+    return room(
+        {**quad([-0.25, 0.9, -0.4], [0.5, 0, 0], [0, 0, 0.4], "lamp"), "emission_side": "front"},
+        disk([0.5, 0.95, -0.5], [0, -1, 0], 0.1, "spot"),
+        sphere([-0.1, -0.75, 0.15], 0.2, "glass"),
+        mesh(icosphere(1), "glass", translate=[-0.5, -0.6, -0.6], scale=0.3, smooth=False),
+        *DRINK,
+    )
+
+
+def shared_places() -> Scene:
+    """A lamp in the plane of a wall, in a closed room."""
+    return room(
+        quad([-0.4, 1, -0.4], [0.8, 0, 0], [0, 0, 0.8], "lamp"),
+        sphere([0.3, -0.5, 0], 0.4, "mirror"),
+    )
+
+
+def pictured() -> Scene:
+    """Under an image of the sky."""
+    return under(
+        random_sky(16, 8),
+        FLOOR | {"material": "m"},
+        sphere([-0.5, -0.5, -2], 0.5, "mirror"),
+        sphere([0.6, -0.5, -2], 0.5, "glass"),
+    )
+
+
+RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
+    "still life": (still_life(), {"method": "mis"}),
+    "still life by a model": (still_life(), {"method": "whitted"}),
+    "mapped": (mapped(), {"method": "nee", "sampler": "independent"}),
+    "crowd": (crowd(), {"method": "mis", "sampler": "independent"}),
+    "caustics": (caustics(), {"caustics": "on", "linked": 0.5, "aimed": 0.5}),
+    "shared places": (shared_places(), {"method": "resampled", "reuse": "both", "probes": 2}),
+    "pictured": (pictured(), {"method": "mis", "roulette": False}),
+}
