@@ -21,6 +21,7 @@ from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.kernel_text import written_for, written_for_everything
 from tests.support.renders import SAMPLERS
 
+pytestmark = pytest.mark.usefixtures("exact_kernels")
 SMALL: dict[str, Any] = {"width": 24, "height": 24, "bounces": 6}
 
 

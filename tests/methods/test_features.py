@@ -62,10 +62,6 @@ SETS = {
     **{f"all but {flag}": all_but(flag) for flag in sorted(FLAGS)},
 }
 pytestmark = pytest.mark.usefixtures("twins_stay")  # of many objects the number matters
-OFTEN = [  # each of the others differs from "everything" by a feature, and takes as long
-    pytest.param(name, marks=pytest.mark.slow) if name.startswith("all but") else name
-    for name in SETS
-]
 _CHECKER = {"checker": [0.25, 0.75]}
 MATERIALS: dict[str, dict[str, Any]] = {
     "matte": MATTE,
@@ -209,15 +205,40 @@ def test_a_scene_asks_for_the_features_that_it_uses(name: str) -> None:
     assert {flag for flag in FLAGS if constants[flag]} == SETS[name]
 
 
+def tenth(start: int) -> set[str]:
+    """Each tenth feature, and what those need.
+
+    Where there are lamps of two kinds, the code of quads is there for what is neither.
+    """
+    found = set(sorted(FLAGS)[start::10])
+    while more := {it for flag in found for it in NEEDED_TOO.get(flag, ())} - found:
+        found |= more
+    kinds = found & {"HAS_SPHERE_LIGHT", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT"}
+    return found | ({"HAS_QUAD_LIGHT", "HAS_QUAD"} if len(kinds) > 1 else set())
+
+
+MIXED = {f"tenth {start}": tenth(start) for start in range(10)}
+
+
+@pytest.mark.slow
 @pytest.mark.usefixtures("probed")
-@pytest.mark.parametrize("name", OFTEN)
+@pytest.mark.parametrize(
+    "name", [*MIXED, *(name for name in SETS if not name.startswith("all but"))]
+)
 def test_a_feature_is_compiled_in_exactly_if_the_scene_uses_it(
     ctx: moderngl.Context, name: str
 ) -> None:
-    kernel = Kernel(
-        ctx,
-        Source("trace.comp", needs_with(SETS[name]).constants(), texts=written_for_everything()),
-    )
+    """Each alone, and some together: each is left out of some kernel that has others."""
+    constants = needs_with(MIXED.get(name) or SETS[name]).constants()
+    kernel = Kernel(ctx, Source("trace.comp", constants, texts=written_for_everything()))
     found = {member for member in kernel.names if member.startswith("probe_")}
     kernel.release()
-    assert found == {"probe_ALWAYS", *(f"probe_{flag}" for flag in SETS[name])}
+    flags = {flag for flag in FLAGS if constants[flag]}
+    assert name in MIXED or flags == SETS[name]
+    assert found == {"probe_ALWAYS", *(f"probe_{flag}" for flag in flags)}
+
+
+def test_every_feature_is_in_some_of_the_mixed_kernels_and_left_out_of_some() -> None:
+    asked = [needs_with(flags).constants() for flags in MIXED.values()]
+    counts = {flag: sum(bool(constants[flag]) for constants in asked) for flag in FLAGS}
+    assert {flag for flag, count in counts.items() if not 0 < count < len(asked)} == set()

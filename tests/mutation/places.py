@@ -9,7 +9,7 @@ from typing import NamedTuple
 FOLDERS = {"shaders_glsl": "*.*", "glrt": "*.py"}  # files that bugs are planted in
 _GLSL_FUNCTION = re.compile(r"^(?:\w+ )*\w+ (\w+)\([^;{}]*?\)\s*\{", re.MULTILINE)
 _GLSL_REST = re.compile(
-    r"^struct (\w+)\s*\{.*?^\};|^(?:const )?\w+ (\w+)(?:\[\w*\])?\s*=.*?;|^#define (\w+)[^\n]*",
+    r"^struct (\w+)\s*\{[^}]*\};|^(?:const )?\w+ (\w+)(?:\[\w*\])?\s*=.*?;|^#define (\w+)[^\n]*",
     re.MULTILINE | re.DOTALL,
 )
 
@@ -25,13 +25,16 @@ class Span(NamedTuple):
 def places(root: Path) -> dict[str, list[Span]]:
     """Of each function, class, struct and constant: where it stands, by name.
 
-    Members of a class have its name in front: `Film.read`. Names may stand for several.
+    Members of a class have its name in front: `Film.read`. A name may stand for several. The entry
+    files of shaders, which have functions of the same names, have theirs too: `trace.frag`.
     """
     found: dict[str, list[Span]] = {}
     for folder, pattern in FOLDERS.items():
         for file in sorted((root / folder).rglob(pattern)):
             text = file.read_text()
             listed = _python(text) if file.suffix == ".py" else _glsl(text)
+            if folder == "shaders_glsl" and file.suffix != ".glsl":
+                found[file.name] = [Span(file, 0, len(text))]
             for name, start, end in listed:
                 found.setdefault(name, []).append(Span(file, start, end))
     return found

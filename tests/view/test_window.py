@@ -22,6 +22,43 @@ ON_OLD_DRIVERS = (
     "views_cost_no_sample_and_have_a_legend",
     "paths_are_shown_or_refused_by_name",
 )
+SLOW = (  # more than a second each
+    "what_was_opened_last_is_at_hand",
+    "a_name_that_is_no_text_is_shown_and_kept",
+    "every_control_costs_what_it_says",
+    "the_picture_follows_sliders",
+    "a_rest_and_its_end_show_in_no_bit",
+    "preferences_are_chosen_and_restart_nothing",
+    "a_model_that_is_dropped_is_added_or_opened",
+    "the_picture_is_denoised_with_its_error_told_and_saved_plain",
+    "whatever_is_typed_into_a_field_ends_nothing",
+    "a_drag_shows_the_plain_picture_until_it_is_denoised_anew",
+    "without_dialogs_of_the_desktop_the_window_draws_one",
+    "a_scene_dropped_by_another_program_is_opened",
+    "one_of_each_kind_is_added_and_undone",
+    "probes_light_the_picture_of_the_method_ddgi",
+    "a_walk_through_the_ceiling_is_told_and_ended",
+    "a_clear_sky_comes_with_its_sun_and_goes_without_a_change_of_it",
+    "a_walk_goes_past_the_pivot_at_its_speed",
+    "a_drag_too_noisy_to_read_shows_first_surfaces_and_says_so",
+    "keys_that_move_in_the_panel_go_to_no_row_under_the_bar",
+    "rows_of_a_narrow_panel_are_not_cut",
+    "edits_are_not_lost_unasked",
+    "a_scene_dropped_on_edits_is_opened_when_that_is_agreed",
+    "keys_are_chosen_in_the_panel",
+    "a_row_stays_where_it_is_though_there_is_nothing_to_scroll",
+    "a_black_picture_has_figures",
+    "the_picture_follows_the_handles",
+    "buttons_and_boxes_of_the_scene_restart_it",
+    "views_of_aovs_cost_no_sample_and_are_not_saved",
+    "commands_stay_in_sight_while_the_panel_scrolls",
+    "a_widget_stays_where_it_is_when_rows_come_and_go",
+    "every_control_of_the_panel_is_moved_here",
+    "probes_are_live_while_the_user_wants_it",
+    "a_walk_without_end_stops_at_the_limits",
+    "the_figures_tell_error_and_forecast",
+    "points_are_reused_as_the_panel_says",
+)
 
 
 @pytest.fixture(scope="module")
@@ -45,6 +82,7 @@ def test_no_check_is_overlooked() -> None:
     assert len(set(CHECKS)) == sum(len(re.findall("^@check", text, re.M)) for text in texts) > 0
 
 
+@pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("check", CHECKS)
 def test_in_the_window(window: CheckedWindow, check: str) -> None:
     assert_well(window, check)
