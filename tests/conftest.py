@@ -25,7 +25,7 @@ from tests.support import profiles
 from tests.support.system_packages import needs_package
 from tests.wgsl.device import Device, open_device
 
-pytest_plugins = ["tests.support.slow_share", "tests.support.alarms"]
+pytest_plugins = ["tests.support.slow_share", "tests.support.alarms", "tests.support.budget"]
 
 # A shell's background jobs ignore Ctrl-C, and so would every command that the tests start there.
 signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -56,6 +56,7 @@ def test_the_choice_follows_the_rule_for_ties_that_it_states(work: float, chosen
     assert f"Enough: `{chosen}`" in text
 
 
+@pytest.mark.slow
 def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> None:
     sky = scene_of([], {}, background={"color": [1, 0.5, 0.2]})
     text = "\n".join(advice(sky, verdict_on(sky, 0.2, context)))

@@ -126,6 +126,7 @@ def test_a_dark_scene_gains_nothing(context: Context) -> None:
     assert (found.settings.caustics, found.gain) == ("off", 0.0)
 
 
+@pytest.mark.slow
 def test_no_clock_decides(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = load(BALL)
     settings = settings_for(scene.render, width=24, height=24, bounces=4)
@@ -141,6 +142,7 @@ def test_no_clock_decides(context: Context, monkeypatch: pytest.MonkeyPatch) -> 
     assert particles_worth(scene, settings, context) == plain
 
 
+@pytest.mark.slow
 def test_blocks_of_64_are_judged_as_blocks_of_16(context: Context) -> None:
     """The pilot renders 64 samples, of which a block of 64 has no error."""
     settings = Settings(width=8, height=8)

@@ -100,6 +100,7 @@ def test_every_scene_gets_its_files_and_one_page_shows_all(charted: Path) -> Non
         assert title in page
 
 
+@pytest.mark.slow
 def test_pictures_are_as_large_as_promised_and_name_every_variant(charted: Path) -> None:
     with Image.open(charted / "lamp.png") as picture:
         assert picture.size == (1320, 715)
@@ -113,6 +114,7 @@ def test_pictures_are_as_large_as_promised_and_name_every_variant(charted: Path)
         assert file.stat().st_size < 300_000
 
 
+@pytest.mark.slow
 def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
     rows = table(charted, "lamp")
     data = json.loads((charted / "lamp.json").read_text())
@@ -124,6 +126,7 @@ def test_tables_for_programs_hold_the_same_points(charted: Path) -> None:
         assert float(row["rays"]) >= int(row["samples"])
 
 
+@pytest.mark.slow
 def test_points_on_the_front_are_beaten_by_none(charted: Path) -> None:
     dots = [
         (float(row["milliseconds"]), float(row["error"]), row["on_front"] == "True")
@@ -134,6 +137,7 @@ def test_points_on_the_front_are_beaten_by_none(charted: Path) -> None:
         assert on_front == (not beaten)
 
 
+@pytest.mark.slow
 def test_methods_that_are_one_are_measured_once(charted: Path) -> None:
     """Under the sky there is no lamp."""
     assert "naive = nee = mis" in {row["variant"] for row in table(charted, "sky")}

@@ -75,6 +75,7 @@ def test_work_grows_with_paths_and_with_what_is_looked_for(context: Context) -> 
     assert shorter < short < mis
 
 
+@pytest.mark.slow
 def test_rays_of_particles_are_counted_whatever_the_lamps_shine(context: Context) -> None:
     """Where light is added up, units are those of the brightest lamp, and too much is cut."""
     scene = load("cornell")

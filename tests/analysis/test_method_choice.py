@@ -67,6 +67,7 @@ def half_lit() -> Scene:
     return scene_of([plane([0, -1, 0], [0, 1, 0], "lamp")], {"lamp": lamp()})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("crop", "mean"), [((0, 0, 40, 10), 0.0), ((0, 30, 40, 10), 1.0), ((3, 31, 2, 1), 1.0)]
 )

@@ -38,6 +38,7 @@ SLOW = (  # more than a second each, or many kernels
     *("near", "refracted", "slats", "contact", "leak", "wall", "rooms", "point", "polish"),
     *("stripes", "thin", "layers", "speed", "reflection", "rough", "step"),
     *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
+    *("sun", "frames", "bumps", "plastic"),
 )
 SWEEP = Sweep(
     parameter="size",

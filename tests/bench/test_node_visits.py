@@ -20,12 +20,14 @@ def test_lanes_wait_for_the_one_that_looks_at_the_most() -> None:
     assert per_lanes(counts) == pytest.approx((7 + 9 + 2) / 3)
 
 
+@pytest.mark.slow
 def test_a_ray_away_from_all_spheres_looks_at_one_node(context: Context) -> None:
     behind = [sphere([x, 0, 5], 0.4, "m") for x in range(40)]
     scene = scene_of(behind, {"m": MATTE}, {"position": [0, 0, 0], "look_at": [0, 0, -1]})
     assert (looks_of(scene, context, 8, 1)[:, 0] == 1).all()
 
 
+@pytest.mark.slow
 def test_rays_among_balls_look_at_some_nodes_and_not_at_all(context: Context) -> None:
     counts = looks_of(crowd(200), context, 8, 2)
     assert counts.shape == (2, 11, 8, 8)

@@ -29,6 +29,7 @@ def test_blocks_without_noise_must_agree() -> None:
         rms_apart(Mean(np.ones(BLOCKS), np.zeros(BLOCKS)), of(1.1, 0.0, 1))
 
 
+@pytest.mark.slow
 def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     few = ["--size", "16", "--samples", "32", "--renders", "1", "--repeats", "2"]
     assert main(["--scenes", "cornell", "--calibrated", "cornell", *few]) == 0

@@ -35,6 +35,7 @@ def test_an_edit_gives_other_noise_and_the_same_picture(
     assert_agree(changed, picture(context, PLAIN, 256, seed=1), within=0.05)
 
 
+@pytest.mark.slow
 def test_edits_do_what_they_are_named_for(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -76,6 +76,7 @@ def test_a_caustic_gets_particles_and_the_recipe_tells_why(folder: Path) -> None
     assert not same(image, rendered(BALL, *LONG, "--caustics", "off"))
 
 
+@pytest.mark.slow
 def test_mirrors_that_light_hardly_comes_by_get_none(folder: Path) -> None:
     image = rendered(MIRRORS, *LONG, "--caustics", "auto")
     assert chosen(image)[0] == "off"
@@ -92,6 +93,7 @@ def test_what_is_given_is_kept(folder: Path) -> None:
 # --- what it does not depend on ----------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [
@@ -122,6 +124,7 @@ def test_the_pilot_is_the_same_for(words: tuple[str, ...], folder: Path) -> None
     assert one == other
 
 
+@pytest.mark.slow
 def test_egl_and_osmesa_decide_alike(folder: Path) -> None:
     needs_osmesa()
     one, other = (rendered(BALL, *LONG, "--context", route) for route in ("egl", "osmesa"))

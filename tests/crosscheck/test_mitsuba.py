@@ -102,6 +102,7 @@ def test_a_planted_difference_of_solids_is_found(
     assert not found, str(found)
 
 
+@pytest.mark.slow
 def test_principled_metals_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     """Where both models agree: Schlick's reflectance over GGX, facets that lose little."""
     found = judged(ours(context, polished()), theirs(mitsuba, polished()))
@@ -111,6 +112,7 @@ def test_principled_metals_look_the_same_to_mitsuba(context: Context, mitsuba: P
     assert not rougher, str(rougher)
 
 
+@pytest.mark.slow_cases("mirror", "clamp")
 @pytest.mark.parametrize("wrap", ["repeat", "mirror", "clamp"])
 def test_images_lie_on_meshes_as_mitsuba_has_them(
     context: Context, mitsuba: Peer, tmp_path: Path, wrap: str
@@ -165,6 +167,7 @@ def test_rough_and_thin_glass_looks_the_same_to_mitsuba(context: Context, mitsub
     assert not judged(ours(context, frosted(ior=2.0)), picture)
 
 
+@pytest.mark.slow
 def test_an_image_of_the_sky_looks_the_same_to_mitsuba(
     context: Context, mitsuba: Peer, tmp_path: Path
 ) -> None:
@@ -176,6 +179,7 @@ def test_an_image_of_the_sky_looks_the_same_to_mitsuba(
     assert not judged(ours(context, pictured(tmp_path, radiance=300.0)), picture)
 
 
+@pytest.mark.slow
 def test_a_sun_under_a_clear_sky_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     picture = theirs(mitsuba, sunlit())
     found = judged(ours(context, sunlit()), picture)
@@ -185,6 +189,7 @@ def test_a_sun_under_a_clear_sky_looks_the_same_to_mitsuba(context: Context, mit
     assert not judged(ours(context, with_lights(sunlit(), {"sun": 0.93})), picture)
 
 
+@pytest.mark.slow
 def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     """Found if the shadowing of both directions were independent, as in its `roughconductor`."""
     scene = everything(roughness=1.0)

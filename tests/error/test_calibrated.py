@@ -60,6 +60,7 @@ def test_error_of_blocks_is_right_from_the_second_block_on(context: Context, sam
     assert_near(ratio, 1, 0.03)
 
 
+@pytest.mark.slow
 def test_error_of_blocks_of_64_is_right_from_the_second_block_on(context: Context) -> None:
     ratio = ratio_of(context, floor_under_a_lamp(), 128, 32, renders=64, sampler="sobol64")
     assert_near(ratio, 1, 0.03)

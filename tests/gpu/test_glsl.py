@@ -160,7 +160,7 @@ def test_each_line_of_a_message_is_led_back() -> None:
 # --- what the driver thinks ----------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("all but *")
+@pytest.mark.slow_cases("all but *", "only *", "everything*")
 @pytest.mark.parametrize("features", FEATURE_SETS)
 def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: str) -> None:
     assert ctx.version_code >= 430

@@ -90,6 +90,7 @@ def assert_same_pictures(a: Pictures, b: Pictures, name: str) -> None:
     assert difference <= 1e-4 * np.square(a[f"{name} 0"] - b[f"{name} 1"]).mean()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("scene", ["cornell", "everything"])
 def test_egl_and_osmesa_show_the_same_picture(

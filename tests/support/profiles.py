@@ -29,6 +29,7 @@ OF_SHAPES = {
     kind: f"HAS_{kind.upper()}" for kind in ("sphere", "plane", "quad", "disk", "box", "cylinder")
 }
 LAMPS = ("HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "HAS_DISK_LIGHT")
+LARGE = ("HAS_COINCIDENT", "HAS_MESH", "HAS_TREE", "HAS_SPHERE_TREE")
 COMMON = ("HAS_DIELECTRIC", "HAS_MIRROR", "HAS_ROUGH_METAL", "HAS_ATTENUATION")
 RARE = ("HAS_ROUGH_GLASS", "HAS_PANE", "HAS_CONDUCTOR")
 PRINCIPLED = ("HAS_PRINCIPLED", "HAS_COAT", "HAS_TRANSMISSION")
@@ -37,9 +38,12 @@ PRINCIPLED = ("HAS_PRINCIPLED", "HAS_COAT", "HAS_TRANSMISSION")
 def rounded_up(constants: Constants) -> Constants:
     """The constants of the smallest profile that has all that a kernel of these needs.
 
-    Left as they are: what draws random numbers, and what other features depend on.
+    Left as they are: what draws random numbers, what other features depend on, and all of a kernel
+    whose search for surfaces is large: with more in it, it would compile for seconds.
     """
     on = {name for name, value in constants.items() if value}
+    if on & {*LARGE}:
+        return constants
     more = {*OF_SHAPES.values()}
     if "MODEL" not in on:  # models before path tracing end where they do not follow light
         more |= {*COMMON}

@@ -145,6 +145,7 @@ def test_the_light_below_is_that_of_what_is_seen(context: Context, case: str, me
         assert_mean(whole(image), truth, within=0.07, floor=1e-5 * truth)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["gather", "resampled"])
 def test_so_it_is_where_probes_are_asked(context: Context, method: str) -> None:
     things, truth = CASES["two that overlap, the dim one first"]
@@ -155,6 +156,7 @@ def test_so_it_is_where_probes_are_asked(context: Context, method: str) -> None:
     assert_mean(Estimate(pixels.mean(axis=(0, 1)), spread), truth, within=0.07, floor=1e-5)
 
 
+@pytest.mark.slow
 def test_particles_leave_the_lamp_that_is_seen(context: Context) -> None:
     """Below a glass ball most light comes by particles; apart, the lamps share no place."""
     ball = sphere([0.5, 0.5, 0], 0.3, "glass")
