@@ -205,6 +205,7 @@ def test_a_lamp_is_chosen_as_often_as_its_density_says(call_glsl: CallGlsl, coun
         assert_fits(counts, DRAWS * chances(scene, np.array(place, np.float32)))
 
 
+@pytest.mark.slow
 def test_the_choice_stays_within_the_lamps_at_the_ends(call_glsl: CallGlsl) -> None:
     ends = np.concatenate([np.arange(12) / 12, [BELOW_ONE, 2.0**-24]])
     u = np.array(list(product(ends, repeat=3)))
@@ -247,6 +248,7 @@ def test_many_lamps_bring_the_light_that_scattering_finds(context: Context, coun
     assert by_choice.error < 0.07
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lamps_in_all", [8, 64])
 def test_a_corridor_needs_a_third_of_the_samples(
     context: Context, monkeypatch: pytest.MonkeyPatch, lamps_in_all: int

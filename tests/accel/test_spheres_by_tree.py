@@ -256,6 +256,7 @@ def without_tree(
         return rendered(scene, context, 3, **more)
 
 
+@pytest.mark.slow_cases("mis-0", "mis-2", "mis-3")
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("method", ["naive", "mis"])
 def test_a_picture_is_the_same_with_the_tree_and_without(

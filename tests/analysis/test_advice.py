@@ -27,6 +27,7 @@ pytestmark = pytest.mark.usefixtures("small_and_cached")
 # --- words ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_advice_names_bounces_with_their_proof_and_every_method_with_its_reason(
     context: Context,
 ) -> None:
@@ -67,6 +68,7 @@ def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> No
     assert "light beyond" in text
 
 
+@pytest.mark.slow
 def test_an_error_beyond_reach_is_told(context: Context) -> None:
     verdict = verdict_on(furnace(), 0.02, context, bounces=1)
     assert verdict.best is None

@@ -118,6 +118,7 @@ def test_light_that_no_path_finds_is_not_taken_for_darkness(
     assert found.gain > 10
 
 
+@pytest.mark.slow
 def test_a_dark_scene_gains_nothing(context: Context) -> None:
     things = [sphere([0, 0, -3], 0.5, "glass"), sphere([0, 0, 9], 0.5, "lamp")]
     dark = scene_of(things, {"glass": glass(), "lamp": lamp(0.0)})

@@ -169,6 +169,7 @@ def test_the_same_command_measures_nothing_again_and_more_rounds_add(
     assert len(new["rounds"]) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_variants")
 def test_rounds_of_another_measurement_or_damaged_ones_are_not_gone_on_with(
     tmp_path: Path, context: Context, monkeypatch: pytest.MonkeyPatch
@@ -206,6 +207,7 @@ def test_interruption_keeps_the_rounds_that_are_done(
     assert json.loads(rounds.read_text())["rounds"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_variants")
 def test_progress_has_a_share_that_grows_to_one(
     tmp_path: Path, context: Context, monkeypatch: pytest.MonkeyPatch

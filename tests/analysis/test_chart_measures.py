@@ -1,6 +1,7 @@
 """`glrt chart`: what it measures of a variant."""
 
 import numpy as np
+import pytest
 
 from glrt.analysis.chart.measure import Bench, of_variant
 from glrt.analysis.chart.rays import rays_of
@@ -13,6 +14,7 @@ from glrt.settings import settings_for
 from tests.support.builders import box_of_quads, lamp, scene_of, sphere
 
 
+@pytest.mark.slow
 def test_rays_are_counted(context: Context) -> None:
     walls = {"wall": {"type": "lambertian", "color": [0.5] * 3}, "lamp": lamp()}
     room = scene_of(box_of_quads("wall", 2.0), walls)

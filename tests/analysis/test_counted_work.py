@@ -45,12 +45,14 @@ def work_of(scene: Scene, context: Context, method: str, *bounces: int) -> list[
 # --- work ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_camera_rays_into_an_empty_sky_are_all_the_work(context: Context) -> None:
     sky = scene_of([], {}, background={"color": [1, 1, 1]})
     for method in ("naive", "cook"):
         assert work_of(sky, context, method, 4) == [work.SURFACE - work.CAMERA]
 
 
+@pytest.mark.slow
 def test_shadow_rays_are_weighed_apart_from_others(context: Context) -> None:
     scene = load("methods/diffuse")
     settings = settings_for(scene.render, width=32, height=32, method="cook")
@@ -65,6 +67,7 @@ def test_shadow_rays_are_weighed_apart_from_others(context: Context) -> None:
     assert sum(means) == pytest.approx(rays_of(scene, settings, context).sample)
 
 
+@pytest.mark.slow
 def test_work_grows_with_paths_and_with_what_is_looked_for(context: Context) -> None:
     """Times on llvmpipe, in this order: 1, 2.2 to 2.6, and 1.1 times that."""
     scene = load("lamps")
@@ -138,6 +141,7 @@ def chosen(name: str, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_no_clock_decides_and_the_recipe_tells_what_did(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

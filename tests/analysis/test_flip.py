@@ -93,6 +93,7 @@ def test_it_is_asked_once_and_kept(context: Context, folder: Path) -> None:
     assert [c.points[0].flip for c in more.curves] == [c.points[0].flip for c in first.curves]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_evaluator")
 def test_without_the_package_a_chart_does_without(context: Context, folder: Path) -> None:
     result = measured(context, folder)

@@ -29,6 +29,7 @@ QUICK = ["diffuse", "glass", "open"]  # of these, whose references are cheap
 # --- bounces -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_light_of_longer_paths_is_the_closed_form(context: Context) -> None:
     verdict = verdict_on(furnace(), 0.02, context)
     for limit, bias in verdict.beyond.items():
@@ -39,6 +40,7 @@ def test_the_light_of_longer_paths_is_the_closed_form(context: Context) -> None:
     assert verdict.least_bounces == 5  # 0.5^6 = 1.6 %
 
 
+@pytest.mark.slow
 def test_a_limit_that_is_given_is_kept(context: Context) -> None:
     verdict = verdict_on(furnace(), 0.3, context, bounces=2)
     assert list(verdict.beyond) == [2]
@@ -86,6 +88,7 @@ def test_what_is_measured_of_a_crop_is_the_crop(
     assert f"at {crop[2]} x {crop[3]}, as" in conclusion(verdict)
 
 
+@pytest.mark.slow
 def test_the_time_of_a_crop_is_its_share_of_the_frame(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -120,6 +123,7 @@ def test_the_bias_of_a_model_is_what_an_independent_measurement_finds(context: C
     assert 0.2 < found.value < 0.8
 
 
+@pytest.mark.slow
 def test_noise_is_no_bias(context: Context) -> None:
     """A ball alone under the sky: the models are exact, and their few samples noisy at its rim."""
     scene = scene_of(

@@ -78,6 +78,7 @@ def test_looks_are_frames_of_the_sequence(name: str) -> None:
     assert looks[-1] < FRAMES
 
 
+@pytest.mark.slow
 def test_history_makes_an_orbit_clearer_and_figures_are_the_same_again(context: Context) -> None:
     """At 24 x 24 pixels: more than twice as clear after some frames."""
     scene = load("cornell")

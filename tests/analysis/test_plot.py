@@ -37,6 +37,7 @@ def test_a_chart_is_written_in_the_format_of_its_suffix(tmp_path: Path) -> None:
     assert not (tmp_path / "a.jpg").exists()
 
 
+@pytest.mark.slow
 def test_the_same_chart_gives_the_same_file(tmp_path: Path) -> None:
     for suffix in plot.FORMATS:
         files = [tmp_path / f"{name}{suffix}" for name in "ab"]

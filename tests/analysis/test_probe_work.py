@@ -27,6 +27,7 @@ PIXELS = 32 * 32
 CAMERA = {"position": [0.31, -0.17, 0.23], "look_at": [-0.6, 0.5, -1.0], "fov": 90}
 
 
+@pytest.mark.slow
 def test_rays_of_probes_are_counted(context: Context) -> None:
     """In a dark closed room each of their paths asks probes at the first wall, as those of pixels
     do, and ends with the ray that would find a lamp there. To see takes one ray.

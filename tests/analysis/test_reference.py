@@ -208,6 +208,7 @@ def test_references_share_no_noise_with_pictures_of_the_same_seed(
             assert correlations(picture, picture, block)[0] > 0.999
 
 
+@pytest.mark.slow
 def test_references_show_the_same_picture(context: Context) -> None:
     """Another family of numbers, the same mean."""
     pictures = []
@@ -258,6 +259,7 @@ def test_counted_samples_end_a_reference_whatever_the_clock_says(
     assert ends == [128, 256, 64]
 
 
+@pytest.mark.slow
 def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> None:
     """In a closed box of albedo 0.9 with glowing walls, 4 bounces leave 59 % of the light."""
     walls = {"wall": lamp(0.1, 0.9)}

@@ -91,6 +91,7 @@ def run(monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
     return lambda *words: main(["stress", "--quick", *map(str, words)])
 
 
+@pytest.mark.slow
 def test_a_run_writes_table_figures_and_charts(
     run: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -109,6 +110,7 @@ def test_a_run_writes_table_figures_and_charts(
     assert {row["guaranteed"] for row in rows} == {"0", "1", ""}
 
 
+@pytest.mark.slow
 def test_a_broken_guarantee_ends_with_code_1_and_its_place(
     run: Callable[..., int],
     tmp_path: Path,

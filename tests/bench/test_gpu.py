@@ -65,6 +65,7 @@ def work(**changes: Any) -> Work:
     return Work(**{**way, "scene": "sky", **MUCH, **changes})
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("driver")
 def test_ways_are_held_against_the_first_that_works() -> None:
     rows = list(measure(list(ways([("egl", 0), ("egl", 1)], ["sky"], **MUCH))))

@@ -59,6 +59,7 @@ def test_every_model_is_fetched_and_every_scene_can_be_loaded(npm: Path, tmp_pat
     assert named == set(real_models.MODELS)
 
 
+@pytest.mark.slow
 def test_the_program_writes_a_page_of_pictures(npm: Path, tmp_path: Path) -> None:
     folder = tmp_path / "pictures"
     told = ["-o", str(folder), "--samples", "1", "--only", "glass_bunny"]

@@ -25,6 +25,7 @@ def test_copies_share_a_file_and_stand_apart() -> None:
     assert len({mesh.translate for mesh in meshes}) == 5
 
 
+@pytest.mark.slow
 def test_the_command_prints_the_machine_and_the_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--heaps", "1x2", "--size", "8", "--rounds", "6"]) == 0
     assert "8 x 8 pixels, 6 rounds" in capsys.readouterr().out

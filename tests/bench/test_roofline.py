@@ -13,6 +13,7 @@ def test_every_shape_of_a_scene_is_counted() -> None:
     assert operations_of_ray(load("cornell")) == AROUND + sum(SEARCH[shape] for shape in shapes)
 
 
+@pytest.mark.slow
 def test_a_share_is_operations_over_time_over_peak(context: Context) -> None:
     peak, rows = measure(context, ["cornell"], size=8, rounds=1, samples=2)
     assert [row.method for row in rows] == ["naive", "mis"]

@@ -75,6 +75,7 @@ def height_over(plane: Plane, places: Floats) -> float:
     return float(((places - plane.point) @ normal).min())
 
 
+@pytest.mark.slow
 def test_nothing_is_degenerate() -> None:
     for seed in SEEDS:
         assert_sound(scene(seed))
@@ -188,6 +189,7 @@ def test_counts_have_both_ends() -> None:
     assert {dice.count(1, 1) for _ in range(9)} == {1}
 
 
+@pytest.mark.slow_cases("2")
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_picture_is_lit(context: Context, seed: int) -> None:
     image = rendered(scene(seed), context, 16, width=16, height=12)

@@ -58,6 +58,7 @@ def test_a_crowd_beyond_the_loop_limit_is_measured_with_a_tree_alone(
     assert "| quads | set-up" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_loop_is_in_constants_up_to_as_many_balls_as_are_asked_for(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

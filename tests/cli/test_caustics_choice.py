@@ -178,6 +178,7 @@ def test_an_error_that_few_samples_reach_decides_nothing(
 # --- pictures ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_picture_keeps_what_was_chosen(folder: Path, request: pytest.FixtureRequest) -> None:
     rendered(BALL, *LONG).save("first.exr")
     rendered(BALL, *SIZE, "--samples", "128").save("whole.exr")
@@ -204,6 +205,7 @@ def test_a_picture_without_the_key_has_no_particles(folder: Path, no_pilot: None
 # --- what it tells -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("metals-off")
 @pytest.mark.parametrize(("scene", "used"), [(BALL, "on"), (MIRRORS, "off")])
 def test_it_tells_what_was_chosen(
     scene: str, used: str, folder: Path, capsys: pytest.CaptureFixture[str]

@@ -258,6 +258,7 @@ def test_an_interrupted_part_is_finished_as_the_message_says(
     assert main(["merge", *names, "-o", str(tmp_path / "whole.exr"), "--quiet"]) == 0
 
 
+@pytest.mark.slow
 def test_seven_parts_in_any_order_are_a_picture_that_can_be_rendered_again(
     tmp_path: Path,
 ) -> None:

@@ -79,6 +79,7 @@ def test_what_cannot_be_done_is_refused(
     assert sorted(path.name for path in folder.iterdir()) == before
 
 
+@pytest.mark.slow
 def test_a_bomb_is_not_opened(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A PNG whose header says 60,000 x 60,000 pixels."""
     builder = textured_square()

@@ -117,6 +117,7 @@ def test_a_change_of_a_stored_path_is_found(
     assert f"sample {number} differs: {told}" in out
 
 
+@pytest.mark.slow
 def test_a_bug_of_a_shader_is_found(
     stored: Path,
     context: Context,

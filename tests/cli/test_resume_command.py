@@ -29,6 +29,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
+@pytest.mark.slow
 def test_the_picture_itself_may_be_the_output(folder: Path, tmp_path: Path) -> None:
     own = tmp_path / "a.exr"
     own.write_bytes((folder / "a.exr").read_bytes())
@@ -54,6 +55,7 @@ def test_a_picture_with_all_its_samples_is_written_as_it_is(folder: Path, tmp_pa
     assert (tmp_path / "b.exr").read_bytes() == (folder / "a.exr").read_bytes()
 
 
+@pytest.mark.slow
 def test_error_is_judged_where_one_render_would_judge_it(folder: Path, tmp_path: Path) -> None:
     for options in (("cornell", *SMALL), ("--resume", str(folder / "a.exr"))):
         name = tmp_path / f"{len(options)}.exr"
@@ -123,6 +125,7 @@ EAGER = (
 )
 
 
+@pytest.mark.slow
 def test_a_render_that_is_killed_leaves_its_last_save_and_goes_on(tmp_path: Path) -> None:
     exr, png, npy = (tmp_path / f"a.{suffix}" for suffix in ("exr", "png", "npy"))
     scene = ["cornell", *SMALL, "--caustics", "off"]  # the choice depends on the samples asked for

@@ -149,6 +149,7 @@ def test_glowing_surfaces_and_one_sided_lamps_look_the_same_to_mitsuba(
     assert not judged(ours(context, with_lights(glowing(), {"panel": 0.4})), picture)
 
 
+@pytest.mark.slow
 def test_measured_metals_look_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
     picture = theirs(mitsuba, measured())
     found = judged(ours(context, measured()), picture)

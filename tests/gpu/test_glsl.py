@@ -250,6 +250,7 @@ def test_both_kernels_include_the_same_path_tracer() -> None:
     assert not (folder("shaders_glsl") / FILE).exists()
 
 
+@pytest.mark.slow
 def test_the_kernel_takes_another_hash(ctx: moderngl.Context) -> None:
     texts = {**WRITTEN, "sampling/hash.glsl": read("sampling/other_hash.glsl")}
     source = Source("trace.comp", EVERYTHING, texts=texts)

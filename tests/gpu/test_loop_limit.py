@@ -24,6 +24,7 @@ def hopeful(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(schedule.iterations_per_sample, "__defaults__", (0.0,))  # of `tree_rounds`
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("hopeful")
 def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
     context: Context, monkeypatch: pytest.MonkeyPatch

@@ -106,6 +106,7 @@ def test_recipe_names_the_tier_and_many_shapes_are_not_baked(context: Context) -
         renderer.release()
 
 
+@pytest.mark.slow
 def test_only_the_baked_tier_compiles_when_a_shape_moves(context: Context) -> None:
     scenes = [
         scene_of([sphere([x, 0, -5], 1.0, "m")], {"m": MATTE}, background={"color": [1, 1, 1]})

@@ -113,6 +113,7 @@ def test_shadows_are_none_then_hard_then_soft(context: Context) -> None:
     assert 0.02 < share < 0.98
 
 
+@pytest.mark.slow
 def test_a_ball_under_the_sky_is_lit_as_in_truth(context: Context) -> None:
     """Nothing hides the sky from it: the ambient light of the models is then exact."""
     sky = {"bottom": [0.2, 0.5, 0.1], "top": [1.0, 0.4, 3.0]}
@@ -176,6 +177,7 @@ def test_glass_of_index_one_is_invisible_to_the_eye(context: Context, method: st
     assert close.mean() > 0.99, "all but rays that meet the rim of the ball behind"
 
 
+@pytest.mark.slow
 def test_glass_throws_a_shadow_and_no_caustic(context: Context) -> None:
     pane = sphere([0.25, 1.0, 0.15], 0.2, "glass")
     for method in ("whitted", "cook"):
@@ -186,6 +188,7 @@ def test_glass_throws_a_shadow_and_no_caustic(context: Context) -> None:
 # --- cook is what it is made of --------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_cook_is_one_bounce_of_light_sampling_on_matte_surfaces(context: Context) -> None:
     scene = scene_of([*box_of_quads("matte", 3), *LAMPS.values(), SHADOW], MATERIALS)
     settings: dict[str, Any] = {"bounces": 1, "width": 32, "height": 32}
@@ -231,6 +234,7 @@ def test_models_give_the_same_bits_in_every_tier(context: Context, method: str) 
     assert pictures[0].mean() > 0.05
 
 
+@pytest.mark.slow_cases("whitted", "cook")
 @pytest.mark.parametrize("method", MODELS)
 def test_models_render_the_scenes_that_come_with_glrt(context: Context, method: str) -> None:
     for name in ("cornell", "metals", "lens"):
@@ -238,6 +242,7 @@ def test_models_render_the_scenes_that_come_with_glrt(context: Context, method: 
         assert picture.radiance.mean() > 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", [1, 2])
 def test_a_loop_that_a_driver_cuts_is_noticed(
     call_glsl: CallGlsl, context: Context, model: int

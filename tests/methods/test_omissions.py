@@ -89,6 +89,7 @@ def test_a_lens_is_told_of_the_methods_without_one() -> None:
     assert told == ALL - {"cook"}
 
 
+@pytest.mark.slow
 def test_commands_say_what_is_left_out(tmp_path: Any) -> None:
     size = ("--width", "8", "--height", "8", "--samples", "2")
     command = ("render", "cornell", "-o", tmp_path / "a.png", *size, "--method", "whitted")

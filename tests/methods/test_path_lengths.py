@@ -40,6 +40,7 @@ def test_a_limit_within_the_last_layer_restarts(
         assert renderer.update(bounces=limit) is cost
 
 
+@pytest.mark.slow
 def test_more_bounces_than_traced_restart(context: Context) -> None:
     with layered(room(), context, "lengths", bounces=3) as renderer:
         renderer.render(1)

@@ -256,6 +256,7 @@ def test_two_processes_may_share_a_cache(
     assert kept.read_bytes() == before, "it was read, not made again"
 
 
+@pytest.mark.slow
 def test_pictures_written_by_two_processes_at_once_are_whole(tmp_path: Path) -> None:
     """The later one stays; no reader sees a mixture."""
     path = tmp_path / "a.exr"

@@ -123,6 +123,7 @@ def test_keys_of_many_parts_are_refused_before_they_are_parsed(tmp_path: Path) -
     assert all("a key of 64 parts in line" in text for text in refusals(*paths))
 
 
+@pytest.mark.slow
 def test_long_words_and_many_quotes_do_not_slow_the_search_for_long_keys(tmp_path: Path) -> None:
     """A search that tried every end of every word would take hours."""
     path = tmp_path / "words.toml"
@@ -170,6 +171,7 @@ def test_metadata_that_unpack_to_hundreds_of_megabytes_are_refused(tmp_path: Pat
     refusals(*paths)
 
 
+@pytest.mark.slow
 def test_recipes_that_are_deep_or_long_are_refused(tmp_path: Path) -> None:
     recipes = {
         "deep": '{"scene":' * 100_000,

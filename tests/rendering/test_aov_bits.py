@@ -177,6 +177,7 @@ def test_aovs_in_many_small_dispatches_have_the_same_bits(
     assert parts.count(DispatchRange(16, 3, 1)) == 2 * 3, "of two observations, three passes"
 
 
+@pytest.mark.slow
 def test_a_tree_and_a_loop_find_the_same(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     by_tree = gathered(load("weekend"), context, 2, **SIZE)
     for name in ("TREE_FROM", "SPHERES_FROM"):
@@ -184,6 +185,7 @@ def test_a_tree_and_a_loop_find_the_same(context: Context, monkeypatch: pytest.M
     assert same_aovs(gathered(load("weekend"), context, 2, **SIZE), by_tree)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("twins_stay")
 def test_a_dispatch_that_runs_into_the_loop_limit_is_done_again(
     context: Context, monkeypatch: pytest.MonkeyPatch

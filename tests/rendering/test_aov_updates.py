@@ -160,6 +160,7 @@ def short_loops(monkeypatch: pytest.MonkeyPatch) -> None:
 NAIVE: dict[str, Any] = {**SMALL, "bounces": 0, "method": "naive"}
 
 
+@pytest.mark.usefixtures("exact_kernels")
 @pytest.mark.usefixtures("short_loops")
 def test_aovs_beyond_the_loop_limit_are_refused_and_leave_the_picture(context: Context) -> None:
     with pytest.raises(SceneError, match="--aov is beyond this driver's loop limit"):

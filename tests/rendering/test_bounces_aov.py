@@ -104,6 +104,7 @@ def test_it_is_the_mean_of_what_recorded_paths_tell(context: Context) -> None:
 WAYS: list[tuple[Tier, Resolved]] = [("generic", "fragment"), ("baked", "compute")]
 
 
+@pytest.mark.slow_cases("generic-fragment-sobol")
 @pytest.mark.parametrize("sampler", ["sobol", pytest.param("independent", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("tier", "pipeline"), WAYS)
 def test_ways_and_company_change_no_bit(
@@ -165,6 +166,7 @@ def test_colours_reach_from_none_to_the_limit() -> None:
     assert ticks_of("bounces", scale_of_bounces(99))[16.0] == "16 and more"
 
 
+@pytest.mark.slow
 def test_layers_of_light_change_no_number(context: Context) -> None:
     numbers = []
     for layering in ("none", "groups", "lengths"):

@@ -109,6 +109,7 @@ def test_shapes_that_are_written_into_the_kernel(
     assert_same_bits(image, name, software, expected)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RENDERS)
 def test_arrays_in_textures(
     software: Context, name: str, expected: dict[str, Image], monkeypatch: pytest.MonkeyPatch
@@ -126,6 +127,7 @@ def test_a_fragment_shader(software: Context, name: str, expected: dict[str, Ima
     assert_same_bits(image, name, software, expected)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RENDERS)
 def test_osmesa(software: Context, osmesa: Context, name: str, expected: dict[str, Image]) -> None:
     assert osmesa.route == "osmesa"

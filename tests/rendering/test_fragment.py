@@ -55,6 +55,7 @@ def test_fragment_and_compute_give_the_same_bits(name: str, sampler: str, contex
         assert by_fragment == by_compute
 
 
+@pytest.mark.slow_cases("nee")
 @pytest.mark.parametrize("method", METHODS)
 def test_textures_hold_the_scene_where_blocks_are_too_small(method: str, context: Context) -> None:
     if not context.is_software:

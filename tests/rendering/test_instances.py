@@ -94,6 +94,7 @@ def test_rays_find_an_instance_where_it_stands(call_glsl: CallGlsl, number: int)
     assert not seen[:, 3].any()
 
 
+@pytest.mark.slow
 def test_rays_find_the_nearest_of_instances_and_shapes(call_glsl: CallGlsl) -> None:
     draw = np.random.default_rng(2)
     things: list[dict[str, Any]] = [sphere(draw.uniform(-1, 1, 3), 0.1, "white") for _ in range(8)]
@@ -194,6 +195,7 @@ def group(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) ->
     return scene_of(objects, MATERIALS, camera, background={"color": [0.3, 0.4, 0.5]})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_instances_look_as_if_their_triangles_were_kept_apart(
     context: Context, method: str, monkeypatch: pytest.MonkeyPatch
@@ -209,6 +211,7 @@ def test_instances_look_as_if_their_triangles_were_kept_apart(
     assert apart < 0.3 * np.sqrt(np.mean((other - theirs) ** 2))
 
 
+@pytest.mark.slow
 def test_stretched_instances_are_shaded_as_if_kept_apart(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

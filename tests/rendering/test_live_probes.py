@@ -61,6 +61,7 @@ def test_light_follows_a_step_by_what_each_update_keeps(context: Context, albedo
         assert renderer.probes.lag == pytest.approx(KEPT**6)
 
 
+@pytest.mark.slow
 def test_half_of_a_step_is_there_after_23_updates_that_keep_97_of_100(context: Context) -> None:
     """ln 2 / -ln 0.97 is 22.8; in an almost black room, where one bounce is all."""
     scene = room("planes", 0.001)

@@ -234,6 +234,7 @@ def test_a_ray_leaves_its_triangle_and_its_neighbours(call_glsl: CallGlsl) -> No
     assert back[steep, 0].min() > 0.3, "the other side, not a neighbour"
 
 
+@pytest.mark.slow
 def test_meshes_and_shapes_in_one_tree(call_glsl: CallGlsl) -> None:
     """The nearest of both kinds, whether the shapes are in the tree or compared one by one."""
     draw = np.random.default_rng(2)

@@ -55,6 +55,7 @@ def test_layers_add_up_to_all(name: str, request: pytest.FixtureRequest) -> None
     assert sum(part.mean() > 0.002 * whole.mean() for part in parts) >= count - 2
 
 
+@pytest.mark.slow
 def test_layers_change_nothing_of_the_whole(context: Context, by_group: Renderer) -> None:
     plain = rendered(ROOM, context, 1024, **SMALL, **ON)
     image = by_group.image()
@@ -69,6 +70,7 @@ def test_weights_are_factors(by_group: Renderer) -> None:
     np.testing.assert_allclose(particles_of(by_group.image(weights)), expected, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_group_alone_is_the_scene_with_the_other_one_dark(
     context: Context, by_group: Renderer
 ) -> None:
@@ -79,6 +81,7 @@ def test_a_group_alone_is_the_scene_with_the_other_one_dark(
     assert_agree(image, rendered(dark, context, 4096, seed=1, bounces=4, **SMALL), within=0.1)
 
 
+@pytest.mark.slow
 def test_fewer_bounces_are_the_picture_of_so_many(context: Context, by_length: Renderer) -> None:
     assert by_length.update(bounces=2) is Cost.RELIGHT
     image = by_length.image()

@@ -100,6 +100,7 @@ def test_however_few_there_are(context: Context, bounces: int, linked: float) ->
     assert_agree(image, without, within=0.1)
 
 
+@pytest.mark.slow
 def test_the_error_falls_of_what_is_seen_in_a_mirror(context: Context) -> None:
     """Over the mirror ball, relative to the radiance, by a factor of 5, beside particles alone."""
     size: dict[str, Any] = {"width": 32, "height": 32, "sampler": "sobol", "particles": 1.0}
@@ -144,12 +145,14 @@ def test_shapes_written_into_the_kernel_change_nothing(context: Context) -> None
     assert same(*images)
 
 
+@pytest.mark.slow
 def test_a_scene_without_such_spheres_has_no_links(context: Context) -> None:
     scene = room(LAMP, {**BALL, "material": "pane"})
     plain = rendered(scene, context, 32, caustics="on", linked=0.0)
     assert same(plain, rendered(scene, context, 32, **ON))
 
 
+@pytest.mark.usefixtures("exact_kernels")
 @pytest.mark.parametrize("bounces", [3, 7])
 def test_the_rounds_of_links_count_towards_the_limit_of_loops(bounces: int) -> None:
     """Of a search, of the choice of a sphere, and of what hides the ways to and from it."""
@@ -219,6 +222,7 @@ def test_what_sends_light_otherwise_has_none(material: dict[str, Any]) -> None:
     assert links_of([FLOOR], **material) == 0
 
 
+@pytest.mark.slow
 def test_a_picture_has_links_only_where_it_asks_for_them(context: Context) -> None:
     scene: Scene = ROOMS["a ball of glass"]
     with rendering(scene, context, caustics="on", linked=0.0) as renderer:

@@ -65,6 +65,7 @@ PLACES: dict[str, tuple[dict[str, Any], list[dict[str, Any]]]] = {
 }
 
 
+@pytest.mark.slow
 def test_a_matte_surface_takes_light_by_its_shading_normal(context: Context) -> None:
     """Through a pane, so that no lamp is sampled; by the true normal it would be twice as much."""
     camera, things = PLACES["matte under a pane"]

@@ -42,6 +42,7 @@ def test_what_particles_cannot_do_is_refused_by_name(context: Context, reason: s
         Renderer(scene, context=context, **settings, **ON)
 
 
+@pytest.mark.slow
 def test_an_update_is_refused_likewise_and_changes_nothing(context: Context) -> None:
     with rendering(ROOMS["a lens"], context, **ON) as renderer:
         renderer.render(3)

@@ -175,6 +175,7 @@ def test_a_picture_that_goes_on_has_all_its_particles(context: Context) -> None:
     assert same(image, again)
 
 
+@pytest.mark.slow
 def test_a_change_of_the_scene_leaves_nothing_behind(context: Context) -> None:
     first, second = ROOMS["a lens"], ROOMS["tinted glass"]
     expected = rendered(second, context, 20, **ON)
@@ -207,6 +208,7 @@ def test_rays_lost_to_the_loop_limit_are_followed_again(
         assert next(lost, None) is None
 
 
+@pytest.mark.slow
 def test_a_picture_too_large_for_the_driver_is_refused(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -60,6 +60,7 @@ def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     assert_agree(image, without, within=0.05)
 
 
+@pytest.mark.slow
 def test_a_white_furnace_stays_white(context: Context) -> None:
     """All that a constant sky surrounds has its radiance, if it absorbs nothing."""
     things = [sphere([-0.4, 0, -1.5], 0.5, "white"), sphere([0.5, 0, -1.2], 0.4, "glass")]
@@ -69,6 +70,7 @@ def test_a_white_furnace_stays_white(context: Context) -> None:
     assert_mean(whole(image), 0.7, within=0.005, floor=1e-5)
 
 
+@pytest.mark.slow
 def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context) -> None:
     """Over the floor beside the ball."""
     size: dict[str, Any] = {"width": 48, "height": 48, "sampler": "sobol", "particles": 1.0}
@@ -135,6 +137,7 @@ def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
     assert all((share > 0.5).sum() > 50 for share in shares)
 
 
+@pytest.mark.slow
 def test_where_a_lamp_shines_the_sky_sends_none(context: Context) -> None:
     """So that pictures with particles, a lamp and a sky keep their bits."""
     things = [FLOOR, BALL, sphere([0, 1, -0.5], 0.1, "lamp")]

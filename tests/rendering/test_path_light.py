@@ -132,6 +132,7 @@ def firefly_scene() -> Scene:
     return scene_of(objects, materials, {"position": [0, 0.5, 3], "look_at": [0, -1, 0]})
 
 
+@pytest.mark.slow
 def test_a_firefly_is_explained_by_its_way_through_glass(context: Context) -> None:
     settings: Any = {"samples": 64, "bounces": 3, "sampler": "independent", "seed": 2}
     found = replayed(firefly_scene(), (9, 8), context, **settings)

@@ -34,6 +34,7 @@ def check(scene: Scene, context: Context, **settings: Any) -> None:
         assert_same_bits(found, picture(*pixel), str(pixel))
 
 
+@pytest.mark.slow_cases("naive")
 @pytest.mark.parametrize("method", ["naive", pytest.param("nee", marks=pytest.mark.slow), "mis"])
 def test_lights_add_up_to_the_pixel(context: Context, method: str) -> None:
     check(everything(), context, method=method)

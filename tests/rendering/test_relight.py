@@ -104,6 +104,7 @@ def test_lamps_made_black_cost_no_kernel(context: Context) -> None:
 # --- several light groups ---------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("0.5-independent")
 @pytest.mark.parametrize("sampler", ["independent", "sobol"])
 @pytest.mark.parametrize("sky", [0.0, 0.5])
 def test_groups_weighed_anew_equal_a_fresh_render_up_to_noise(

@@ -54,6 +54,7 @@ def test_a_relit_picture_comes_out_of_its_recipe_to_the_bit(
         assert not same_bits(radiance(fresh.render(12)), image.radiance), "other random numbers"
 
 
+@pytest.mark.slow
 def test_a_picture_of_fewer_bounces_comes_out_of_its_recipe_to_the_bit(
     context: Context, tmp_path: Path
 ) -> None:

@@ -77,6 +77,7 @@ CHANGES: dict[str, Any] = {
 }
 
 
+@pytest.mark.slow_cases("caustics")
 @pytest.mark.parametrize("setting", CHANGES)
 def test_change_of_a_setting_costs_what_it_declares(context: Context, setting: str) -> None:
     order = list(Cost)

@@ -118,6 +118,7 @@ def test_of_settings_a_scene_takes_those_that_were_given() -> None:
     assert refusal(render=glrt.Settings(seed=1)).startswith("render: unknown key 'seed'.")
 
 
+@pytest.mark.slow
 def test_ten_thousand_spheres_take_a_moment() -> None:
     """Of the processor, and the least of several: whatever else the machine does."""
     centers, radii = np.random.default_rng(0).random((10_000, 3)), np.full(10_000, 0.01)

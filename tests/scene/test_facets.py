@@ -35,6 +35,7 @@ def test_smooth_glass_loses_nothing_worth_restoring() -> None:
     assert facets.facet_loss(1e-6, 1.5) is None
 
 
+@pytest.mark.slow
 def test_facets_between_tabled_roughnesses_are_near_their_integrals() -> None:
     """Of textured roughness, where the table is off most: 0.00082 at step 76, of all 256."""
     table = shares_by_step()

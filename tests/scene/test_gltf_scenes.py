@@ -173,6 +173,7 @@ def test_what_is_left_out_is_told_once(tmp_path: Path) -> None:
     assert "of thing.glb is left out: EXT_strange, clearcoatTexture" in told
 
 
+@pytest.mark.slow
 def test_what_is_unlit_looks_the_same_in_every_light(tmp_path: Path, context: Context) -> None:
     builder = textured_square(extensions={"KHR_materials_unlit": {}})
     scene = load(saved(tmp_path, builder))
@@ -206,6 +207,7 @@ def with_light(folder: Path, **light: Any) -> Scene:
     return load(saved(folder, builder))
 
 
+@pytest.mark.slow
 def test_a_point_light_has_its_intensity(tmp_path: Path, context: Context) -> None:
     """683 candela, 1 W/sr, above the corner of a white square: radiance cos / (pi d^2)."""
     scene = with_light(tmp_path, type="point", intensity=683.0, color=[1, 0.5, 0])

@@ -112,6 +112,7 @@ def test_materials_that_are_there_are_taken(name: str, tmp_path: Path) -> None:
     assert told(scene) == left_out
 
 
+@pytest.mark.slow
 def test_what_was_left_out_is_written_out_in_a_saved_scene(
     tmp_path: Path, context: Context
 ) -> None:
@@ -278,6 +279,7 @@ def test_what_is_unlit_has_the_colors_of_its_vertices(tmp_path: Path) -> None:
 SEEN: dict[str, list[float]] = {"MASK": [0, 0, 0.5], "BLEND": [0.25, 0, 0.375], "OPAQUE": [1, 0, 0]}
 
 
+@pytest.mark.slow_cases("OPAQUE")
 @pytest.mark.parametrize("mode", SEEN)
 def test_what_is_unlit_has_holes(mode: str, tmp_path: Path, context: Context) -> None:
     """Red of alpha 0.25 before blue of 0.5, both unlit."""

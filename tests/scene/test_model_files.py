@@ -49,6 +49,7 @@ def test_an_obj_file_has_its_image(tmp_path: Path) -> None:
     assert "map_Kd" in " ".join(cautions(told, settings_for(told.render)))
 
 
+@pytest.mark.slow
 def test_a_saved_model_has_the_same_picture_elsewhere(tmp_path: Path, context: Context) -> None:
     """With the files beside it that it needs."""
     builder = textured_square()

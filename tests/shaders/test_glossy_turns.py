@@ -90,6 +90,7 @@ def test_a_particle_carries_what_the_surface_leaves_of_it(
     assert not found[~goes, 0].any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_arrives_by_the_true_normal_is_spread_by_the_other(
     call_glsl: CallGlsl, kind: str

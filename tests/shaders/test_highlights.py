@@ -50,6 +50,7 @@ def test_the_half_vector_form_is_reciprocal(call_glsl: CallGlsl) -> None:
     assert np.allclose(there, back, rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_whole_powers_are_powers(call_glsl: CallGlsl) -> None:
     x = np.linspace(0.9, 1.0, 50)
     for n in (0, 1, 2, 7, 48, 1001):

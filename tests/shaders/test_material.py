@@ -197,6 +197,7 @@ def test_the_density_of_rough_metal_integrates_to_one(call_glsl: CallGlsl) -> No
     assert absorbed == pytest.approx(below, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_rough_metal_sends_back_no_more_than_it_gets_and_sampling_says_how_much(
     call_glsl: CallGlsl,
 ) -> None:

@@ -166,6 +166,7 @@ def test_lamps_and_the_sun_share_the_particles(call_glsl: CallGlsl, particle_fil
         assert abs(found.mean() - flux) < 5 * found.std() / np.sqrt(found.size) + 1e-5 * flux
 
 
+@pytest.mark.slow
 def test_particles_come_from_beyond_the_planes(call_glsl: CallGlsl, particle_files: str) -> None:
     """However far along the line of sight one meets it: a low sun over a floor, and a wall."""
     floor = plane([0, -1, 0], [0, 1, 0], "matte")

@@ -169,6 +169,7 @@ def test_particles_carry_the_flux_of_their_lamp(
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["quad", "disk"])
 def test_most_particles_leave_the_side_that_is_close_to_something(
     call_glsl: CallGlsl, particle_files: str, kind: str

@@ -182,6 +182,7 @@ def test_camera_rays_fill_pixel_and_lens_evenly(call_glsl: CallGlsl) -> None:
     assert_fits(np.bincount(place, minlength=16), np.full(16, DRAWS / 16))
 
 
+@pytest.mark.slow
 def test_roulette_ends_as_many_paths_as_their_throughput_says(call_glsl: CallGlsl) -> None:
     """Four times their throughput survive."""
     chance = (np.arange(32) + 0.5) / 32

@@ -178,6 +178,7 @@ PORTIONS = {
 }
 
 
+@pytest.mark.slow_cases("nee-sobol")
 @pytest.mark.parametrize(("method", "sampler"), WAYS)
 def test_samples_may_come_in_portions_that_end_within_a_block(
     context: Context, method: str, sampler: str

@@ -186,6 +186,7 @@ def test_each_branch_is_met(call_glsl: CallGlsl, chords: int, branch: str) -> No
     assert (sense_of(found)[is_met] == told).mean() > 0.99  # but with eye and vertex in line
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chords", [0, 1, 2])
 def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
     """Where it meets the ball on both sides, and where it leaves the eye."""
@@ -208,6 +209,7 @@ def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
         assert np.quantile(apart, 0.999) < 1e-3
 
 
+@pytest.mark.slow
 def test_links_are_drawn_as_their_shares_say(call_glsl: CallGlsl) -> None:
     u = (np.arange(10_000) + 0.5) / 10_000
     expected_shares: dict[int, list[float]] = {0: [0.125, 0.75, 0.125], 1: [1, 0, 0]}

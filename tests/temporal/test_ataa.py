@@ -202,6 +202,7 @@ def test_the_film_and_its_bits_are_those_of_reset(context: Context) -> None:
     alone.release()
 
 
+@pytest.mark.slow
 def test_other_weights_trace_nothing(context: Context) -> None:
     """Samples are summed under the weights of the scene; particles come from elsewhere."""
     materials = {"matte": MATTE, "lamp": lamp(4.0)}

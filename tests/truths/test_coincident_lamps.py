@@ -132,6 +132,25 @@ def scene(things: list[dict[str, Any]], camera: dict[str, Any] = ASIDE) -> Scene
     return made
 
 
+@pytest.mark.slow_cases(
+    "one on the face of a box-naive",
+    "one on the face of a box-nee",
+    "one on the face of a box-mis",
+    "two back to back, of one side each-nee",
+    "two back to back, of one side each-mis",
+    "a mesh next to its copy-naive",
+    "a mesh next to its copy-nee",
+    "a mesh next to its copy-mis",
+    "a mesh that covers half of a quad-naive",
+    "a mesh that covers half of a quad-nee",
+    "a mesh that covers half of a quad-mis",
+    "a disk within a quad-naive",
+    "a disk within a quad-nee",
+    "a disk within a quad-mis",
+    "among many shapes, in a tree-naive",
+    "among many shapes, in a tree-nee",
+    "among many shapes, in a tree-mis",
+)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("case", CASES)
 def test_the_light_below_is_that_of_what_is_seen(context: Context, case: str, method: str) -> None:
@@ -186,6 +205,7 @@ def test_overlapping_lamps_are_seen_without_a_speck(context: Context, turned: bo
     assert list(rows[:, 0]) in (expected, expected[::-1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_a_furnace_of_doubled_walls_is_even(context: Context, method: str) -> None:
     """Walls of radiance 1 and albedo 1/2, parts of which are there twice: 2 (1 - 2^-7)."""

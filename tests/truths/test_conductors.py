@@ -121,6 +121,7 @@ def test_metal_weighs_sampled_light_as_scattered_light(context: Context) -> None
     assert_agree(nee, naive, 0.03)
 
 
+@pytest.mark.slow_cases("blinn")
 @pytest.mark.parametrize("method", ["phong", "blinn"])
 def test_models_take_what_is_reflected_head_on(context: Context, method: str) -> None:
     """In their highlights and of the sky, for which they have no angle."""

@@ -50,6 +50,7 @@ LAMPS = {
 # --- cones ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", LAMPS)
 def test_inside_the_inner_angle_a_spot_is_the_lamp_to_the_bit(
@@ -62,6 +63,7 @@ def test_inside_the_inner_angle_a_spot_is_the_lamp_to_the_bit(
     assert method == "naive" or image.radiance.mean() > 0
 
 
+@pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", LAMPS)
 def test_outside_the_outer_angle_a_spot_is_dark(context: Context, kind: str, method: str) -> None:
@@ -142,6 +144,7 @@ def test_all_methods_see_the_same_light_of_many_spots(context: Context, count: i
 # --- one side ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", ["quad", "disk", "mesh"])
 def test_the_front_is_the_lamp_to_the_bit_and_the_back_is_dark(
@@ -177,6 +180,7 @@ def test_a_quad_shines_along_its_normal(context: Context) -> None:
                 assert image.radiance.any() == is_lit
 
 
+@pytest.mark.slow
 def test_one_side_of_a_smooth_mesh_is_that_of_its_facets(context: Context) -> None:
     """Shading normals do not decide what emits."""
     vertices, faces = TRIANGLE

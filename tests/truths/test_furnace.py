@@ -95,6 +95,7 @@ def test_light_sampling_counts_a_wall_once(context: Context) -> None:
         assert_mean(whole(renderer.render(512).image()), 1.5, within=0.005)
 
 
+@pytest.mark.slow
 def test_both_weighted_count_a_box_of_lamps_once(context: Context) -> None:
     with rendering(furnace(BOX), context, roulette=False, method="mis") as renderer:
         for bounces in (1, 2, 4, 8):

@@ -44,6 +44,7 @@ def mixture(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) 
     return scene_of(objects, MATERIALS, {**eye, **lens}, background=SKY)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [*METHODS, *CLASSIC])
 def test_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, method: str) -> None:
     expected = rendered(mixture(), context, 4, method=method, **SMALL)

@@ -86,6 +86,7 @@ def test_light_is_left_as_beer_says(context: Context, method: str, shape: str) -
     assert_allclose(found, np.broadcast_to(COLOR**1.5, found.shape), rtol=1e-5, atol=1e-12)
 
 
+@pytest.mark.slow_cases("mesh")
 @pytest.mark.parametrize("shape", ["box", "sphere", "cylinder", "mesh", "plane"])
 def test_a_camera_in_glass_sees_through_what_is_before_it(context: Context, shape: str) -> None:
     """Down to a lamp in the glass, which is no face of it."""
@@ -109,6 +110,7 @@ def test_a_slab_of_tinted_glass_reflects_and_passes_what_the_series_says(context
     assert_mean(whole(image), truth, within=0.02, floor=1e-6)
 
 
+@pytest.mark.slow
 def test_lamps_in_tinted_glass_are_found_alike(context: Context) -> None:
     """A matte ball and a lamp in a ball of it, and a floor below; rough too."""
     things = [
@@ -258,6 +260,7 @@ def test_a_camera_under_water_looks_out_through_glass(context: Context) -> None:
     assert_mean(whole(image), truth, within=0.03, floor=1e-5)
 
 
+@pytest.mark.slow
 def test_lamps_are_found_behind_surfaces_that_are_none(context: Context) -> None:
     """A lamp and a matte ball in glass, with a face of lower priority between them."""
     things = [

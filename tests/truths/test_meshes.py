@@ -65,6 +65,7 @@ def test_clear_glass_of_index_1_is_not_seen(context: Context, smooth: bool) -> N
     assert (image.radiance == 1).all()
 
 
+@pytest.mark.slow
 def test_a_glass_box_of_triangles_looks_as_one_of_glass(context: Context) -> None:
     low, high = [-0.5, -0.625, -0.5], [0.5, 0.5, 0.5]
     world = [plane([0, -1, 0], [0, 1, 0], "red"), plane([0, 0, -3], [0, 0, 1], "white")]
@@ -102,6 +103,7 @@ def room(of_triangles: bool) -> Scene:
     return scene_of(objects, MATERIALS, {"position": [0, 0, 3], "look_at": [0, 0, 0], "fov": 45})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_a_room_of_triangles_has_the_picture_of_one_of_quads(context: Context, method: str) -> None:
     """By the same random numbers: what is left is rounding, which few paths feel."""
@@ -151,6 +153,7 @@ def things(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) -
     return scene_of(objects, MATERIALS, camera, background={"color": [0.3, 0.4, 0.5]})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_meshes_scaled_by_a_power_of_two_keep_their_bits(context: Context, method: str) -> None:
     expected = rendered(things(), context, 4, method=method, **SMALL)
@@ -167,6 +170,7 @@ def test_meshes_far_from_the_origin_keep_their_bits(
     assert same(rendered(things(1.0, offset), context, 4, **SMALL), expected)
 
 
+@pytest.mark.slow
 def test_meshes_have_the_same_bits_everywhere(context: Context) -> None:
     """In both pipelines and tiers, and by EGL and OSMesa."""
     if not context.is_software:
@@ -228,6 +232,7 @@ def test_each_triangle_that_emits_has_its_own_density(context: Context) -> None:
     assert_agree(pictures[0], pictures[2], 0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_light_from_behind_a_triangle_does_not_light_it(context: Context, method: str) -> None:
     """Though the normals at its corners lean over its edge, towards a lamp below it."""
@@ -241,6 +246,7 @@ def test_light_from_behind_a_triangle_does_not_light_it(context: Context, method
     assert (image.radiance == 0).all()
 
 
+@pytest.mark.slow
 def test_no_light_leaks_out_of_a_closed_room_of_triangles(context: Context) -> None:
     """A room that reflects all, seen from inside, under a sky that would show."""
     points, faces = box([-1, -1, -1], [1, 1, 1])

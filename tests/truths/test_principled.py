@@ -102,6 +102,7 @@ def room() -> Scene:
     return scene_of(objects, materials, camera, background={"color": [0.1] * 3})
 
 
+@pytest.mark.slow
 def test_methods_agree_on_principled_surfaces(context: Context) -> None:
     naive, nee, mis = (
         rendered(room(), context, samples, method=method, seed=seed, bounces=4)
@@ -136,6 +137,7 @@ def sunny() -> Scene:
     )
 
 
+@pytest.mark.slow
 def test_all_ways_and_sizes_show_the_same_bits(context: Context) -> None:
     def picture(**way: Any) -> bytes:
         return rendered(room(), context, 4, **way).radiance.tobytes()
@@ -250,6 +252,7 @@ def test_glass_in_part_is_a_mean_of_glass_and_the_rest(context: Context) -> None
 BLACK = {"color": [0.0, 0.0, 0.0], "specular": 0.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_holes_let_light_through(context: Context, method: str) -> None:
     """A black sheet, before a white sky, and between a lamp and the floor."""

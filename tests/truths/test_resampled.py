@@ -120,6 +120,7 @@ def test_the_light_of_all_bounces_is_that_of_a_gather(context: Context) -> None:
     assert_equal_means(means(scene, context, 64, bounces=6), truth, 0.05)
 
 
+@pytest.mark.slow
 def test_light_of_the_sky_and_the_sun_is_left_to_paths(context: Context) -> None:
     things = [
         plane([0, -1, 0], [0, 1, 0], "white"),
@@ -134,6 +135,7 @@ def test_light_of_the_sky_and_the_sun_is_left_to_paths(context: Context) -> None
     assert_equal_means(means(scene, context, 64, bounces=2), truth, 0.03)
 
 
+@pytest.mark.slow
 def test_what_a_surface_has_found_is_not_hidden_from_it(context: Context) -> None:
     """A point lies on a surface up to rounding, which would hide it in one of a hundred cases."""
     text = read(RESAMPLING)
@@ -216,12 +218,14 @@ def test_the_error_tells_the_noise_of_what_samples_share(context: Context) -> No
 # --- bits -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_light_without_a_bounce_is_that_of_mis_to_the_bit(context: Context) -> None:
     ways = {"bounces": 0, "sampler": "sobol"}
     found = rendered(mixture(), context, 16, **{**WAY, **ways})
     assert same(found, rendered(mixture(), context, 16, method="mis", **ways))
 
 
+@pytest.mark.slow_cases("planes")
 @pytest.mark.parametrize("name", ROOMS)
 def test_three_bounces_in_a_closed_room_are_exact(context: Context, name: str) -> None:
     """1 + a + a^2 + a^3: what is kept counts for what is not."""
@@ -229,6 +233,7 @@ def test_three_bounces_in_a_closed_room_are_exact(context: Context, name: str) -
     np.testing.assert_allclose(image.radiance, 1.875, rtol=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reuse", ["none", "both"])
 def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, reuse: str) -> None:
     ways = {**WAY, "reuse": reuse}
@@ -237,6 +242,7 @@ def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, reuse
         assert same(rendered(mixture(2.0**power), context, 16, **ways), expected), power
 
 
+@pytest.mark.slow_cases("temporal", "spatial")
 @pytest.mark.parametrize("reuse", REUSES)
 def test_the_picture_does_not_hang_on_what_was_rendered_before(
     context: Context, reuse: str
@@ -265,6 +271,7 @@ def test_a_part_is_its_own_share_of_the_whole(context: Context) -> None:
     np.testing.assert_allclose(part, 2 * two - one, rtol=1e-4, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_scenes_with_holes_have_the_picture_of_a_gather(context: Context) -> None:
     """A ray sees through what is there in part at random: whether a point is seen is not known."""
     screen = {"type": "principled", "color": [0.5, 0.5, 0.5], "alpha": 0.5}

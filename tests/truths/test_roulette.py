@@ -61,6 +61,7 @@ def test_roulette_keeps_the_light_of_dim_paths(context: Context, method: str) ->
     assert_mean(whole(image), truth, within=0.015)
 
 
+@pytest.mark.slow
 def test_roulette_makes_no_nan_of_any_throughput(call_glsl: CallGlsl) -> None:
     """From 0 over the smallest number to 1 and beyond, with 16 million numbers drawn, 0 included:
     survivors are brought to 1/4 or a little less, and the mean stays.

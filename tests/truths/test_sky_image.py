@@ -129,6 +129,7 @@ def gathered(pixels: Array) -> Array:
     return mean
 
 
+@pytest.mark.slow
 def test_methods_agree_under_an_image_and_a_lamp(context: Context) -> None:
     pixels = random_sky(8, 4, seed=5)
     things = FLOOR, sphere([0, 0.3, 0], 0.3, "mirror")
@@ -173,6 +174,7 @@ def test_what_is_not_done_is_told() -> None:
     assert closed_form(under(random_sky(4, 2), FLOOR)) is None
 
 
+@pytest.mark.slow
 def test_models_take_no_light_of_an_image(context: Context) -> None:
     scene = under(random_sky(4, 2), FLOOR, camera=ABOVE)
     for method in ("whitted", "cook", "phong"):

@@ -110,6 +110,7 @@ def test_a_penumbra_is_as_wide_as_the_disc(context: Context, method: str) -> Non
             assert not image.radiance.any()
 
 
+@pytest.mark.slow
 def test_methods_agree_under_sun_and_sky_and_lamp(context: Context) -> None:
     things = [
         FLOOR,

@@ -70,6 +70,21 @@ def room(material: dict[str, Any], mesh_too: bool = True) -> Scene:
     return scene_of([*things, *lights], materials, EYE, background={"color": [0.2] * 3})
 
 
+@pytest.mark.slow_cases(
+    "metal-naive",
+    "metal-nee",
+    "metal-mis",
+    "principled-nee",
+    "principled-mis",
+    "metallic-naive",
+    "metallic-nee",
+    "metallic-mis",
+    "transmission-naive",
+    "transmission-nee",
+    "transmission-mis",
+    "what is not cut-nee",
+    "what is not cut-mis",
+)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", [name for name in PLAIN_AND_EVEN if name != "emission"])
 def test_an_even_texture_gives_the_bits_of_its_value(
@@ -90,6 +105,7 @@ def test_an_even_emission_is_found_by_scattering_alone(context: Context) -> None
     assert not needs_of(scenes[1], settings_for(scenes[1].render)).sample_lights
 
 
+@pytest.mark.slow
 def test_roughness_has_steps_of_a_code(context: Context) -> None:
     """0.2 is step 51 of 255: its facets are those of the number, up to the table's rounding."""
     scenes = [
@@ -196,6 +212,7 @@ def test_rays_to_lights_pass_what_the_path_has_passed(context: Context, method: 
     assert_mean(whole(image), 0.5**3, within=0.02)
 
 
+@pytest.mark.slow
 def test_a_lamp_behind_a_hole_is_weighed_from_where_the_path_scattered(context: Context) -> None:
     """All methods agree on a floor near a lamp behind a sheet."""
     sheet = quad([-3, 0.4, -3], [6, 0, 0], [0, 0, 6], "m")
@@ -212,6 +229,7 @@ def test_a_lamp_behind_a_hole_is_weighed_from_where_the_path_scattered(context: 
         assert_agree(first, other, within=0.02)
 
 
+@pytest.mark.slow
 def test_a_hole_shows_what_is_behind_in_aovs_too(context: Context) -> None:
     """Of a sheet that is cut away everywhere, nothing is left."""
     gone = principled(alpha=even(0.25), alpha_cutoff=0.5)
@@ -225,6 +243,7 @@ def test_a_hole_shows_what_is_behind_in_aovs_too(context: Context) -> None:
         assert_allclose(first.aovs[name].value, second.aovs[name].value, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_textures_have_the_same_bits_everywhere(context: Context) -> None:
     """In both pipelines and tiers, with a tree or not, and by EGL and OSMesa."""
     if not context.is_software:

@@ -40,6 +40,7 @@ def evenly(steps: int, material: str, color: Any, **more: Any) -> dict[str, Any]
     return mesh((points, faces), material, colors=colors, **more)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize(("plain", "dyed"), [("white", "dyed"), ("grey", "dyed metal")])
 def test_even_colours_are_the_material_of_that_colour_to_the_bit(
@@ -50,6 +51,7 @@ def test_even_colours_are_the_material_of_that_colour_to_the_bit(
     assert same(first, second)
 
 
+@pytest.mark.slow
 def test_each_mesh_has_its_own_colours(context: Context) -> None:
     """Also beside one that has none, and one that is hidden."""
     left, right = {"scale": 0.5, "translate": [-1, 0, 0]}, {"scale": 0.5, "translate": [1, 0, 0]}
@@ -80,12 +82,14 @@ def test_between_the_corners_colours_are_linear(call_glsl: CallGlsl) -> None:
     assert_allclose(found, shares @ colors, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_albedo_shows_them(context: Context) -> None:
     image = rendered(room(evenly(2, "white", COLOR)), context, 16, aov=("albedo",))
     other = rendered(room(mesh(icosphere(2), "dyed")), context, 16, aov=("albedo",))
     assert np.array_equal(image.aovs["albedo"].value, other.aovs["albedo"].value)
 
 
+@pytest.mark.slow
 def test_glass_has_none(context: Context) -> None:
     scene, plain = room(evenly(2, "glass", COLOR)), room(mesh(icosphere(2), "glass"))
     settings = settings_for(scene.render)

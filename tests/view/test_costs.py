@@ -26,6 +26,7 @@ def live(session: Session, bounces: int) -> Plan:
     return session.renderer.plan
 
 
+@pytest.mark.slow_cases("0-0-recompile")
 @pytest.mark.parametrize(
     ("traced", "reach", "beyond"),
     [

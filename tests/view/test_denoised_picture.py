@@ -83,6 +83,7 @@ def test_it_is_what_a_render_makes(session: Session, denoised: DenoisedPicture) 
     assert f"256 samples by {name}: error" in denoised.told(session)
 
 
+@pytest.mark.slow
 def test_an_edit_begins_anew(session: Session, denoised: DenoisedPicture) -> None:
     session.edit(samples=64)
     first = found(session, denoised, 64)

@@ -42,6 +42,7 @@ def things() -> Scene:
     )
 
 
+@pytest.mark.slow
 def test_every_pixel_shows_what_is_picked_there(context: Context) -> None:
     """But for pixels at the rim of something, of which a sample may see another part."""
     scene = things()

@@ -72,6 +72,7 @@ def walk(session: Session) -> None:
     session.advance(0.01, count=1)
 
 
+@pytest.mark.slow_cases("ataa")
 @pytest.mark.parametrize("mode", ["reproject", "taa", "ataa", "wrls"])
 def test_the_first_edit_waits_for_no_shader(
     context: Context, mode: Mode, monkeypatch: pytest.MonkeyPatch

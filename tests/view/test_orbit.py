@@ -176,6 +176,7 @@ def motions(draw: st.DrawFn) -> partial[Camera]:
     return partial(lambda camera, motion, how: motion(camera, *how), motion=motion, how=how)
 
 
+@pytest.mark.slow
 @settings(max_examples=300, derandomize=True, deadline=None, database=None)
 @given(cameras(), st.lists(motions(), min_size=1, max_size=4))
 def test_no_motion_of_any_camera_raises_what_the_window_does_not_catch(

@@ -17,6 +17,7 @@ from tests.support.processes import glrt
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.slow_cases("0.8")
 @pytest.mark.parametrize("seconds", [0.3, 0.8])
 def test_a_window_that_is_killed_while_it_starts_leaves_no_traceback(
     display: str, tmp_path: Path, seconds: float
