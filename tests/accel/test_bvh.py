@@ -66,6 +66,7 @@ def test_boxes_that_have_moved_keep_their_order_and_every_box_holds_what_lies_be
         assert len(rest) == 0 or np.array_equal(moved.upper[node], (upper + way)[rest].max(axis=0))
 
 
+@pytest.mark.slow
 def test_a_camera_that_moves_builds_no_tree_again(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

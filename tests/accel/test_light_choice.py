@@ -132,6 +132,7 @@ def test_more_lamps_than_that_are_weighed_in_clusters() -> None:
         assert (needs.clusters, needs.many_lights) == (0, False)
 
 
+@pytest.mark.slow
 def test_another_lamp_compiles_where_lamps_are_weighed(context: Context) -> None:
     """Their number is a constant of the kernel; of many, the number of clusters is."""
     for count, cost in ((2, Cost.RECOMPILE), (MOST_NEAR + 1, Cost.RESTART)):

@@ -127,6 +127,7 @@ def test_a_ray_finds_by_the_tree_what_it_finds_without(
     assert limit == NEAR or (without[:, 1] >= 0).sum() > COUNT / 4
 
 
+@pytest.mark.slow_cases("cylinder")
 @pytest.mark.parametrize("kind", KINDS)
 def test_each_kind_alone(call_glsl: CallGlsl, kind: str) -> None:
     scene = crowd(TREE_FROM, 5, (kind,))
@@ -136,6 +137,7 @@ def test_each_kind_alone(call_glsl: CallGlsl, kind: str) -> None:
     assert len(set(by_tree[:, 1])) > TREE_FROM / 4
 
 
+@pytest.mark.slow_cases("40")
 @pytest.mark.parametrize("count", [1, 2, 8, 9, 40])
 def test_trees_of_few_levels(
     call_glsl: CallGlsl, monkeypatch: pytest.MonkeyPatch, count: int
@@ -164,6 +166,7 @@ def test_children_that_a_node_does_not_have_are_not_visited(
     assert by_tree.tobytes() == without.tobytes()
 
 
+@pytest.mark.slow
 def test_a_row_of_shapes_that_shrink_towards_a_point(call_glsl: CallGlsl) -> None:
     """Boxes of all sizes down to a millionth, in a tree of the least depth."""
     place = 0.96 ** np.arange(330)
@@ -185,6 +188,7 @@ def test_a_row_of_shapes_that_shrink_towards_a_point(call_glsl: CallGlsl) -> Non
 SETTINGS: dict[str, Any] = {"width": 24, "height": 24}
 
 
+@pytest.mark.slow_cases("whitted")
 @pytest.mark.parametrize("method", ["naive", "mis", "whitted"])
 def test_a_picture_is_the_same_with_the_tree_and_without(
     context: Context, monkeypatch: pytest.MonkeyPatch, method: str
@@ -197,6 +201,7 @@ def test_a_picture_is_the_same_with_the_tree_and_without(
     assert same(by_tree, rendered(scene, context, 3, method=method, **SETTINGS))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rest", [REST_FROM - 1, REST_FROM, 3 * REST_FROM])
 def test_spheres_have_a_tree_beside_that_of_the_others(
     context: Context, monkeypatch: pytest.MonkeyPatch, rest: int

@@ -256,6 +256,7 @@ def without_tree(
         return rendered(scene, context, 3, **more)
 
 
+@pytest.mark.slow_cases("mis-1")
 @pytest.mark.slow_cases("mis-0", "mis-2", "mis-3")
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("method", ["naive", "mis"])
@@ -269,6 +270,7 @@ def test_a_picture_is_the_same_with_the_tree_and_without(
     assert same(by_tree, without_tree(scene, context, monkeypatch, **settings))
 
 
+@pytest.mark.slow
 def test_a_crowd_scaled_by_a_power_of_two_keeps_its_bits(context: Context) -> None:
     for power in (-10, 5):
         assert same(rendered(crowd(1), context, 3), rendered(crowd(1, 2.0**power), context, 3))

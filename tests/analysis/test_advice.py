@@ -153,6 +153,7 @@ def test_a_measurement_ends_with_its_time_and_tells_what_it_did_not_try(
     assert set(tried) - {0, len(whole)}, f"none of {tried} was cut short"
 
 
+@pytest.mark.slow
 def test_auto_without_time_to_measure_renders_and_says_so(tmp_path: Path) -> None:
     """A second goes by before the first picture that could tell anything."""
     picture = tmp_path / "a.png"

@@ -216,6 +216,7 @@ def test_the_error_that_is_wanted_tells_how_long_a_render_is(
     assert sizes[-1] == (pixels or 64)
 
 
+@pytest.mark.slow
 def test_an_error_that_few_samples_reach_is_not_worth_a_choice(context: Context) -> None:
     scene = load(BALL)
     settings = settings_for(scene.render, width=24, height=24, samples=1 << 20)

@@ -70,6 +70,7 @@ def test_what_longer_paths_leave_out_counts(context: Context) -> None:
     assert other is None or other.samples > found.samples
 
 
+@pytest.mark.slow
 def test_a_large_picture_is_measured_small(context: Context) -> None:
     large = settings_for(WANTED, width=1920, height=1080, bounces=1)
     found = denoised_choice(ROOM, replace(chosen(128 * 0.5**2), settings=large), 0.5, context)

@@ -68,6 +68,7 @@ def test_pictures_are_compared_as_they_are_shown() -> None:
     assert flip.flip(1e6 * truth, 2e6 * truth) == 0, "both are white"
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("evaluator")
 def test_every_point_of_a_chart_has_it(context: Context, folder: Path) -> None:
     result = measured(context, folder)

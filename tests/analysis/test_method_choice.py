@@ -153,6 +153,7 @@ def test_samples_make_up_for_the_bias() -> None:
 # --- the choice ----------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("diffuse")
 @pytest.mark.slow_cases("glass")
 @pytest.mark.parametrize("name", QUICK)
 def test_the_choice_reaches_the_error_on_scenes_that_separate_methods(

@@ -105,6 +105,7 @@ TRACKS = [
 ]
 
 
+@pytest.mark.slow
 def test_files_hold_the_figures(tmp_path: Path) -> None:
     save_tracks("room", "A room", TRACKS, tmp_path)
     table = [*csv.reader((tmp_path / "room.temporal.csv").read_text().splitlines())]

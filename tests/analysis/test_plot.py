@@ -28,6 +28,7 @@ CHART = Chart(
 )
 
 
+@pytest.mark.slow
 def test_a_chart_is_written_in_the_format_of_its_suffix(tmp_path: Path) -> None:
     for suffix, magic in ((".svg", b"<?xml"), (".png", b"\x89PNG")):
         save_chart(CHART, tmp_path / f"a{suffix}")
@@ -62,6 +63,7 @@ def test_everything_is_drawn_even_zeros(tmp_path: Path) -> None:
     assert plot._bottom([Curve("nothing", [1.0], [0.0])]) == 1.0
 
 
+@pytest.mark.slow
 def test_a_sheet_holds_all_charts(tmp_path: Path) -> None:
     for count, columns in ((1, 4), (3, 2)):
         charts = [replace(CHART, title=f"Case {i}") for i in range(count)]

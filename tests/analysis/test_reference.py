@@ -269,6 +269,7 @@ def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> 
     assert truth.radiance.mean() == pytest.approx(1.0, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("loop_limit")
 def test_the_loop_limit_bounds_the_paths(context: Context) -> None:
     walls = [plane([0, 0, -3 - i], [0, 0, 1], "lamp") for i in range(400)]
@@ -277,6 +278,7 @@ def test_the_loop_limit_bounds_the_paths(context: Context) -> None:
     assert small(scene).bounces <= truth.bounces < reference.BOUNCES
 
 
+@pytest.mark.slow
 def test_every_shader_file_is_part_of_the_name_of_a_reference(
     context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -12,6 +12,7 @@ from glrt.settings import settings_for
 from tests.support.sky_images import random_sky, write_exr
 
 
+@pytest.mark.slow
 def test_another_content_of_a_file_is_another_reference(
     context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -145,6 +145,7 @@ def test_the_checkout_is_compared_with_its_own_commit(capsys: pytest.CaptureFixt
     assert "| sky |" in printed.out
 
 
+@pytest.mark.slow
 def test_a_side_renders_what_it_is_asked(tmp_path: Path) -> None:
     process = Process(
         [sys.executable, "-P", str(PROGRAM)], tmp_path / "log", environment_of(ROOT, tmp_path)
@@ -209,6 +210,7 @@ def test_the_number_of_threads_is_set_where_it_is_asked_for(
             assert [side.glrt.name for side in both] == [told, told]
 
 
+@pytest.mark.slow
 def test_nothing_stays_behind_after_ctrl_c(tmp_path: Path) -> None:
     needs_history()
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp_path)}

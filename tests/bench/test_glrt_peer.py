@@ -1,6 +1,7 @@
 """glrt as a peer renders what `glrt render` does."""
 
 import numpy as np
+import pytest
 
 from bench.entries import GLRT, PEERS
 from bench.peer import Request
@@ -13,6 +14,7 @@ SKY = {"color": [1.0, 2.0, 3.0]}
 SCENE = scene_of([sphere([0, 0, -3], 1, "matte")], {"matte": MATTE}, background=SKY)
 
 
+@pytest.mark.slow
 def test_the_picture_is_that_of_the_request_whatever_came_before(context: Context) -> None:
     size = {"width": 8, "height": 6, "bounces": 2}
     with started({GLRT: PEERS[GLRT]}) as peers:

@@ -146,11 +146,13 @@ def test_each_way_of_this_machine_is_tried(
         assert row["found"]["peak_bytes"] > 10 << 20
 
 
+@pytest.mark.slow
 def test_what_a_driver_refuses_is_a_finding(tmp_path: Path) -> None:
     found = tried(work(route="egl", device=15), tmp_path / "pictures.npy")
     assert found["error"].startswith("ContextError: egl: ")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("driver")
 def test_routes_that_open_are_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

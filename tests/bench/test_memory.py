@@ -21,6 +21,7 @@ def test_memory_is_told_in_mebibytes() -> None:
     assert line == "| 64 x 64 | independent | 1.2 s | 400 | 100 | 250 | 40 | 10 |"
 
 
+@pytest.mark.slow
 def test_a_picture_that_finds_no_room_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--size", "20000"]) == 4
     assert "20000 x 20000 pixels failed" in capsys.readouterr().err

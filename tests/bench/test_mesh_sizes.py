@@ -15,6 +15,7 @@ def test_a_ball_is_closed_and_stands_in_an_open_box() -> None:
     assert (found.shapes["mesh"], found.triangles) == (2, 320 + 8)
 
 
+@pytest.mark.slow
 def test_each_mesh_is_measured(context: Context) -> None:
     rows = measure(context, [1, 3], size=8, rounds=6)
     assert [row.triangles for row in rows] == [88, 1288]
@@ -27,6 +28,7 @@ def test_each_mesh_is_measured(context: Context) -> None:
     assert [line.split(" |")[0] for line in lines] == ["| 88", "| 1,288"]
 
 
+@pytest.mark.slow
 def test_the_command_prints_the_machine_and_the_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--steps", "1", "--size", "8", "--rounds", "6"]) == 0
     told = capsys.readouterr().out

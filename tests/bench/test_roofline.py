@@ -25,6 +25,7 @@ def test_a_share_is_operations_over_time_over_peak(context: Context) -> None:
     assert "cornell | mis" in list(table(rows))[3]
 
 
+@pytest.mark.slow
 def test_the_peak_is_no_less_than_a_core_does_one_by_one(context: Context) -> None:
     """A driver that threw the loop away would be a thousand times as fast."""
     peak = Peak(context)

@@ -189,6 +189,7 @@ def test_counts_have_both_ends() -> None:
     assert {dice.count(1, 1) for _ in range(9)} == {1}
 
 
+@pytest.mark.slow_cases("1")
 @pytest.mark.slow_cases("2")
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_picture_is_lit(context: Context, seed: int) -> None:

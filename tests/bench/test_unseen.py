@@ -173,6 +173,7 @@ def test_the_command_measures_scenes_as_long_as_there_is_time(
     assert scene["seed"] == seed_of()
 
 
+@pytest.mark.slow
 def test_a_seed_of_a_table_renders_its_scene_again(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -67,6 +67,7 @@ def no_pilot(monkeypatch: pytest.MonkeyPatch) -> None:
 # --- what it decides ---------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_caustic_gets_particles_and_the_recipe_tells_why(folder: Path) -> None:
     image = rendered(BALL, *LONG)
     assert chosen(image)[0] == "on"
@@ -84,6 +85,7 @@ def test_mirrors_that_light_hardly_comes_by_get_none(folder: Path) -> None:
     assert same(image, rendered(MIRRORS, *LONG, "--caustics", "off"))
 
 
+@pytest.mark.slow
 def test_what_is_given_is_kept(folder: Path) -> None:
     image = rendered(BALL, *LONG, "--particles", "0.3")
     assert chosen(image)[:2] == ("on", 0.3)
@@ -205,6 +207,7 @@ def test_a_picture_without_the_key_has_no_particles(folder: Path, no_pilot: None
 # --- what it tells -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("metals-off")
 @pytest.mark.parametrize(("scene", "used"), [(BALL, "on"), (MIRRORS, "off")])
 def test_it_tells_what_was_chosen(

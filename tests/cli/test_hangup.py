@@ -32,6 +32,7 @@ def as_in_a_terminal() -> Iterator[None]:
     signal.signal(signal.SIGHUP, before)
 
 
+@pytest.mark.slow
 def test_a_terminal_that_is_closed_costs_no_picture(tmp_path: Path) -> None:
     """SIGHUP comes, and the progress bar can be drawn no more."""
     try:
@@ -51,6 +52,7 @@ def test_a_terminal_that_is_closed_costs_no_picture(tmp_path: Path) -> None:
     assert 0 < Image.load(picture).samples < 1048576
 
 
+@pytest.mark.slow
 def test_further_hangups_do_not_end_the_save(tmp_path: Path) -> None:
     """One comes of the shell, and one of the system when the shell ends."""
     picture = tmp_path / "a.exr"

@@ -13,6 +13,7 @@ from glrt.resources import folder
 from tests.support.processes import glrt
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("exact_kernels")
 @pytest.mark.parametrize("pipeline", ["compute", "fragment"])
 def test_the_printed_kernel_is_the_one_that_renders_and_compiles(

@@ -92,6 +92,7 @@ def test_a_bomb_is_not_opened(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert "left out: color 'thing.glb#0', which cannot be read" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_many_nodes_of_one_mesh_are_counted_before_they_are_made(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -66,6 +66,7 @@ def test_error_is_judged_where_one_render_would_judge_it(folder: Path, tmp_path:
     assert same_bits(on.radiance, whole.radiance)
 
 
+@pytest.mark.slow
 def test_time_adds_a_sample_at_least(folder: Path, tmp_path: Path) -> None:
     """And then nobody knows how far to go on: that is asked for."""
     options = ("--resume", folder / "a.exr", "-o", tmp_path / "b.exr")
@@ -76,6 +77,7 @@ def test_time_adds_a_sample_at_least(folder: Path, tmp_path: Path) -> None:
     assert "without a limit of samples" in done.stderr
 
 
+@pytest.mark.slow
 def test_an_interrupted_render_goes_on_to_what_was_asked(tmp_path: Path) -> None:
     name = tmp_path / "a.exr"
     process = start_render("cornell", "-o", name, *SMALL, "--samples", "1000000")

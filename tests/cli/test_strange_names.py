@@ -148,6 +148,7 @@ def test_what_is_refused_is_named_on_one_printable_line(
     assert SHOWN in said or case in ABOUT_ANOTHER
 
 
+@pytest.mark.slow
 def test_no_locale_is_in_the_way(folder: Path) -> None:
     """Bytes of the name are those of UTF-8, and the locale knows ASCII alone."""
     model, picture = "caf\xe9.glb", "\xe9.exr"

@@ -40,6 +40,7 @@ def test_a_full_disk_behind_stderr_leaves_the_exit_code() -> None:
     assert shell("rendr", "2> /dev/full").returncode == 2
 
 
+@pytest.mark.slow
 def test_closed_streams_leave_the_exit_code() -> None:
     done = shell("--version", ">&-")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

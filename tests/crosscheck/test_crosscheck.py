@@ -140,6 +140,7 @@ def differing(one: Record, other: Record) -> set[str]:
     return {stage for stage, identical, _ in agreements(one, other) if identical < 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_both_versions_show_the_same(
     webgpu: Device, wgsl: WgslVersion, context: Context, name: str
@@ -175,6 +176,7 @@ def glass_record(context: Context) -> Record:
     return glsl_record(context, scene, settings_of(scene))
 
 
+@pytest.mark.slow_cases("another seed")
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_planted_fault_shows_in_the_stages_where_it_must(
     webgpu: Device, glass_record: Record, name: str

@@ -112,6 +112,7 @@ def test_principled_metals_look_the_same_to_mitsuba(context: Context, mitsuba: P
     assert not rougher, str(rougher)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("mirror", "clamp")
 @pytest.mark.parametrize("wrap", ["repeat", "mirror", "clamp"])
 def test_images_lie_on_meshes_as_mitsuba_has_them(

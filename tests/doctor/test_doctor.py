@@ -108,6 +108,7 @@ def test_what_a_process_dies_of_is_told() -> None:
     assert examined.end == "the process ended with code 1: out of patience"
 
 
+@pytest.mark.slow_cases("fragment")
 @pytest.mark.parametrize("pipeline", ["compute", "fragment"])
 def test_a_furnace_that_is_wrong_does_not_pass(
     pipeline: Any, context: Context, monkeypatch: pytest.MonkeyPatch

@@ -53,6 +53,7 @@ def test_reported_error_is_closely_the_error_of_cornell(context: Context, sample
     assert_near(ratio, 1, 0.012)
 
 
+@pytest.mark.slow_cases("64")
 @pytest.mark.parametrize("samples", [32, 47, 64])
 def test_error_of_blocks_is_right_from_the_second_block_on(context: Context, samples: int) -> None:
     """Taken over single samples it would promise twice its error here (test_sobol)."""

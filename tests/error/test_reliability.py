@@ -125,6 +125,7 @@ def rendered(scene: Scene, context: Context, samples: int, **settings: Any) -> I
         return renderer.render(samples).image()
 
 
+@pytest.mark.slow_cases("cornell-256", "metals-64")
 @pytest.mark.slow_cases("metals-256")
 @pytest.mark.parametrize("samples", [64, 256])
 @pytest.mark.parametrize("name", ["cornell", "lamps", "sky", "metals"])

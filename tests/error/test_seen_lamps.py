@@ -130,6 +130,7 @@ def test_too_many_shapes_are_not_looked_through(monkeypatch: pytest.MonkeyPatch)
     assert len(found(scene({**BALL, "radius": 1.5}), size=33).rows) <= 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 6])
 def test_rims_are_as_many_samples_see_them(context: Context, seed: int) -> None:
     """One pixel in 100,000 lies more than 5 standard errors off by chance."""

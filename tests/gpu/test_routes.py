@@ -100,6 +100,7 @@ def test_egl_and_osmesa_show_the_same_picture(
     assert_same_pictures(by_egl, by_osmesa, f"{scene} {method}")
 
 
+@pytest.mark.slow_cases("cornell-naive")
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("scene", ["cornell", "everything"])
 def test_hidden_window_shows_the_same_picture(

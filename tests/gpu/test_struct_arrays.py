@@ -95,6 +95,7 @@ def test_uniform_buffer_is_as_large_as_its_block_and_none_is_empty() -> None:
     assert len(uniform_content(np.zeros(0, STRUCTS["Light"]))) > 0
 
 
+@pytest.mark.slow
 def test_recipe_names_the_tier_and_many_shapes_are_not_baked(context: Context) -> None:
     balls = [sphere([i, 0, -9], 0.4, "m") for i in range(MOST_BAKED + 1)]
     for count, tier in ((MOST_BAKED, "baked"), (MOST_BAKED + 1, "generic")):

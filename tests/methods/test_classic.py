@@ -124,6 +124,7 @@ def test_a_ball_under_the_sky_is_lit_as_in_truth(context: Context) -> None:
         assert_agree(model, truth, within=0.02)
 
 
+@pytest.mark.slow_cases("cook")
 @pytest.mark.parametrize("method", MODELS)
 def test_without_bounces_only_emitters_are_seen(context: Context, method: str) -> None:
     scene = everything()
@@ -144,6 +145,7 @@ def test_local_models_see_neither_mirrors_nor_glass(context: Context) -> None:
             assert seen_from_above([floor, *LAMPS.values()], context, method=method) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["whitted", "cook"])
 def test_a_mirror_shows_what_a_mirrored_camera_sees(context: Context, method: str) -> None:
     things = [sphere([0.4, 0.3, 1], 0.5, "matte"), sphere([0, 2, 2], 0.3, "lamp")]
@@ -161,6 +163,7 @@ def test_a_mirror_shows_what_a_mirrored_camera_sees(context: Context, method: st
     assert_agree(through, turned, within=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["whitted", "cook"])
 def test_glass_of_index_one_is_invisible_to_the_eye(context: Context, method: str) -> None:
     sky = {"bottom": [0.2, 0.5, 0.1], "top": [1.0, 0.4, 3.0]}
@@ -197,6 +200,7 @@ def test_cook_is_one_bounce_of_light_sampling_on_matte_surfaces(context: Context
     assert same_bits(cook.radiance, nee.radiance)
 
 
+@pytest.mark.slow
 def test_cook_is_path_tracing_on_metal(context: Context) -> None:
     things = [sphere([-0.5, 0, -3], 0.5, "rough"), sphere([0.6, 0, -3], 0.5, "mirror")]
     scene = scene_of([*things, sphere([0, 2, -2], 0.8, "lamp")], MATERIALS, {"defocus_angle": 2.0})
@@ -222,6 +226,7 @@ def test_a_kernel_has_nothing_that_its_model_cannot_see(method: str) -> None:
     assert not needs.weight_both
 
 
+@pytest.mark.slow_cases("cook")
 @pytest.mark.parametrize("method", MODELS)
 def test_models_give_the_same_bits_in_every_tier(context: Context, method: str) -> None:
     scene = everything()

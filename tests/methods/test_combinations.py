@@ -43,6 +43,25 @@ WORKING = [pair for pair in pairs() if works(*pair)]
 REFUSED = [pair for pair in pairs() if not works(*pair)]
 
 
+@pytest.mark.slow_cases(
+    "--resume-AOVs",
+    "--resume-a method with probes",
+    "--resume-reuse of points",
+    "a part of a render-a method with probes",
+    "a part of a render-reuse of points",
+    "AOVs-light by layers",
+    "AOVs-the fragment pipeline",
+    "AOVs-a classic lighting model",
+    "AOVs-a method with probes",
+    "AOVs-reuse of points",
+    "light by layers-the independent sampler",
+    "light by layers-a classic lighting model",
+    "the fragment pipeline-a classic lighting model",
+    "a method with probes---denoise",
+    "a method with probes---time",
+    "reuse of points---denoise",
+    "reuse of points---error",
+)
 @pytest.mark.slow_cases("*--caustics*", "a merged picture-*")
 @pytest.mark.parametrize(
     ("one", "other"),

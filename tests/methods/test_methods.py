@@ -70,6 +70,7 @@ def small(name: str, height: int) -> dict[str, int]:
     return {"width": round(height * wish.width / wish.height / 8) * 8, "height": height}
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("stage", "spot", "water", "frosted", "gloss", "table", "lamps", "lens")
 @pytest.mark.parametrize("name", LIT)
 def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
@@ -129,6 +130,7 @@ def test_two_lamps_light_as_much_as_both_alone(context: Context, method: str) ->
     assert_agree(together, total, within=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["nee", "mis"])
 def test_a_lamp_cut_in_four_is_one_lamp(context: Context, method: str) -> None:
     corner, u, v = np.array([-0.7, 1.2, -3.5]), np.array([1.4, 0, 0]), np.array([0, 0, 1.2])

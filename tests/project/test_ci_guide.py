@@ -73,6 +73,7 @@ def test_the_example_fails_on_a_wrong_picture_and_shows_it(project: Path) -> Non
             assert min(picture.size) >= 64
 
 
+@pytest.mark.slow
 def test_the_number_of_threads_changes_no_bit(tmp_path: Path) -> None:
     """As the page promises; the variable is that of llvmpipe."""
     bits = []

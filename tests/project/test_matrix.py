@@ -19,6 +19,7 @@ def first() -> dict[str, Any]:
     return drawn(WAYS[0], SHARE)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("way0")
 @pytest.mark.parametrize(
     "way", [Way("osmesa", "fragment"), Way("window", "fragment", "OpenGL 4.1")]

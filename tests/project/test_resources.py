@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import glrt
 from glrt.resources import folder
 
@@ -17,6 +19,7 @@ def test_checkout_keeps_them_beside_the_package() -> None:
         assert folder(name).is_dir()
 
 
+@pytest.mark.slow
 def test_package_as_a_wheel_installs_it_keeps_them_inside(tmp_path: Path) -> None:
     """Nothing of the checkout is in reach: the copy renders a scene of its own by name."""
     skipped = shutil.ignore_patterns("__pycache__")

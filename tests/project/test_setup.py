@@ -21,7 +21,7 @@ import steps
 import system
 
 ROOT = Path(__file__).parents[2]
-COMMITS = [f"{number:040x}" for number in range(50)]
+COMMITS = [f"{number:040x}" for number in range(100)]
 TESTS = [f"tests/test_x.py::test_{number}" for number in range(100)]
 
 
@@ -241,13 +241,13 @@ def test_make_without_a_command_shows_the_list() -> None:
     assert "make test" in shown.stdout
 
 
-def test_the_slow_share_draws_one_in_eight_anew_for_each_commit() -> None:
+def test_the_slow_share_draws_one_in_ten_anew_for_each_commit() -> None:
     drawn = {
-        commit: {test for test in TESTS if slow_share.is_drawn(test, commit, 1, 8)}
+        commit: {test for test in TESTS if slow_share.is_drawn(test, commit, 1, 10)}
         for commit in COMMITS
     }
     total = sum(map(len, drawn.values()))
-    expected, sigma = 5000 / 8, (5000 * 1 / 8 * 7 / 8) ** 0.5
+    expected, sigma = 10_000 / 10, (10_000 * 1 / 10 * 9 / 10) ** 0.5
     assert abs(total - expected) < 4 * sigma
     assert len(set(map(frozenset, drawn.values()))) == len(COMMITS)
     assert set().union(*drawn.values()) == set(TESTS)

@@ -68,6 +68,7 @@ def test_devices_without_an_end_are_refused_and_links_to_them(tmp_path: Path) ->
     assert all("a pipe or a device" in text for text in said)
 
 
+@pytest.mark.slow
 def test_a_device_as_scene_or_array_exits_2(tmp_path: Path) -> None:
     (tmp_path / "a.npy").symlink_to("/dev/zero")
     for line in (
@@ -139,6 +140,7 @@ def test_deep_values_are_refused(tmp_path: Path) -> None:
     assert all("nested too deeply" in text for text in refusals(*paths))
 
 
+@pytest.mark.slow
 def test_more_mistakes_than_can_be_told_are_counted(tmp_path: Path) -> None:
     path = tmp_path / "wrong.toml"
     path.write_text("objects = [" + "[]," * 150_000 + "]")

@@ -79,6 +79,7 @@ def test_cook_lights_a_floor_by_a_round_lamp_as_in_truth(context: Context) -> No
     assert_agree(model, truth, within=0.06)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["phong", "whitted"])
 def test_models_see_the_same_surfaces(context: Context, method: str) -> None:
     scene = everything()

@@ -104,6 +104,7 @@ def test_aovs_change_no_bit_of_the_picture(context: Context, sampler: str) -> No
     assert [*with_all.aovs] == [*ALL]
 
 
+@pytest.mark.slow_cases("albedo")
 @pytest.mark.parametrize("name", ALL)
 def test_an_aov_alone_is_that_among_all(context: Context, name: Aov) -> None:
     alone = picture(heap(), context, aov=(name,)).aovs
@@ -122,6 +123,7 @@ print(egl.is_software, same_aovs(*found))
 """
 
 
+@pytest.mark.slow
 def test_egl_and_osmesa_give_the_same_aovs(tmp_path: Path) -> None:
     needs_package(bool(find_library("EGL")), "libegl1")
     needs_osmesa()

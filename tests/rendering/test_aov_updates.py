@@ -160,6 +160,7 @@ def short_loops(monkeypatch: pytest.MonkeyPatch) -> None:
 NAIVE: dict[str, Any] = {**SMALL, "bounces": 0, "method": "naive"}
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("exact_kernels")
 @pytest.mark.usefixtures("short_loops")
 def test_aovs_beyond_the_loop_limit_are_refused_and_leave_the_picture(context: Context) -> None:
@@ -270,6 +271,7 @@ def test_aovs_asked_for_later_are_those_of_the_part(context: Context) -> None:
     later.release()
 
 
+@pytest.mark.slow
 def test_a_part_has_aovs_of_its_own_samples(context: Context) -> None:
     """Of single samples each part is a seed of its own: their mean is that of the render."""
     options: dict[str, Any] = {**SMALL, "sampler": "independent", "aov": ("depth",)}

@@ -137,6 +137,7 @@ def test_in_the_middle_of_a_ball_normals_point_back(context: Context) -> None:
 # --- materials, and nothing ----------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_every_material_has_its_albedo(context: Context) -> None:
     """Glass 1, metal its reflectance, a lamp its own colour, which is 0 unless told."""
     names = [*MATERIALS]

@@ -86,6 +86,7 @@ def test_roulette_ends_as_many_as_their_chances_say(context: Context) -> None:
     assert_near(mean, 4 / 7, error)
 
 
+@pytest.mark.slow
 def test_it_is_the_mean_of_what_recorded_paths_tell(context: Context) -> None:
     scene = load("cornell")
     settings: dict[str, Any] = {"width": 8, "height": 8, "bounces": 6}

@@ -185,6 +185,7 @@ def test_rows_of_a_film_are_those_of_the_whole(film: Film, step: Step) -> None:
             assert np.array_equal(getattr(part, name), getattr(whole, name)[rows])
 
 
+@pytest.mark.slow
 def test_reading_a_picture_takes_little_memory_beside_it(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -55,6 +55,7 @@ def test_fragment_and_compute_give_the_same_bits(name: str, sampler: str, contex
         assert by_fragment == by_compute
 
 
+@pytest.mark.slow_cases("naive")
 @pytest.mark.slow_cases("nee")
 @pytest.mark.parametrize("method", METHODS)
 def test_textures_hold_the_scene_where_blocks_are_too_small(method: str, context: Context) -> None:
@@ -187,6 +188,7 @@ def test_compute_wanted_in_vain_is_told(tmp_path: Path, old_driver: None) -> Non
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_the_doctor_finds_that_an_old_driver_works(old_driver: None) -> None:
     examined = examine("egl")
     assert examined.works

@@ -74,6 +74,7 @@ def objects_met(scene: Scene, seen: Array) -> Array:
     return np.where(number < 0, -1, (number >> contents_of(scene).instance_bits) - 1)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("1", "2", "3")
 @pytest.mark.parametrize("number", range(len(PLACES)))
 def test_rays_find_an_instance_where_it_stands(call_glsl: CallGlsl, number: int) -> None:
@@ -131,6 +132,7 @@ def edges_missed(call_glsl: CallGlsl, count: int, seed: int) -> int:
     return int((seen[:, 1] < 0).sum())
 
 
+@pytest.mark.slow
 def test_no_ray_gets_out_of_an_instance_at_an_edge(call_glsl: CallGlsl) -> None:
     assert edges_missed(call_glsl, 200_000, 3) == 0
 
@@ -140,6 +142,7 @@ def test_of_ten_million_rays_none_gets_out_of_an_instance(call_glsl: CallGlsl) -
     assert sum(edges_missed(call_glsl, 500_000, seed) for seed in range(20)) == 0
 
 
+@pytest.mark.slow_cases("2-0.0")
 @pytest.mark.slow_cases("2-300.0")
 @pytest.mark.parametrize("offset", [0.0, 300.0])
 @pytest.mark.parametrize("number", range(len(PLACES)))

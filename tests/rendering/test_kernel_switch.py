@@ -65,6 +65,7 @@ def seen(scene: Scene, **changes: Any) -> Scene:
     return replaced(scene, camera=replaced(scene.camera, **changes))
 
 
+@pytest.mark.slow_cases("fragment-none-independent")
 @pytest.mark.slow_cases("compute-lengths-independent", "compute-lengths-sobol")
 @pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize(

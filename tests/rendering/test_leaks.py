@@ -35,12 +35,14 @@ def leaked_pixels(
     return leaked, pictures * 64 * 64 * SAMPLES * BOUNCES
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("half", [1.0, 0.7])
 def test_ball_is_tight(context: Context, half: float) -> None:
     """A chord measured by a root leaks one in 20 million segments, along the rim."""
     assert leaked_pixels(context, [sphere([0, 0, 0], half, "glow")], 4, half)[0] == 0
 
 
+@pytest.mark.slow_cases("quads")
 @pytest.mark.parametrize("walls", [room_of_planes, box_of_quads], ids=["planes", "quads"])
 def test_rooms_are_all_but_tight(context: Context, walls: Any) -> None:
     """A point in the very edge of two walls may round past one: some 3 in 100 million segments."""

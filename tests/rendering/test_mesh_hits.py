@@ -169,6 +169,7 @@ def against_embree(call_glsl: CallGlsl, name: str, count: int, seed: int) -> Non
     assert max(apart) < (0.01 if rough else 1e-4), told
 
 
+@pytest.mark.slow_cases("slivers")
 @pytest.mark.parametrize("name", MESHES)
 def test_rays_find_what_embree_finds(call_glsl: CallGlsl, name: str) -> None:
     against_embree(call_glsl, name, 50_000, 1)

@@ -35,6 +35,7 @@ SIZE, FOV = 64, 36.0
 FLOOR = -0.9
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("blinn", "whitted")
 @pytest.mark.parametrize("method", ["phong", "blinn", "whitted", "cook"])
 def test_faces_of_one_plane_are_shaded_alike(context: Context, method: str) -> None:
@@ -64,6 +65,14 @@ def picture(context: Context, objects: list[dict[str, Any]], method: str) -> Arr
 SKY = {"bottom": [0.1, 0.1, 0.2], "top": [0.3, 0.4, 0.6]}
 
 
+@pytest.mark.slow_cases(
+    "phong-cylinder",
+    "phong-tube",
+    "blinn-cylinder",
+    "blinn-tube",
+    "whitted-cylinder",
+    "whitted-tube",
+)
 @pytest.mark.parametrize("name", THINGS)
 @pytest.mark.parametrize("method", ["phong", "blinn", "whitted"])
 def test_matte_solids_have_the_light_of_a_point(context: Context, method: str, name: str) -> None:
@@ -134,6 +143,7 @@ def normal_by_distances(shape: Shape, direction: Array) -> Array:
     return unit
 
 
+@pytest.mark.slow_cases("cylinder", "tube")
 @pytest.mark.parametrize("name", THINGS)
 def test_solids_cast_the_shadow_of_a_point(context: Context, name: str) -> None:
     """Of all pixels of a floor that lie wholly inside or outside; phong has no shadows."""

@@ -63,6 +63,7 @@ def test_layers_change_nothing_of_the_whole(context: Context, by_group: Renderer
     np.testing.assert_allclose(image.stderr, plain.stderr, rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_weights_are_factors(by_group: Renderer) -> None:
     weights = ((2.0, 1.0, 0.5), (0.25, 3.0, 0.0))
     one, other = (particles_of(by_group.image(alone(2, layer))) for layer in (0, 1))
@@ -103,6 +104,7 @@ def test_what_is_shown_is_the_picture(by_group: Renderer, group: str) -> None:
     np.testing.assert_allclose(found.stderr, image.stderr[11, 5], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_moved_camera_compiles_no_particles(context: Context) -> None:
     camera = ROOM.camera.model_copy(update={"position": (0.1, 0.0, 0.8)})
     moved = ROOM.model_copy(update={"camera": camera})
@@ -119,6 +121,7 @@ def test_a_moved_camera_compiles_no_particles(context: Context) -> None:
     assert np.array_equal(image.radiance, expected.radiance)
 
 
+@pytest.mark.slow
 def test_a_moved_camera_compiles_nothing_once_particles_are_off(context: Context) -> None:
     camera = ROOM.camera.model_copy(update={"position": (0.1, 0.0, 0.8)})
     moved = ROOM.model_copy(update={"camera": camera})

@@ -125,6 +125,7 @@ def test_a_crop_is_that_part_of_the_frame(context: Context) -> None:
     assert same_bits(part.radiance, picture(context).radiance[5:12, 3:12])
 
 
+@pytest.mark.slow
 def test_dispatches_may_be_of_any_size(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     expected = picture(context, width=48, height=48, linked=0.5)
     plain = Schedule.next_dispatch

@@ -115,6 +115,7 @@ def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
 
 
+@pytest.mark.slow
 def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
     """As the light of a lamp is."""
     random = np.random.default_rng(9)

@@ -52,6 +52,7 @@ def parts_of(
 # --- the same light ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("independent")
 @pytest.mark.parametrize("sampler", SAMPLERS)
 def test_merged_parts_are_one_render_up_to_rounding(context: Context, sampler: str) -> None:
     """Of its samples and of its observations."""

@@ -203,6 +203,7 @@ def test_a_film_that_was_weighed_goes_on(context: Context) -> None:
         assert same_bits(radiance(renderer), radiance(other))
 
 
+@pytest.mark.slow
 def test_more_groups_than_layers_share_the_last(context: Context) -> None:
     names = [f"lamp {n}" for n in range(8)]
     balls = [sphere([0.2 * n - 0.8, 0.5, -0.5], 0.05, name) for n, name in enumerate(names)]

@@ -44,6 +44,7 @@ ROOMS = {
 }
 
 
+@pytest.mark.slow_cases("mis-shapes of every kind")
 @pytest.mark.parametrize("room", ROOMS)
 @pytest.mark.parametrize("method", ["naive", "mis"])
 def test_dispatch_of_the_most_samples_loses_no_round_of_a_loop(

@@ -117,6 +117,7 @@ def test_moving_things_compiles_nothing(context: Context, edit: str) -> None:
         assert renderer.update(RESTARTING[edit]) is Cost.RESTART
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("exact_kernels")
 def test_first_glass_compiles_another_kernel(context: Context) -> None:
     plain = everything([*OBJECTS[:1], *OBJECTS[2:]])

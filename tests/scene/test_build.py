@@ -248,6 +248,7 @@ def test_a_built_scene_renders_to_the_bits_of_its_file(tmp_path: Path) -> None:
 # --- the page, the schema ----------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_example_of_the_page_runs(tmp_path: Path) -> None:
     code = "\n".join(blocks(PAGE, "python"))
     done = subprocess.run(

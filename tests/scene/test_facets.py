@@ -14,6 +14,7 @@ def test_host_and_kernel_step_alike() -> None:
     assert read_constants(expanded("bsdfs/albedos.glsl"))["ALBEDO_STEPS"] == facets.STEPS
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("0.01-1.5", "1.0-1.5", "0.36-2.4")
 @pytest.mark.parametrize(("alpha", "ior"), [(0.01, 1.5), (0.09, 1.1), (0.36, 2.4), (1.0, 1.5)])
 def test_albedos_are_those_of_a_finer_quadrature(

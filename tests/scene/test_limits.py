@@ -27,6 +27,7 @@ def with_balls(*balls: dict[str, Any], **camera: Any) -> Scene:
     return scene_of(things, MATERIALS, camera, background={"color": [1, 1, 1]})
 
 
+@pytest.mark.slow_cases("drink", "water")
 @pytest.mark.parametrize("name", scene_names())
 def test_scenes_that_come_with_glrt_need_no_caution(name: str) -> None:
     assert told(load(name)) == []

@@ -248,6 +248,7 @@ def test_the_command_tells_of_the_mesh(folder: Path, capsys: pytest.CaptureFixtu
     assert '"assets": {"models/thing.ply": "' in told
 
 
+@pytest.mark.slow_cases("change7-")
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -189,6 +189,7 @@ WRONG: dict[str, tuple[str, str, str, str]] = {
 }
 
 
+@pytest.mark.slow_cases("nothing wrong with closed glass")
 @pytest.mark.parametrize("name", WRONG)
 def test_what_is_wrong_is_one_paragraph(
     folder: Path, capsys: pytest.CaptureFixture[str], name: str

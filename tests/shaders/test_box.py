@@ -92,6 +92,7 @@ def test_a_box_of_twice_the_size_is_hit_twice_as_far(call_glsl: CallGlsl) -> Non
         assert same_bits(found, np.float32(factor) * once)
 
 
+@pytest.mark.slow
 def test_the_point_hit_lies_on_a_face_and_faces_the_ray(call_glsl: CallGlsl) -> None:
     scene, rays = one(), aimed(10_000, 3, far=1e4)
     setup = f"Ray ray = {FREE}; Hit hit = closest_hit(ray); Surface s = surface_at(ray, hit);"

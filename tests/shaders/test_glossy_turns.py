@@ -121,6 +121,7 @@ def test_paths_and_particles_know_the_same_densities(
     assert_allclose(found[goes, 2] * found[goes, 3], 1, rtol=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["metal", "polished metal"])
 def test_metal_turns_by_what_facets_hide(call_glsl: CallGlsl, kind: str) -> None:
     """In closed form: visible normals have the density G1 D / (4 cos), so G1(wo) over G1(wi)."""

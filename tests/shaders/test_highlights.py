@@ -28,6 +28,7 @@ def test_a_white_highlight_reflects_everything_head_on(
     assert 2 * math.pi * values.mean(dtype=float) == pytest.approx(1, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_highlights_of_both_forms_are_as_wide(call_glsl: CallGlsl) -> None:
     """Half the peak is reached at the same angle from the mirrored direction, within 3 %."""
     angles = np.linspace(0, 0.5, 2001)
@@ -40,6 +41,7 @@ def test_highlights_of_both_forms_are_as_wide(call_glsl: CallGlsl) -> None:
     assert widths[0] == pytest.approx(widths[1], rel=0.03)
 
 
+@pytest.mark.slow
 def test_the_half_vector_form_is_reciprocal(call_glsl: CallGlsl) -> None:
     draw = np.random.default_rng(1)
     a, b = (np.abs(draw.normal(size=(1000, 3))) + 0.01 for _ in range(2))

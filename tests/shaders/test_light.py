@@ -73,6 +73,7 @@ def test_the_density_of_a_sphere_lamp_is_one_over_its_solid_angle(call_glsl: Cal
     assert_allclose(pdf, 1 / (2 * np.pi * one_minus_cos), rtol=2e-5)
 
 
+@pytest.mark.slow
 def test_directions_to_a_sphere_lamp_fill_its_cone_and_hit_it(call_glsl: CallGlsl) -> None:
     v = unit_square(256)
     origin = np.tile([0.4, -0.3, 0.5], (len(v), 1))
@@ -188,6 +189,7 @@ def exact_density(rows: dict[str, Array], shape: int, direction: Array, distance
     return density
 
 
+@pytest.mark.slow
 def test_a_density_contains_the_choice_and_is_0_for_the_lamp_just_left(
     call_glsl: CallGlsl,
 ) -> None:

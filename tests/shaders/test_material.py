@@ -32,6 +32,7 @@ UP = "frame_around(vec3(0.0, 0.0, 1.0))"
 # --- matte ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_matte_light_is_spread_by_the_cosine_and_weighs_its_colour(call_glsl: CallGlsl) -> None:
     n = directions(2000)
     u = np.random.default_rng(2).uniform(size=(len(n), 2))
@@ -111,6 +112,7 @@ def test_shadowing_is_smiths_with_correlated_heights(call_glsl: CallGlsl) -> Non
     assert_allclose(found, (1 + lo) / (1 + lo + li), rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_rough_metal_equals_the_textbook_formula_and_is_reciprocal(call_glsl: CallGlsl) -> None:
     random = np.random.default_rng(7)
     alpha = random.uniform(0.05, 1, 20_000)

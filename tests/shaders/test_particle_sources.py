@@ -50,6 +50,7 @@ SOLIDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solid", SOLIDS)
 def test_directions_towards_a_ball_around_a_solid_have_a_density(
     call_glsl: CallGlsl, particle_files: str, solid: str
@@ -152,6 +153,7 @@ def test_particles_carry_the_flux_of_the_sun(call_glsl: CallGlsl, particle_files
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
 
 
+@pytest.mark.slow
 def test_lamps_and_the_sun_share_the_particles(call_glsl: CallGlsl, particle_files: str) -> None:
     """What each carries in all is its own flux, whatever its share of the particles is."""
     place = under_the_sun(BALL, FLAT)
@@ -181,6 +183,7 @@ def test_particles_come_from_beyond_the_planes(call_glsl: CallGlsl, particle_fil
     assert ways.min() > 60
 
 
+@pytest.mark.slow
 def test_the_sun_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
     """As the light of a lamp is."""
     random = np.random.default_rng(9)

@@ -70,6 +70,7 @@ def test_no_particle_leaves_a_ball_inwards(call_glsl: CallGlsl) -> None:
     assert ((found > 0) == (towards[:, 1] < 0)).all()
 
 
+@pytest.mark.slow
 def test_lamps_are_chosen_as_their_density_says(call_glsl: CallGlsl) -> None:
     """A quad, a ball and a disk share what particles leave."""
     place = scene_of([ROUND, FLAT, DISK, BALL], MATERIALS)
@@ -127,6 +128,7 @@ def test_a_particle_arrives_where_the_camera_looks(
     assert inside.all()
 
 
+@pytest.mark.slow
 def test_the_three_ways_share_all_light(call_glsl: CallGlsl) -> None:
     """Their weights add up to 1, whatever their densities are to each other."""
     random = np.random.default_rng(8)
@@ -196,6 +198,7 @@ def test_none_leaves_the_dark_side_of_a_lamp(call_glsl: CallGlsl, particle_files
     assert (starts(call_glsl, particle_files, place, lost, "float") == 0).all()
 
 
+@pytest.mark.slow
 def test_a_lamp_inside_a_ball_aims_none_at_it(call_glsl: CallGlsl, particle_files: str) -> None:
     """From in there it fills no cone: those that were to be aimed carry nothing."""
     place = scene("quad", sphere([0, 1, -3.1], 1.5, "glass"))

@@ -138,6 +138,7 @@ ALL_LAMPS = """float density(vec3 origin, vec3 wi) {
 }"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (1.7, -0.4, -2.0)])
 def test_lamps_are_sampled_by_their_density(
     call_glsl: CallGlsl, place: tuple[float, float, float]

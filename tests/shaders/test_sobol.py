@@ -195,6 +195,7 @@ def test_samples_may_come_in_portions_that_end_within_a_block(
         assert same(picture, pictures[0])
 
 
+@pytest.mark.slow
 def test_fragments_have_the_same_64_points(context: Context) -> None:
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")

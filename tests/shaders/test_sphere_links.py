@@ -175,6 +175,7 @@ def sense_of(found: Links) -> Array:
     return np.asarray(np.sign((np.cross(eye, vertex) * np.cross(eye, near)).sum(1)))
 
 
+@pytest.mark.slow_cases("2-upper")
 @pytest.mark.parametrize(("chords", "branch"), KINDS)
 def test_each_branch_is_met(call_glsl: CallGlsl, chords: int, branch: str) -> None:
     """And turns as it tells."""
@@ -250,6 +251,7 @@ def test_branches_are_drawn_as_their_shares_say(call_glsl: CallGlsl, vertex: lis
         assert abs(got.mean() - share[told]) < 1e-3
 
 
+@pytest.mark.slow
 def test_glass_sends_fresnel_s_share(call_glsl: CallGlsl) -> None:
     sine = np.linspace(0.01, 0.99, 99)
     inner = sine / 1.5

@@ -183,6 +183,7 @@ BALL = scene_of(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("ddgi")
 @pytest.mark.parametrize("method", ["whitted", "cook", "ddgi"])
 def test_a_still_camera_traces_ever_less(context: Context, method: str) -> None:
@@ -221,6 +222,7 @@ def test_other_weights_trace_nothing(context: Context) -> None:
     assert (seen[-1].mask >= 2).any()
 
 
+@pytest.mark.slow
 def test_the_fragment_pipeline_is_refused_by_name(context: Context) -> None:
     with pytest.raises(RenderError, match=r"temporal ataa .* compute shaders"):
         played([wall(), wall(PIXEL)], context, pipeline="fragment")

@@ -63,6 +63,7 @@ def received(sky: ClearSky, towards: Array) -> Array:
     return found
 
 
+@pytest.mark.slow
 def test_it_is_the_sky_that_mitsuba_shows() -> None:
     """Another program, the same coefficients: the formula and what is between its tables."""
     if find_spec("mitsuba") is None:
@@ -168,6 +169,7 @@ def test_the_ground_is_lit_by_sun_and_sky() -> None:
     assert not sky_pixels(3.0, 0.0, tuple(towards))[256:].any()
 
 
+@pytest.mark.slow_cases("nee")
 @pytest.mark.parametrize("method", ["nee", "mis"])
 def test_a_floor_receives_what_the_model_says(context: Context, method: str) -> None:
     scene = day(FLOOR)
@@ -177,6 +179,7 @@ def test_a_floor_receives_what_the_model_says(context: Context, method: str) -> 
     assert_mean(whole(image), light * 0.5 / np.pi, within=0.02, floor=1e-5)
 
 
+@pytest.mark.slow
 def test_methods_agree_under_a_clear_sky(context: Context) -> None:
     """With a wide sun, which scattering finds, and without any that is brighter than the sky."""
     wide = {"angle": 30.0}

@@ -105,6 +105,7 @@ def test_a_rough_plate_reflects_its_albedo(context: Context, sine: float) -> Non
     assert_mean(whole(image), truth, within=0.01, floor=1e-4)
 
 
+@pytest.mark.slow
 def test_metal_weighs_sampled_light_as_scattered_light(context: Context) -> None:
     """Along the surface, where gold reflects blue as well as red."""
     things = [plane([0, 0, 0], [0, 1, 0], "plate"), sphere([0, 0.4, -2], 0.3, "lamp")]
@@ -121,6 +122,7 @@ def test_metal_weighs_sampled_light_as_scattered_light(context: Context) -> None
     assert_agree(nee, naive, 0.03)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("blinn")
 @pytest.mark.parametrize("method", ["phong", "blinn"])
 def test_models_take_what_is_reflected_head_on(context: Context, method: str) -> None:

@@ -50,6 +50,7 @@ LAMPS = {
 # --- cones ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("mesh-naive")
 @pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", LAMPS)
@@ -63,6 +64,7 @@ def test_inside_the_inner_angle_a_spot_is_the_lamp_to_the_bit(
     assert method == "naive" or image.radiance.mean() > 0
 
 
+@pytest.mark.slow_cases("mesh-naive")
 @pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", LAMPS)
@@ -130,6 +132,7 @@ def spots(count: int) -> Scene:
     return scene_of([FLOOR, *lamps], materials, ABOVE)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("40", "7")
 @pytest.mark.parametrize("count", [1, 7, 40])
 def test_all_methods_see_the_same_light_of_many_spots(context: Context, count: int) -> None:
@@ -144,6 +147,7 @@ def test_all_methods_see_the_same_light_of_many_spots(context: Context, count: i
 # --- one side ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("quad-whitted", "disk-whitted", "mesh-naive")
 @pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", ["quad", "disk", "mesh"])

@@ -73,6 +73,7 @@ def test_scattering_alone_keeps_the_sum_in_any_room(context: Context, objects: O
             assert (renderer.render(5).image().radiance == 2 - 2.0**-bounces).all(), bounces
 
 
+@pytest.mark.slow_cases("sphere-nee")
 @pytest.mark.parametrize("method", ["nee", "mis"])
 @pytest.mark.parametrize("room", ROOMS)
 def test_sampled_ball_keeps_the_sum_of_its_room(context: Context, room: str, method: str) -> None:
@@ -85,6 +86,7 @@ def test_sampled_ball_keeps_the_sum_of_its_room(context: Context, room: str, met
             assert_mean(mean, 2 - 2.0**-bounces, within=0.01)
 
 
+@pytest.mark.slow
 def test_light_sampling_counts_a_wall_once(context: Context) -> None:
     """The middle of a wall: near its edges light sampling alone has no finite variance."""
     scene = furnace(BOX, {"position": [0.1, 0.2, 0.3], "look_at": [0.1, 0.2, -1], "fov": 20})
@@ -208,6 +210,7 @@ def test_camera_in_glass_sees_the_square_of_the_index(context: Context, roulette
     assert np.allclose(image.radiance, 2.25, rtol=1e-6, atol=0)
 
 
+@pytest.mark.slow_cases("naive-independent", "naive-sobol")
 @pytest.mark.parametrize("sampler", ["independent", "sobol"])
 @pytest.mark.parametrize("method", METHODS)
 def test_lamp_in_the_centre_of_a_matte_ball(context: Context, method: str, sampler: str) -> None:
@@ -256,6 +259,7 @@ def series(ratio: np.ndarray[Any, Any], terms: int) -> np.ndarray[Any, Any]:
     return total
 
 
+@pytest.mark.slow_cases("sphere-nee")
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("room", ROOMS)
 def test_lens_changes_nothing_before_a_constant_wall(

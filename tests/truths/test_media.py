@@ -157,6 +157,7 @@ def test_a_pane_under_an_even_sky_cannot_be_seen(context: Context, method: str) 
     assert np.all(image.radiance == 0.75)
 
 
+@pytest.mark.slow
 def test_a_pane_passes_what_two_faces_do(context: Context) -> None:
     scene = through([quad([-9, 0, -9], [18, 0, 0], [0, 0, 18], "pane")], {"pane": glass(thin=True)})
     image = rendered(scene, context, 4096)
@@ -199,6 +200,7 @@ def test_water_in_a_glass_meets_the_glass_and_no_air(context: Context, overlap: 
     assert_mean(whole(image), truth, within=0.02, floor=1e-5)
 
 
+@pytest.mark.slow
 def test_the_higher_priority_is_there(context: Context) -> None:
     """The same slabs, with the water over the glass: it cuts the glass short."""
     things = [slab(1, "glass"), slab(2.5, "water", top=-0.5)]

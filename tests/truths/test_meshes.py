@@ -43,6 +43,7 @@ def test_white_facets_vanish_before_a_white_sky(
     assert (image.radiance == 1).all()
 
 
+@pytest.mark.slow
 def test_a_white_mesh_that_is_not_convex_vanishes_too(context: Context) -> None:
     scene = furnace(blob(4), WHITE, smooth=False)
     image = rendered(scene, context, 64, roulette=False, bounces=400)
@@ -58,6 +59,7 @@ def test_smooth_normals_lose_little_of_a_white_sky(context: Context, method: str
     assert image.radiance.mean() > 0.99
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("smooth", [True, False])
 def test_clear_glass_of_index_1_is_not_seen(context: Context, smooth: bool) -> None:
     scene = furnace(icosphere(3), glass(1.0), smooth=smooth)
@@ -187,6 +189,7 @@ def test_meshes_have_the_same_bits_everywhere(context: Context) -> None:
     other.gl.release()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_a_lamp_of_triangles_lights_as_one_of_a_quad(context: Context, method: str) -> None:
     corner, u, v = [-0.5, 1, -0.5], [1, 0, 0], [0, 0, 1]
@@ -217,6 +220,7 @@ def test_many_triangles_that_emit_light_alike_by_all_methods(context: Context, s
     assert_agree(pictures[0], pictures[2], 0.05)
 
 
+@pytest.mark.slow
 def test_each_triangle_that_emits_has_its_own_density(context: Context) -> None:
     """A large one, and a small one that stands across."""
     large = [[-1.5, 1, -1.5], [1.5, 1, -1.5], [0, 1, 1.5]]

@@ -123,6 +123,7 @@ def test_a_matte_surface_in_a_mirror_is_the_first_one_of_a_gather(context: Conte
     assert not same(rendered(scene, context, 16, **ways), expected)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", GATHERS)
 def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, method: str) -> None:
     way = {**WAY, "method": method}

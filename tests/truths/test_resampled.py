@@ -85,6 +85,7 @@ def assert_equal_means(found: Floats, truth: Floats, within: float) -> None:
 # --- means ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("both", "temporal", "none")
 @pytest.mark.parametrize("reuse", REUSES)
 def test_direct_light_and_one_bounce_are_those_of_paths(context: Context, reuse: str) -> None:
@@ -225,6 +226,7 @@ def test_light_without_a_bounce_is_that_of_mis_to_the_bit(context: Context) -> N
     assert same(found, rendered(mixture(), context, 16, method="mis", **ways))
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("planes")
 @pytest.mark.parametrize("name", ROOMS)
 def test_three_bounces_in_a_closed_room_are_exact(context: Context, name: str) -> None:
@@ -242,6 +244,7 @@ def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, reuse
         assert same(rendered(mixture(2.0**power), context, 16, **ways), expected), power
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("temporal", "spatial")
 @pytest.mark.parametrize("reuse", REUSES)
 def test_the_picture_does_not_hang_on_what_was_rendered_before(

@@ -138,6 +138,7 @@ def test_the_group_sun_is_a_factor(context: Context) -> None:
     assert list(scene.light_groups) == ["sun", "background"]
 
 
+@pytest.mark.slow
 def test_all_ways_and_sizes_show_the_same_bits(context: Context) -> None:
     def picture(scale: float = 1.0, **way: Any) -> bytes:
         camera = {"position": [0, scale, scale], "look_at": [0, 0, 0], "fov": 40}

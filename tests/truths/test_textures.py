@@ -70,6 +70,7 @@ def room(material: dict[str, Any], mesh_too: bool = True) -> Scene:
     return scene_of([*things, *lights], materials, EYE, background={"color": [0.2] * 3})
 
 
+@pytest.mark.slow_cases("principled-naive", "what is not cut-naive")
 @pytest.mark.slow_cases(
     "metal-naive",
     "metal-nee",
@@ -140,6 +141,7 @@ def test_a_wall_shows_an_image_as_it_is(context: Context) -> None:
     assert np.array_equal(shown.radiance, expected.astype(np.float32))
 
 
+@pytest.mark.slow
 def test_a_board_in_an_even_light_is_its_colors(context: Context) -> None:
     """A convex thing in a white surrounding has the radiance of its albedo: no variance."""
     board = {"type": "lambertian", "color": {"checker": [0.25, 0.75], "scale": 1}}
@@ -153,6 +155,7 @@ def test_a_board_in_an_even_light_is_its_colors(context: Context) -> None:
 SUN = {"elevation": 90.0, "angle": 0.01, "irradiance": [np.pi] * 3}
 
 
+@pytest.mark.slow
 def test_a_bent_normal_is_lit_as_the_inclined_plane(context: Context) -> None:
     """By a sun straight above: albedo times the cosine, wherever the bend leads."""
     image = np.ones((1, 1, 4))

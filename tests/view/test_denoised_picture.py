@@ -72,6 +72,7 @@ def assert_same(image: Image, other: Image) -> None:
     assert image.denoising.error == other.denoising.error
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("a film with layers")
 def test_it_is_what_a_render_makes(session: Session, denoised: DenoisedPicture) -> None:
     """To the bit, at each doubling that there is time for, and at the end."""
@@ -95,6 +96,7 @@ def test_an_edit_begins_anew(session: Session, denoised: DenoisedPicture) -> Non
     assert first.recipe.settings.bounces != 2
 
 
+@pytest.mark.slow
 def test_a_picture_that_is_there_is_the_first_half(
     session: Session, denoised: DenoisedPicture
 ) -> None:

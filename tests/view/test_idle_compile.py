@@ -28,6 +28,7 @@ def wait_for(rehearsal: TrialCompile) -> None:
         time.sleep(0.02)
 
 
+@pytest.mark.slow
 def test_a_rehearsal_finds_out_on_the_same_driver(context: Context) -> None:
     renderer = resting(context, {"width": 100, "height": 64})
     rehearsal = TrialCompile(renderer)
@@ -49,6 +50,7 @@ def test_a_rehearsal_that_is_ended_leaves_no_process(context: Context) -> None:
         os.kill(number, 0)
 
 
+@pytest.mark.slow
 def test_a_rehearsal_that_fails_finds_nothing(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

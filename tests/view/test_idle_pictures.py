@@ -39,6 +39,7 @@ def same_as_headless(session: Session, context: Context, layering: Layering = "g
     return same_bits(image.radiance, expected.radiance) and same_bits(image.stderr, expected.stderr)
 
 
+@pytest.mark.slow_cases("compute-independent")
 @pytest.mark.parametrize(
     ("pipeline", "sampler"),
     [("compute", "sobol"), ("compute", "independent"), ("fragment", "sobol")],

@@ -75,6 +75,7 @@ def test_a_walk_of_the_camera_changes_no_light(opened: Opened) -> None:
     assert session.lag == pytest.approx(0.9**2)
 
 
+@pytest.mark.slow
 def test_at_rest_the_picture_is_one_of_its_own(
     opened: Opened, clock: Clock, context: Context
 ) -> None:

@@ -78,6 +78,7 @@ def test_a_mesh_is_moved_and_grows_about_its_middle() -> None:
     assert np.allclose(np.subtract(moved_to(thing, matrix).middle, thing.middle), [0.5, 0, 0])
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_moved_shows_as_one_that_stood_there(context: Context) -> None:
     scene = things()
     moved = with_object(scene, 1, shifted(scene.objects[1], np.array([0.5, 0.25, 0.0])))
@@ -92,6 +93,7 @@ def test_a_mesh_that_is_moved_shows_as_one_that_stood_there(context: Context) ->
     renderer.release()
 
 
+@pytest.mark.slow
 def test_a_camera_that_moves_packs_no_triangles(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -74,6 +74,7 @@ def test_an_edit_that_restarts_is_shown_coarsely_when_samples_are_slow(
     assert size_of(session) == whole
 
 
+@pytest.mark.slow_cases("{'method': 'naive'}")
 @pytest.mark.parametrize(
     "edit", [{"exposure": 1.0}, {"samples": 2000}, {"method": "naive"}], ids=str
 )

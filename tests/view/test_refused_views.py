@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import pytest
+
 from glrt.view.state.session import Session
 from glrt.view.viewport.picture_view import PictureView
 from tests.support.sessions import start
@@ -18,6 +20,7 @@ def wanted(show: PictureView) -> str:
     return show.view
 
 
+@pytest.mark.slow
 def test_a_refused_view_is_given_up_and_had_once_the_edit_is_undone(session: Session) -> None:
     """The refusal is of that edit: it is not kept for the view."""
     nothing: Any = None

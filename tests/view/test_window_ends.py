@@ -49,6 +49,7 @@ def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path:
     assert "Traceback" not in ended.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases(
     "resting*", "dragging*", "closing_with_edits*", "choosing*", "saving_when_killed*"
 )
@@ -100,6 +101,7 @@ def assert_gone(path: Path) -> None:
     assert not path.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is always a display")
 def test_without_a_display_the_advice_is_to_render() -> None:
     done = glrt("view", "cornell", DISPLAY="", WAYLAND_DISPLAY="")
@@ -125,6 +127,7 @@ def test_a_bad_scene_is_refused_before_a_window_opens() -> None:
     assert "cornell" in done.stderr
 
 
+@pytest.mark.slow
 def test_a_display_that_goes_away_while_the_window_starts_is_told(display: str) -> None:
     code = (
         "import os; from glrt.view import window; run = window.Window.run\n"
