@@ -60,18 +60,19 @@ def copy_tree(target: Path) -> None:
             shutil.copy(source, target / name)
 
 
-def run_test(tree: Path, test: str, stop_early: bool) -> Outcome:
-    """Run a test of the tree in a process of its own: its slow cases where it has no others."""
-    outcome = _run(tree, test, stop_early, "not slow")
+def run_tests(tree: Path, tests: Sequence[str], stop_early: bool) -> Outcome:
+    """Run tests of the tree in a process of its own: slow cases where they have no others."""
+    outcome = _run(tree, tests, stop_early, "not slow")
     is_there = outcome.passed or outcome.failures or outcome.errors
-    return outcome if is_there else _run(tree, test, stop_early, "slow")
+    return outcome if is_there else _run(tree, tests, stop_early, "slow")
 
 
-def _run(tree: Path, test: str, stop_early: bool, tier: str) -> Outcome:
+def _run(tree: Path, tests: Sequence[str], stop_early: bool, tier: str) -> Outcome:
     report = tree / "report.xml"
     report.unlink(missing_ok=True)
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-m", tier]
-    command += [f"--junitxml={report}", *(["-x"] if stop_early else []), f"tests/{test}"]
+    command += [f"--junitxml={report}", *(["-x"] if stop_early else [])]
+    command += [f"tests/{test}" for test in tests]
     start = time.perf_counter()
     environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
     environment["LP_NUM_THREADS"] = "1"  # of small pictures: more threads wait for each other
@@ -108,14 +109,13 @@ def survivors(chosen: Sequence[Mutant]) -> list[str]:
         tree = Path(folder)
         copy_tree(tree)
         known = places(tree)
-        for test in sorted({mutant.test for mutant in chosen}):
-            clean = run_test(tree, test, stop_early=False)
-            if not clean.is_clean:
-                raise RuntimeError(f"{test} fails without any bug: {clean}")
+        clean = run_tests(tree, sorted({mutant.test for mutant in chosen}), stop_early=False)
+        if not clean.is_clean:
+            raise RuntimeError(f"the tests fail without any bug: {clean.failures}")
         print("| bug | found by | tier | seconds |\n|---|---|---|---|", flush=True)
         for mutant in chosen:
             file, before = plant(mutant, known)
-            outcome = run_test(tree, mutant.test, stop_early=True)
+            outcome = run_tests(tree, [mutant.test], stop_early=True)
             file.write_text(before)
             if not outcome.finds_it:
                 alive.append(f"{mutant.bug}: {outcome}")

@@ -18,6 +18,7 @@ from tests.support.renders import METHODS, assert_agree, rendered
 
 WHITE_SKY = {"color": [1.0, 1.0, 1.0]}
 GRADIENT = {"bottom": [0.2, 0.1, 0.4], "top": [0.9, 1.0, 0.7]}
+SHEET = [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "p")]
 CLOSE = {"position": [0, 0, 3], "look_at": [0, 0, 0], "fov": 15}
 
 
@@ -27,8 +28,8 @@ def principled(**keys: Any) -> dict[str, Any]:
 
 def ball(background: dict[str, Any] = WHITE_SKY, **keys: Any) -> Scene:
     """A ball of radius 1 that fills the picture."""
-    return scene_of([sphere([0, 0, 0], 1, "p")], {"p": principled(**keys)}, CLOSE,
-                    background=background)  # fmt: skip
+    things, looks = [sphere([0, 0, 0], 1, "p")], {"p": principled(**keys)}
+    return scene_of(things, looks, CLOSE, background=background)
 
 
 LOOKS: list[dict[str, Any]] = [
@@ -159,8 +160,7 @@ def test_colours_of_vertices_multiply_that_of_the_material(context: Context) -> 
 
 def test_a_scene_asks_for_the_lobes_that_it_uses() -> None:
     coated, plain = (needs_of(scene, Settings()) for scene in (ball(clearcoat=0.5), ball()))
-    assert (coated.has_coat, plain.has_coat) == (True, False)
-    assert "principled" in plain.materials
+    assert (coated.has_coat, plain.has_coat, "principled" in plain.materials) == (True, False, True)
     told = omissions(room(), Settings(method="whitted"))
     assert "principled surfaces reflect lamps alone" in told
 
@@ -296,6 +296,5 @@ def test_glass_that_cannot_be_is_refused(keys: dict[str, Any], said: str) -> Non
 
 
 def test_a_quad_that_is_glass_in_part_is_refused() -> None:
-    sheet, glass = quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "p"), principled(transmission=0.5)
     with pytest.raises(SceneError, match="encloses nothing"):
-        scene_of([sheet], {"p": glass}, background=WHITE_SKY)
+        scene_of(SHEET, {"p": principled(transmission=0.5)}, background=WHITE_SKY)
