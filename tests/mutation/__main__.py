@@ -44,10 +44,6 @@ class Outcome(NamedTuple):
         good = all(message.lstrip().startswith(FOUND) for message in self.failures)
         return bool(self.failures) and good and not self.errors
 
-    @property
-    def is_clean(self) -> bool:
-        return self.passed > 0 and not self.failures and not self.errors
-
 
 def copy_tree(target: Path) -> None:
     """What the tests need of the tree."""
@@ -60,19 +56,18 @@ def copy_tree(target: Path) -> None:
             shutil.copy(source, target / name)
 
 
-def run_tests(tree: Path, tests: Sequence[str], stop_early: bool) -> Outcome:
-    """Run tests of the tree in a process of its own: slow cases where they have no others."""
-    outcome = _run(tree, tests, stop_early, "not slow")
-    is_there = outcome.passed or outcome.failures or outcome.errors
-    return outcome if is_there else _run(tree, tests, stop_early, "slow")
+def hunted(tree: Path, test: str) -> Outcome:
+    """What a test finds: its slow cases are run where the others find nothing."""
+    outcome = run_tests(tree, [test], "not slow", "-x")
+    return outcome if outcome.failures or outcome.errors else run_tests(tree, [test], "slow", "-x")
 
 
-def _run(tree: Path, tests: Sequence[str], stop_early: bool, tier: str) -> Outcome:
+def run_tests(tree: Path, tests: Sequence[str], tier: str, *words: str) -> Outcome:
+    """Run tests of a tier of the tree in a process of its own."""
     report = tree / "report.xml"
     report.unlink(missing_ok=True)
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-m", tier]
-    command += [f"--junitxml={report}", *(["-x"] if stop_early else [])]
-    command += [f"tests/{test}" for test in tests]
+    command += [f"--junitxml={report}", *words, *(f"tests/{test}" for test in tests)]
     start = time.perf_counter()
     environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
     environment["LP_NUM_THREADS"] = "1"  # of small pictures: more threads wait for each other
@@ -109,13 +104,14 @@ def survivors(chosen: Sequence[Mutant]) -> list[str]:
         tree = Path(folder)
         copy_tree(tree)
         known = places(tree)
-        clean = run_tests(tree, sorted({mutant.test for mutant in chosen}), stop_early=False)
-        if not clean.is_clean:
-            raise RuntimeError(f"the tests fail without any bug: {clean.failures}")
+        tests = sorted({mutant.test for mutant in chosen})
+        fast, slow = (run_tests(tree, tests, tier) for tier in ("not slow", "slow"))
+        if fast.failures or fast.errors or slow.failures or slow.errors:
+            raise RuntimeError(f"tests fail without any bug: {fast.failures + slow.failures}")
         print("| bug | found by | tier | seconds |\n|---|---|---|---|", flush=True)
         for mutant in chosen:
             file, before = plant(mutant, known)
-            outcome = run_tests(tree, [mutant.test], stop_early=True)
+            outcome = hunted(tree, mutant.test)
             file.write_text(before)
             if not outcome.finds_it:
                 alive.append(f"{mutant.bug}: {outcome}")
