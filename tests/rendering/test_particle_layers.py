@@ -12,7 +12,7 @@ from glrt.methods.light_layers import NONE, ONE, Weights
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost
-from tests.support.particle_rooms import ROOMS
+from tests.support.particle_rooms import BALL, LAMP, ROOMS, room
 from tests.support.renders import assert_agree, rendered
 
 ROOM = ROOMS["lamps of several kinds"]  # two groups: of a spot, and of a disk and a ball
@@ -88,6 +88,20 @@ def test_fewer_bounces_are_the_picture_of_so_many(context: Context, by_length: R
     image = by_length.image()
     by_length.update(bounces=4)
     assert_agree(image, rendered(ROOM, context, 4096, seed=1, bounces=2, **SMALL), within=0.1)
+
+
+@pytest.mark.slow
+def test_a_link_through_a_ball_is_as_long_as_its_path(context: Context) -> None:
+    """The floor behind a ball of glass is dark where paths end after two bounces."""
+    near = {"position": [0.35, -0.5, 0.5], "look_at": BALL["center"], "fov": 40}
+    scene = room(LAMP, BALL, **near)
+    renderer = Renderer(scene, context=context, layering="lengths", **SMALL, **ON, linked=1.0)
+    lit = renderer.render(2048).image().radiance.mean()
+    assert renderer.update(bounces=2) is Cost.RELIGHT
+    image = renderer.image()
+    renderer.release()
+    assert image.radiance.mean() < 0.8 * lit
+    assert_agree(image, rendered(scene, context, 8192, seed=1, bounces=2), within=0.2)
 
 
 @pytest.mark.parametrize("group", ["dim", "spot"])
