@@ -57,7 +57,7 @@ def copy_tree(target: Path) -> None:
 
 
 def hunted(tree: Path, test: str) -> Outcome:
-    """What a test finds: its slow cases are run where the others find nothing."""
+    """Run a test against a bug: its slow cases, too, where the others find nothing."""
     outcome = run_tests(tree, [test], "not slow", "-x")
     return outcome if outcome.failures or outcome.errors else run_tests(tree, [test], "slow", "-x")
 

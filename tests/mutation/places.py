@@ -23,7 +23,7 @@ class Span(NamedTuple):
 
 
 def places(root: Path) -> dict[str, list[Span]]:
-    """Of each function, class, struct and constant: where it stands, by name.
+    """Find where each function, class, struct and constant stands, by its name.
 
     Members of a class have its name in front: `Film.read`. A name may stand for several. The entry
     files of shaders, which have functions of the same names, have theirs too: `trace.frag`.
@@ -76,7 +76,7 @@ def _python(text: str) -> Iterator[tuple[str, int, int]]:
 
 
 def _name(node: ast.AST) -> str:
-    """Of what a statement defines, "" if nothing."""
+    """The name that a statement defines, "" if none."""
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         return node.name
     targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]

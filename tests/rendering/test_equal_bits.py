@@ -92,7 +92,7 @@ def test_the_renders_use_every_feature() -> None:
 
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, name: str, expected: dict[str, Image]) -> None:
-    """What other tests render by: features that a scene leaves out change no bit."""
+    """Other tests render by these: features that a scene leaves out change no bit."""
     with profiles.shared():
         image = picture(name, software)
     assert_same_bits(image, name, software, expected)

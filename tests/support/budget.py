@@ -1,4 +1,4 @@
-"""What tests cost: programs that the driver compiles, and processor seconds.
+"""The cost of tests: programs that the driver compiles, and processor seconds.
 
 A run of the whole fast tier fails if its processes compile more than MOST_PROGRAMS: on a bare
 machine most of its time goes there. With `--budget` it fails, too, if a test takes more than
@@ -69,13 +69,13 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
 
 
 def processor_seconds() -> float:
-    """Of this process and all that it has started."""
+    """Processor seconds of this process and all that it has started."""
     own = os.times()
     return sum(own[:4]) + sum(_of_process(child) for child in _children(os.getpid()))
 
 
 def _children(process: int) -> list[int]:
-    """Those that run; none where the system does not list them."""
+    """Processes that it started and that run; none where the system does not list them."""
     found: list[int] = []
     for tasks in Path(f"/proc/{process}/task").glob("*/children"):
         try:

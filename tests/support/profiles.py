@@ -69,7 +69,7 @@ class RoundedNeeds(Needs):
 
 
 def with_rows(arrays: Arrays) -> Arrays:
-    """The same with a row in each array that has none; no count tells of it."""
+    """The arrays, each with at least one row; frame counts stay as they are."""
     return {name: rows if len(rows) else np.zeros(1, rows.dtype) for name, rows in arrays.items()}
 
 
