@@ -27,6 +27,8 @@ TRIES = 3  # until a program is as long as another of the same text
 TELLING = ("path.glsl", "roulette.glsl")  # files in which a path tells what happens
 UNDEFINED = 8  # other bytes of a hundred thousand that hold what was in memory before, now and then
 
+pytestmark = pytest.mark.usefixtures("exact_kernels")
+
 # Scenes, their settings, and the files of functions that they leave out.
 UNUSED: list[tuple[str, dict[str, Any], list[str]]] = [
     ("cornell", {}, ["shapes/sphere_tree.glsl", "shapes/coincident.glsl"]),
