@@ -100,6 +100,7 @@ def test_more_samples_than_a_picture_holds_are_not_enough() -> None:
     assert "with 1 sample; about 0.001 s at" in conclusion(one)
 
 
+@pytest.mark.larger
 @pytest.mark.slow
 def test_inspect_and_auto_take_the_same_way(tmp_path: Path) -> None:
     size = ("--width", "16", "--height", "16")

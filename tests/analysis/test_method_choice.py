@@ -164,6 +164,7 @@ def test_the_choice_reaches_the_error_on_scenes_that_separate_methods(
     assert Judge(scene, verdict_on(scene, 0.25, context), context).choice_reaches()
 
 
+@pytest.mark.larger
 @pytest.mark.slow
 @pytest.mark.parametrize("error", [0.5, 0.2])
 @pytest.mark.parametrize("name", SCENES)
@@ -187,6 +188,7 @@ def test_the_judge_finds_what_is_cheaper_than_a_wasteful_choice(context: Context
 # --- twenty random scenes ------------------------------------------------------------------
 
 
+@pytest.mark.larger
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_the_choice_is_right_in_nineteen_of_twenty_random_scenes(context: Context) -> None:

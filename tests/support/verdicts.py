@@ -10,7 +10,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.builders import box_of_quads, lamp, scene_of
 
-SIZE, SLOW_SIZE = 16, 24  # pixels of a frame
+SIZE, LARGER = 16, 24  # pixels of a frame
 
 
 def verdict_on(scene: Scene, error: float, context: Context, **more: Any) -> Verdict:
