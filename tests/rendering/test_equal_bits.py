@@ -64,17 +64,18 @@ def picture(name: str, context: Context, **ways: Any) -> Image:
 
 
 @pytest.fixture(scope="module")
-def expected() -> dict[str, Image]:
-    """Pictures by the generic kernel of the session's context, as they are asked for."""
+def known() -> dict[str, Image]:
+    """Pictures by the kernel that users get, as they are asked for."""
     return {}
 
 
-def assert_same_bits(image: Image, name: str, context: Context, known: dict[str, Image]) -> None:
-    """As by the generic kernel that users get, through a compute shader."""
+@pytest.fixture
+def usual(software: Context, name: str, known: dict[str, Image]) -> Image:
+    """The picture by the generic kernel that users get, through a compute shader."""
     if name not in known:
-        known[name] = picture(name, context)
+        known[name] = picture(name, software)
     assert known[name].radiance.any()
-    assert same(image, known[name])
+    return known[name]
 
 
 def test_the_renders_use_every_feature() -> None:
@@ -91,44 +92,43 @@ def test_the_renders_use_every_feature() -> None:
 
 
 @pytest.mark.parametrize("name", RENDERS)
-def test_the_kernel_of_a_profile(software: Context, name: str, expected: dict[str, Image]) -> None:
+def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
     """Other tests render by these: features that a scene leaves out change no bit."""
     with profiles.shared():
         image = picture(name, software)
-    assert_same_bits(image, name, software, expected)
+    assert same(image, usual)
 
 
-@pytest.mark.parametrize("name", sorted(RENDERS.keys() - {"crowd"}))
-def test_shapes_that_are_written_into_the_kernel(
-    software: Context, name: str, expected: dict[str, Image]
+WAYS = [  # a crowd has too many shapes to be baked; particles and probes have no fragment shader
+    *((name, "tier", "baked") for name in RENDERS if name != "crowd"),
+    *(
+        (name, "pipeline", "fragment")
+        for name in RENDERS
+        if name not in ("caustics", "shared places")
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "key", "way"), WAYS)
+def test_tiers_and_pipelines(
+    software: Context, usual: Image, name: str, key: str, way: str
 ) -> None:
-    """Up to 32: a crowd is not baked."""
-    image = picture(name, software, tier="baked")
-    assert image.recipe
-    assert image.recipe.tier == "baked"
-    assert_same_bits(image, name, software, expected)
+    image = picture(name, software, **{key: way})
+    assert getattr(image.recipe, key) == way
+    assert same(image, usual)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RENDERS)
 def test_arrays_in_textures(
-    software: Context, name: str, expected: dict[str, Image], monkeypatch: pytest.MonkeyPatch
+    software: Context, usual: Image, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(struct_arrays, "MOST_UNIFORM_BYTES", 0)
-    assert_same_bits(picture(name, software), name, software, expected)
-
-
-@pytest.mark.parametrize("name", sorted(RENDERS.keys() - {"caustics", "shared places"}))
-def test_a_fragment_shader(software: Context, name: str, expected: dict[str, Image]) -> None:
-    """Particles and probes have none."""
-    image = picture(name, software, pipeline="fragment")
-    assert image.recipe
-    assert image.recipe.pipeline == "fragment"
-    assert_same_bits(image, name, software, expected)
+    assert same(picture(name, software), usual)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RENDERS)
-def test_osmesa(software: Context, osmesa: Context, name: str, expected: dict[str, Image]) -> None:
+def test_osmesa(osmesa: Context, usual: Image, name: str) -> None:
     assert osmesa.route == "osmesa"
-    assert_same_bits(picture(name, osmesa), name, software, expected)
+    assert same(picture(name, osmesa), usual)

@@ -1,4 +1,4 @@
-"""The two halves by which the error of layers is told."""
+"""The two halves from which the error of layers is estimated."""
 
 import numpy as np
 

@@ -2,8 +2,8 @@
 
 A run of the whole fast tier fails if its processes compile more than MOST_PROGRAMS: on a bare
 machine most of its time goes there. With `--budget` it fails, too, if a test takes more than
-MOST_SECONDS that SLOWER does not list, or all of them more than ALL_SECONDS: meaningful where
-the driver has the programs in its cache and nothing else runs.
+MOST_SECONDS, or all of them more than ALL_SECONDS. Run it where the driver has the programs in its
+cache and nothing else runs.
 """
 
 import hashlib
@@ -19,10 +19,9 @@ import pytest
 
 from tests.support.workers import tell, told_by
 
-MOST_PROGRAMS = 1000  # this figure only falls
+MOST_PROGRAMS = 960  # this figure only falls
 MOST_SECONDS = 2.0  # of one test
 ALL_SECONDS = 420.0
-SLOWER: dict[str, float] = {}  # tests that take more, and how much: this list only shrinks
 SHOWN = 8  # of the costliest
 COSTS = "costs"  # by this name a worker of pytest-xdist hands over what it has counted
 _TICKS = os.sysconf("SC_CLK_TCK")
@@ -57,7 +56,7 @@ def _count(name: str) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Count the seconds of a test with its fixtures and processes, those that go on, too."""
+    """Count the seconds of a test, its fixtures and its processes, also of those still running."""
     global _current, _total
     _current, before = item.nodeid, processor_seconds()
     result = yield
@@ -127,7 +126,7 @@ def excess(config: pytest.Config) -> list[str]:
     if _total > ALL_SECONDS:
         found.append(f"the tests took more than {ALL_SECONDS:.0f} processor seconds")
     for test, spent in _seconds.items():
-        if spent > SLOWER.get(test, MOST_SECONDS):
+        if spent > MOST_SECONDS:
             found.append(f"{test} took {spent:.1f} processor seconds")
     return found
 
