@@ -22,9 +22,9 @@ from bench.checkouts import commit_of, exported, state_of
 from bench.processes import ROOT, Process, environment_of
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from bench.ratios import LEAST_ROUNDS, Ratio, ratio_of, ratio_over
-from glrt import files
-from glrt.errors import RenderError
-from glrt.scene.catalog import find
+from glrt.core import files
+from glrt.core.errors import RenderError
+from glrt.scene.scenefile.catalog import find
 from glrt.settings import MAX_SAMPLES, Method
 
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from bench.contact_sheet import check_sheet, save_sheet
 from bench.program import exit_code_of, parser_of
 from glrt.image.sources import load
-from glrt.rendering.aov_view import AovView
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.screen.aov_view import AovView
 from glrt.settings import Aov
 
 SCENE, SIZE, SAMPLES = "weekend", (480, 270), 128

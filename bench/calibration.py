@@ -14,8 +14,8 @@ import numpy as np
 
 from bench.efficiency import Way, renderer_of, scene_of
 from bench.program import exit_code_of, machine, parser_of
+from glrt.core.errors import UsageError
 from glrt.error.estimate import block_means, block_stderr
-from glrt.errors import UsageError
 from glrt.gpu.context import Context, open_context
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Sampler

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from bench.processes import ROOT
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
 
 
 def commit_of(name: str, repository: Path = ROOT) -> str:

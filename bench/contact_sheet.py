@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt import files
-from glrt.errors import RenderError, UsageError
+from glrt.core import files
+from glrt.core.errors import RenderError, UsageError
 
 Codes = NDArray[np.uint8]  # (H, W, 3) sRGB
 

@@ -21,13 +21,13 @@ import numpy as np
 from bench.screens import screen
 from bench.window_tour import play
 from glrt.image.sources import load
-from glrt.methods.table import METHODS
-from glrt.rendering.temporal import Mode
+from glrt.plan.methods import METHODS
+from glrt.rendering.history.temporal import Mode
 from glrt.scene.scene import Scene
 from glrt.settings import Method, settings_for
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_material, with_object
 from glrt.view.state.live_probes import When
-from glrt.view.state.scene_edits import with_material, with_object
 
 SECONDS = 6.0  # of each drag
 REST = 12  # frames between drags, and at least so many before the first

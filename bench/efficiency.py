@@ -23,11 +23,11 @@ from glrt.analysis.method_choice.caustics import CHOICES
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
-from glrt.methods.particles import refusal
+from glrt.plan.particles import refusal
 from glrt.rendering.renderer import Renderer
-from glrt.scene.materials import Material
-from glrt.scene.objects import Object
+from glrt.scene.materials.kinds import Material
 from glrt.scene.scene import Scene
+from glrt.scene.shapes.base import Object
 from glrt.settings import settings_for
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from bench.dice import Dice
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 from glrt.settings import Method
 
 Table = dict[str, Any]

@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from bench.contact_sheet import check_sheet, save_sheet
-from glrt import files
-from glrt.errors import GlrtError, RenderError, UsageError
+from glrt.core import files
+from glrt.core.errors import GlrtError, RenderError, UsageError
+from glrt.core.text import unknown
+from glrt.core.version import VERSION
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.scene.catalog import scene_names
-from glrt.text import unknown
-from glrt.version import VERSION
+from glrt.scene.scenefile.catalog import scene_names
 
 
 @dataclass(frozen=True)

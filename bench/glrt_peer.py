@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from bench.peer import Request, serve
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.gpu.context import open_context
 from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer

@@ -24,7 +24,7 @@ import numpy as np
 from bench.gpu_way import Work
 from bench.processes import ROOT, environment_of
 from bench.program import at_least, exit_code_of, machine, parser_of
-from glrt import files
+from glrt.core import files
 from glrt.doctor.report import examine_all, findings
 from glrt.image.image import Pixels
 from glrt.rendering.passes import Resolved

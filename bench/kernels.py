@@ -14,10 +14,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from bench.program import add_rounds, exit_code_of, machine, parser_of
-from glrt import files
-from glrt.cli.process import peak_bytes
+from glrt.core import files
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
+from glrt.process.command import peak_bytes
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Method

@@ -11,7 +11,7 @@ from typing import NamedTuple, get_args
 
 from bench.cold_start import PROGRAMS, start_of
 from bench.program import exit_code_of, machine, parser_of
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.image.sources import load
 from glrt.settings import Sampler, settings_for
 

@@ -16,16 +16,16 @@ import numpy as np
 
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from bench.ratios import Ratio, ratio_of
-from glrt.cli.process import peak_bytes
 from glrt.gpu.context import Context, open_context
-from glrt.methods.contents import contents_of
+from glrt.packing.scene_arrays import pack_scene
+from glrt.packing.scene_tree import tree_of
+from glrt.plan.facts import contents_of
+from glrt.process.command import peak_bytes
 from glrt.rendering.device_scene import STILL
-from glrt.rendering.pack import pack_scene
-from glrt.rendering.pack_tree import tree_of
 from glrt.rendering.renderer import Renderer
-from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.quad import Quad
 from tests.support.meshes import icosphere, quads
 
 STEPS = (5, 6, 7, 8)  # of dividing each triangle in four: 20,480 to 1.3 million
@@ -108,7 +108,7 @@ def cluttered() -> Scene:
 
 def packed(scene: Scene) -> tuple[dict[str, Array], float]:
     """The arrays of a scene, and the seconds to build and pack them, without the cache of trees."""
-    with patch("glrt.rendering.tree_cache.kept", lambda key, build: build()):
+    with patch("glrt.packing.tree_cache.kept", lambda key, build: build()):
         start = time.perf_counter()
         arrays = pack_scene(scene, tree=tree_of(scene, contents_of(scene)))
         return arrays, time.perf_counter() - start

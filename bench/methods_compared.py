@@ -23,7 +23,7 @@ from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 from glrt.settings import Method
 
 WIDTH, HEIGHT, BOUNCES = 64, 48, 6

@@ -21,7 +21,7 @@ from bench.program import at_least, exit_code_of, machine, parser_of
 from glrt.analysis.variants import LINKED
 from glrt.error.estimate import block_means, block_stderr
 from glrt.gpu.context import Context, open_context
-from glrt.methods.particles import link_bits
+from glrt.plan.particles import link_bits
 
 SCENES = (
     *("cornell", "lamps", "lens", "metals", "table"),

@@ -20,13 +20,13 @@ from pathlib import Path
 from typing import Any
 
 from bench.processes import Process
-from glrt.errors import GlrtError, RenderError
+from glrt.core.errors import GlrtError, RenderError
 from glrt.image.image import Image
-from glrt.scene.assets import AssetFolder
-from glrt.scene.file_copies import copy_files
-from glrt.scene.loading import files_of, hashes_of, with_files
+from glrt.scene.files.assets import AssetFolder
+from glrt.scene.loading.file_copies import copy_files
+from glrt.scene.loading.loading import files_of, hashes_of, with_files
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
 
 PREFIX = "glrt-peer-"  # of the temporary folders in which pictures are passed
 _FILES = tempfile.TemporaryDirectory(prefix=PREFIX)

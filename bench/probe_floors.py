@@ -22,7 +22,7 @@ from bench.truth import Truth, truth_of
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
 from glrt.rendering.renderer import Renderer
 
 SCENES = ("methods/diffuse", "methods/two_rooms", "methods/white")

@@ -17,10 +17,10 @@ from glrt.analysis.stress.probes import CELL, WITHOUT, house
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
-from glrt.rendering.false_colors import VIRIDIS, FalseColors, Scale
 from glrt.rendering.pipelines import PLAIN, Variant
-from glrt.rendering.probe_balls import ProbeBalls, farthest
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.screen.false_colors import VIRIDIS, FalseColors, Scale
+from glrt.rendering.screen.probe_balls import ProbeBalls, farthest
 from glrt.scene.scene import Scene
 
 SIZE, SAMPLES = 384, 256

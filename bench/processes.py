@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 
 ROOT = Path(__file__).resolve().parent.parent  # folder of this checkout
 

@@ -5,10 +5,10 @@ import os
 import sys
 from collections.abc import Callable, Iterable
 
-from glrt import signals
-from glrt.errors import GlrtError
-from glrt.signals import PLAIN, handled, interrupt
-from glrt.version import VERSION
+from glrt.core.errors import GlrtError
+from glrt.core.version import VERSION
+from glrt.process import signals
+from glrt.process.signals import PLAIN, handled, interrupt
 
 
 def exit_code_of(work: Callable[[], int | None]) -> int:

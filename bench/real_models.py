@@ -17,8 +17,8 @@ from typing import Any
 
 from bench.gallery import render_gallery
 from bench.program import exit_code_of, parser_of
-from glrt.errors import UsageError
-from glrt.scene.tables import toml_lines
+from glrt.core.errors import UsageError
+from glrt.scene.schema.tables import toml_lines
 
 Table = dict[str, Any]
 

@@ -25,8 +25,8 @@ from glrt.analysis.reference import reference_for
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
+from glrt.rendering.history.temporal import WAYS, Temporal, Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import WAYS, Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 

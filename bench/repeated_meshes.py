@@ -20,10 +20,10 @@ from bench.ratios import Ratio, ratio_of
 from glrt.gpu.context import Context, open_context
 from glrt.rendering.device_scene import STILL
 from glrt.rendering.renderer import Renderer
-from glrt.scene import own_trees
-from glrt.scene.meshes import Mesh
+from glrt.scene import instancing
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
 
 HEAPS = ((6, 2), (4, 20), (5, 50), (4, 400))  # divisions of each triangle in four, and copies
 SAMPLES = 4
@@ -101,7 +101,7 @@ def _row(context: Context, steps: int, copies: int, size: int, rounds: int) -> R
 
 def _kept(context: Context, scene: Scene, size: int, least: int) -> Kept:
     """With trees of their own for meshes whose copies would take `least` triangles."""
-    with patch.object(own_trees, "LEAST_SAVED", least):
+    with patch.object(instancing, "LEAST_SAVED", least):
         arrays, seconds = packed(scene)
         bytes_all = sum(arrays[name].nbytes for name in (*STILL, "Instance"))
         del arrays

@@ -18,9 +18,9 @@ from bench.dice import Dice
 from bench.placing import DIGITS, SMALLEST, Ball, Free, Point, Space
 from bench.program import at_least, exit_code_of, parser_of
 from glrt.scene.scene import Scene
-from glrt.scene.tables import toml_text
-from glrt.scene.toml import parse_scene
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml import parse_scene
+from glrt.scene.scenefile.toml_writer import write_scene
+from glrt.scene.schema.tables import toml_text
 
 Table = dict[str, Any]
 

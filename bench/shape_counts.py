@@ -16,16 +16,16 @@ from unittest.mock import patch
 import numpy as np
 
 from bench.program import add_rounds, exit_code_of, machine, parser_of
-from glrt.cli.process import peak_bytes
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
+from glrt.core.text import plural
 from glrt.gpu.context import Context, open_context
-from glrt.methods import contents
+from glrt.plan import facts
+from glrt.process.command import peak_bytes
 from glrt.rendering import pipelines
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene
-from glrt.text import plural
+from glrt.scene.scenefile.toml import parse_scene
 
 COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
 FIRST = 485  # number of shapes with which others are compared
@@ -130,7 +130,7 @@ def _renderer(
     Spheres are found by their own.
     """
     with (
-        patch.multiple(contents, SPHERES_FROM=tree_from, TREE_FROM=tree_from),
+        patch.multiple(facts, SPHERES_FROM=tree_from, TREE_FROM=tree_from),
         patch.object(pipelines, "MOST_BAKED", most_baked),
     ):
         return Renderer(scene, context=context, tier="baked", width=size, height=size)

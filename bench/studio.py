@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 from bench.program import exit_code_of, parser_of
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene

@@ -18,7 +18,7 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.scene.tables import toml_lines
+from glrt.scene.schema.tables import toml_lines
 from tests.support.meshes import icosphere
 
 SIZE, SAMPLES, TEXELS = 256, 32, 1024

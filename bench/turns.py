@@ -16,7 +16,7 @@ import numpy as np
 
 from bench.contest import Runs
 from bench.peer import Peer, Request
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.settings import MAX_SAMPLES
 
 LEAST_SECONDS = 1.0  # of a turn: shorter ones measure what starts and ends a render

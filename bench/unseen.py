@@ -46,8 +46,8 @@ from bench.turns import (
     started,
     verdict,
 )
-from glrt import files
-from glrt.errors import RenderError
+from glrt.core import files
+from glrt.core.errors import RenderError
 from glrt.scene.scene import Scene
 
 HASHED = ("glrt", "shaders_glsl")

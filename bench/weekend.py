@@ -12,7 +12,7 @@ import math
 import random
 from collections.abc import Iterator
 
-from glrt.resources import folder
+from glrt.core.resources import folder
 
 SEED = 35
 GRID = range(-11, 11)  # cells of edge 1 in x and z, with at most one small sphere each

@@ -27,8 +27,8 @@ Frames = list[Image.Image]
 
 def editor(window: Any, frames: Frames) -> Script:
     """A ball is added, becomes metal, is moved; another is selected and duplicated."""
-    from glrt.view.state.controls import replaced
-    from glrt.view.state.scene_edits import with_object, with_retyped
+    from glrt.view.controls import replaced
+    from glrt.view.edits.scene_edits import with_object, with_retyped
 
     app = window.app
     yield from shown(window, frames)

@@ -4,34 +4,28 @@ Importing it loads nothing else: each public name is imported when it is first u
 
 Modules and packages, each importing only what stands above it:
 
-- version: the version of glrt
-- early: Ctrl-C before anything else is imported
-- text: words and numbers of the user in messages
-- errors: what can go wrong, with the exit code of each kind
-- signals: Ctrl-C, SIGTERM and SIGHUP
-- silence: what compiled libraries print by themselves
-- resources: where shaders and scenes lie
-- files: files that appear whole or not at all
-- memo: results kept for the same objects
-- settings: every render setting, once
-- gpu: OpenGL alone, which knows no scene
-- scene: frozen models of what is rendered, and TOML in and out
-- methods: what a method and a scene need of a kernel, and what a method leaves out
-- accel: trees over shapes and groups of lamps; arrays in, arrays out
-- error: estimates of the error of a picture, and how far they can be believed
-- denoise: filters that know what they leave wrong
+- core: small tools that every other package uses
+- process: signals, standard streams, time and memory of a command
+- settings: every render setting
+- gpu: OpenGL; knows no scene
+- scene: frozen models of what is rendered, and scene files
+- plan: which kernel a scene and its settings need
+- accel: BVHs over shapes and triangles, clusters of lamps; arrays in, arrays out
+- packing: a scene as arrays on the driver
+- error: estimates of the error of a picture, and their reliability
+- denoise: denoisers that estimate their own error
 - image: pictures in files, with their recipe and the state of their film
 - comparison: whether two pictures differ by more than their noise
-- rendering: a scene and settings in, samples on a film out
+- rendering: render a scene with settings: samples on a film
 - doctor: which OpenGL routes work on a machine
-- analysis: experiments over the renderer: chart, stress, choice of a method
+- analysis: experiments with the renderer: chart, stress, choice of a method
 - view: the window
-- api: the public functions that are not defined elsewhere
+- api: public functions that no other module defines
 - cli: the commands
 - __main__: `python -m glrt`
 """
 
-from glrt.version import VERSION
+from glrt.core.version import VERSION
 
 TYPE_CHECKING = False  # importing `typing` takes 5 ms, in which Ctrl-C would end in a traceback
 if TYPE_CHECKING:
@@ -40,23 +34,31 @@ if TYPE_CHECKING:
     from glrt.api import paths, render
     from glrt.comparison.result import Comparison
     from glrt.comparison.verdict import compare
+    from glrt.core.errors import ContextError, GlrtError, RenderError, SceneError, UsageError
     from glrt.image.image import Image
     from glrt.image.merge import merge
     from glrt.image.sources import load
-    from glrt.rendering.path_values import Contribution, Path, PathVertex, PixelPaths
+    from glrt.rendering.paths.values import Contribution, Path, PathVertex, PixelPaths
     from glrt.rendering.renderer import Renderer
-    from glrt.scene.background import Background
     from glrt.scene.camera import Camera
-    from glrt.scene.clear_sky import ClearSky
-    from glrt.scene.cone import Cone
-    from glrt.scene.cylinder import Cylinder
-    from glrt.scene.materials import Dielectric, Lambertian, Light, Metal, Principled
-    from glrt.scene.meshes import Mesh
+    from glrt.scene.lights.background import Background
+    from glrt.scene.lights.clear_sky import ClearSky
+    from glrt.scene.lights.cone import Cone
+    from glrt.scene.lights.sun import Sun
+    from glrt.scene.materials.dielectric import Dielectric
+    from glrt.scene.materials.lambertian import Lambertian
+    from glrt.scene.materials.light import Light
+    from glrt.scene.materials.metal import Metal
+    from glrt.scene.materials.principled import Principled
+    from glrt.scene.materials.textures import NormalTexture, Texture
     from glrt.scene.scene import Scene
-    from glrt.scene.shapes import Disk, Plane, Quad, Sphere
-    from glrt.scene.solids import Box
-    from glrt.scene.sun import Sun
-    from glrt.scene.textures import NormalTexture, Texture
+    from glrt.scene.shapes.box import Box
+    from glrt.scene.shapes.cylinder import Cylinder
+    from glrt.scene.shapes.disk import Disk
+    from glrt.scene.shapes.mesh import Mesh
+    from glrt.scene.shapes.plane import Plane
+    from glrt.scene.shapes.quad import Quad
+    from glrt.scene.shapes.sphere import Sphere
     from glrt.settings import Settings
 
 __all__ = [
@@ -66,10 +68,12 @@ __all__ = [
     "ClearSky",
     "Comparison",
     "Cone",
+    "ContextError",
     "Contribution",
     "Cylinder",
     "Dielectric",
     "Disk",
+    "GlrtError",
     "Image",
     "Lambertian",
     "Light",
@@ -82,12 +86,15 @@ __all__ = [
     "Plane",
     "Principled",
     "Quad",
+    "RenderError",
     "Renderer",
     "Scene",
+    "SceneError",
     "Settings",
     "Sphere",
     "Sun",
     "Texture",
+    "UsageError",
     "__version__",
     "compare",
     "load",
@@ -99,34 +106,39 @@ __all__ = [
 __version__ = VERSION
 
 _HOMES = {
-    "Background": "scene.background",
-    "ClearSky": "scene.clear_sky",
-    "Sun": "scene.sun",
-    "Box": "scene.solids",
+    "Background": "scene.lights.background",
+    "Box": "scene.shapes.box",
     "Camera": "scene.camera",
+    "ClearSky": "scene.lights.clear_sky",
     "Comparison": "comparison.result",
-    "Cone": "scene.cone",
-    "Contribution": "rendering.path_values",
-    "Cylinder": "scene.cylinder",
-    "Dielectric": "scene.materials",
-    "Disk": "scene.shapes",
+    "Cone": "scene.lights.cone",
+    "ContextError": "core.errors",
+    "Contribution": "rendering.paths.values",
+    "Cylinder": "scene.shapes.cylinder",
+    "Dielectric": "scene.materials.dielectric",
+    "Disk": "scene.shapes.disk",
+    "GlrtError": "core.errors",
     "Image": "image.image",
-    "Lambertian": "scene.materials",
-    "Light": "scene.materials",
-    "Mesh": "scene.meshes",
-    "Metal": "scene.materials",
-    "NormalTexture": "scene.textures",
-    "Path": "rendering.path_values",
-    "PathVertex": "rendering.path_values",
-    "PixelPaths": "rendering.path_values",
-    "Principled": "scene.materials",
-    "Plane": "scene.shapes",
-    "Quad": "scene.shapes",
+    "Lambertian": "scene.materials.lambertian",
+    "Light": "scene.materials.light",
+    "Mesh": "scene.shapes.mesh",
+    "Metal": "scene.materials.metal",
+    "NormalTexture": "scene.materials.textures",
+    "Path": "rendering.paths.values",
+    "PathVertex": "rendering.paths.values",
+    "PixelPaths": "rendering.paths.values",
+    "Plane": "scene.shapes.plane",
+    "Principled": "scene.materials.principled",
+    "Quad": "scene.shapes.quad",
+    "RenderError": "core.errors",
     "Renderer": "rendering.renderer",
     "Scene": "scene.scene",
+    "SceneError": "core.errors",
     "Settings": "settings",
-    "Sphere": "scene.shapes",
-    "Texture": "scene.textures",
+    "Sphere": "scene.shapes.sphere",
+    "Sun": "scene.lights.sun",
+    "Texture": "scene.materials.textures",
+    "UsageError": "core.errors",
     "compare": "comparison.verdict",
     "load": "image.sources",
     "merge": "image.merge",

@@ -5,8 +5,8 @@ from typing import Unpack
 
 from glrt.gpu.context import Choice, Context
 from glrt.image.image import Image
-from glrt.rendering.path_replay import pixel_paths
-from glrt.rendering.path_values import PixelPaths
+from glrt.rendering.paths.replay import pixel_paths
+from glrt.rendering.paths.values import PixelPaths
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import FrameOptions, settings_for

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self, TypedDict, get_args
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 
 Method = Literal[
     "naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather", "resampled"

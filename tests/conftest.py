@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from bench.screens import screen
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context, open_context
-from glrt.methods.features import needs_of
-from glrt.rendering.evaluation import evaluate
+from glrt.plan.features import needs_of
+from glrt.rendering.shader_functions import evaluate
 from glrt.scene import scene as scene_module
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for

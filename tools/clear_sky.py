@@ -1,4 +1,4 @@
-"""Write the coefficients of the clear sky, glrt/scene/clear_sky.npz, from those of the model.
+"""Write glrt/scene/lights/clear_sky.npz, the coefficients of the clear sky, from the model.
 
 They are read from the copy that comes with Mitsuba 3, a package of the tests. Run it as
 `python tools/clear_sky.py`; a test holds that it changes nothing.
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-TARGET = Path(__file__).parents[1] / "glrt" / "scene" / "clear_sky.npz"
+TARGET = Path(__file__).parents[1] / "glrt/scene/lights/clear_sky.npz"
 WAVELENGTHS = np.arange(320.0, 721.0, 40.0)  # of the solar radiance, nm
 SUN_OF_THE_MODEL = np.radians(0.2679)  # half of its angle
 _MAGIC, _DOUBLE = b"tensor_file\0", 11

@@ -1,4 +1,4 @@
-"""The metals of glrt/scene/conductors.py, from spectra: python tools/metals.py prints them.
+"""Print the metals of glrt/scene/materials/conductors.py from spectra: python tools/metals.py.
 
 Spectra of n and k from the refractiveindex.info database (M. N. Polyanskiy, CC0 1.0). Reflectances
 at normal incidence are averaged with the sensitivities of linear sRGB, of the CIE 1931 observer

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from reference_markdown import GENERATED, table
 
-from glrt.methods.combinations import MEANINGS, Way, pairs, reason, works
+from glrt.plan.combinations import MEANINGS, Way, pairs, reason, works
 
 
 def combinations_page() -> Iterator[str]:

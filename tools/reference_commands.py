@@ -5,8 +5,9 @@ from collections.abc import Iterator
 
 from reference_markdown import GENERATED, prose, table
 
-from glrt import errors, signals
 from glrt.cli.commands import COMMANDS, make_parser
+from glrt.core import errors
+from glrt.process import signals
 
 
 def commands() -> Iterator[str]:

@@ -12,7 +12,7 @@ from reference_markdown import GENERATED, table
 from reference_scene import keys
 
 import glrt
-from glrt import errors
+from glrt.core.errors import GlrtError
 from glrt.scene.scene import Scene
 
 
@@ -24,7 +24,7 @@ def python_api() -> Iterator[str]:
         "`import glrt` loads nothing else: each name below is imported when it is first used. "
         "Names of modules that are not listed here may change between versions."
     )
-    names = [name for name in glrt.__all__ if name != "__version__"]
+    names = [name for name in glrt.__all__ if name != "__version__" and not is_error(name)]
     functions = [name for name in names if inspect.isfunction(getattr(glrt, name))]
     for name in [*functions, *(name for name in names if name not in functions)]:
         yield f"## `glrt.{name}`"
@@ -34,16 +34,18 @@ def python_api() -> Iterator[str]:
     yield "The version of glrt as a text."
     yield "## Errors"
     yield (
-        "All errors are subclasses of `glrt.errors.GlrtError`; their text is one paragraph: what "
-        "is wrong, where, and what to do."
+        "All errors are subclasses of `glrt.GlrtError`. Their text is one paragraph: the mistake, "
+        "its place, and a remedy."
     )
-    kinds: list[type[errors.GlrtError]] = [
-        value
-        for value in vars(errors).values()
-        if inspect.isclass(value) and issubclass(value, errors.GlrtError)
-    ]
-    rows = [(f"`{kind.__name__}`", str(kind.exit_code), first(kind)) for kind in kinds]
-    yield table(("class in `glrt.errors`", "exit code", "meaning"), rows)
+    kinds = [getattr(glrt, name) for name in glrt.__all__ if is_error(name)]
+    rows = [(f"`glrt.{kind.__name__}`", str(kind.exit_code), first(kind)) for kind in kinds]
+    yield table(("class", "exit code", "meaning"), rows)
+
+
+def is_error(name: str) -> bool:
+    """Whether a public name is that of an error."""
+    public = getattr(glrt, name)
+    return inspect.isclass(public) and issubclass(public, GlrtError)
 
 
 def class_page(public: type) -> Iterator[str]:

@@ -7,65 +7,70 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
-from glrt.scene import (
-    background,
-    camera,
-    clear_sky,
-    cone,
-    cylinder,
-    materials,
-    meshes,
-    probes,
-    scene,
-    shapes,
-    solids,
-    sun,
-    textures,
-)
+from glrt.scene.camera import Camera
+from glrt.scene.lights.background import Background
+from glrt.scene.lights.clear_sky import ClearSky
+from glrt.scene.lights.cone import Cone
+from glrt.scene.lights.sun import Sun
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.textures import NormalTexture, Texture
+from glrt.scene.probes import Probes
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import RenderSettings, editable_of
 
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
-    ("[camera]", "Required.", camera.Camera),
+    ("[camera]", "Required.", Camera),
     ("[render]", "Optional. Options of the command line override it.", RenderSettings),
-    ("[background]", "Optional; black by default.", background.Background),
+    ("[background]", "Optional; black by default.", Background),
     (
         "sky of [background]",
         "In TOML: `sky = { turbidity = 3.0 }`. [A clear sky](../how-to/lights.md#a-clear-sky).",
-        clear_sky.ClearSky,
+        ClearSky,
     ),
-    ("[sun]", "Optional; there is none by default.", sun.Sun),
-    ("[probes]", "Optional. [Probes](../explanation/probes.md).", probes.Probes),
-    ("[materials.NAME] of type lambertian", "", materials.Lambertian),
-    ("[materials.NAME] of type metal", "", materials.Metal),
-    ("[materials.NAME] of type dielectric", "", materials.Dielectric),
+    ("[sun]", "Optional; there is none by default.", Sun),
+    ("[probes]", "Optional. [Probes](../explanation/probes.md).", Probes),
+    ("[materials.NAME] of type lambertian", "", Lambertian),
+    ("[materials.NAME] of type metal", "", Metal),
+    ("[materials.NAME] of type dielectric", "", Dielectric),
     (
         "[materials.NAME] of type principled",
         "[Principled surfaces](../explanation/principled.md).",
-        materials.Principled,
+        Principled,
     ),
-    ("[materials.NAME] of type light", "", materials.Light),
+    ("[materials.NAME] of type light", "", Light),
     (
         "texture",
         'In place of a color or a number: `color = { image = "wood.jpg" }`. '
         "[Textures](../how-to/textures.md).",
-        textures.Texture,
+        Texture,
     ),
     (
         "normal of a material of type principled",
         'A texture with `strength`: `normal = { image = "bumps.png" }`.',
-        textures.NormalTexture,
+        NormalTexture,
     ),
-    ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", cone.Cone),
-    ("[[objects]] of shape sphere", "", shapes.Sphere),
-    ("[[objects]] of shape plane", "", shapes.Plane),
-    ("[[objects]] of shape quad", "", shapes.Quad),
-    ("[[objects]] of shape disk", "", shapes.Disk),
-    ("[[objects]] of shape box", "", solids.Box),
-    ("[[objects]] of shape cylinder", "", cylinder.Cylinder),
+    ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", Cone),
+    ("[[objects]] of shape sphere", "", Sphere),
+    ("[[objects]] of shape plane", "", Plane),
+    ("[[objects]] of shape quad", "", Quad),
+    ("[[objects]] of shape disk", "", Disk),
+    ("[[objects]] of shape box", "", Box),
+    ("[[objects]] of shape cylinder", "", Cylinder),
     (
         "[[objects]] of shape mesh",
         "[Put a 3D model into a scene](../how-to/models.md).",
-        meshes.Mesh,
+        Mesh,
     ),
 ]
 
@@ -89,7 +94,7 @@ def scene_file() -> Iterator[str]:
         "`glrt schema` prints the same format as JSON Schema for editors."
     )
     yield "## Top level"
-    yield keys(scene.Scene)
+    yield keys(Scene)
     for title, note, model in SCENE_TABLES:
         yield f"## `{title}`"
         yield f"{inspect.getdoc(model)} {note}".strip()

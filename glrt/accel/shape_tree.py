@@ -13,7 +13,7 @@ import numpy as np
 from glrt.accel import binary_tree
 from glrt.accel.binned_splits import Floats, Ints
 from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid, WideTree, Words, collapse
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 
 Array = np.ndarray[Any, Any]
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from glrt.rendering.path_values import Array, Contribution, Path, PathVertex, PixelPaths, Triple
-from glrt.text import counted, escaped
+from glrt.core.text import counted, escaped
+from glrt.rendering.paths.values import Array, Contribution, Path, PathVertex, PixelPaths, Triple
 
 LISTED = 5  # samples that are told with their share
 TOTAL = 0.995  # of the light: a sample that brings as much brings all of it

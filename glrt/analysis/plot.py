@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from glrt import files
-from glrt.errors import UsageError
+from glrt.core import files
+from glrt.core.errors import UsageError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -20,25 +20,27 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt import files
+from glrt.core import files
+from glrt.core.errors import RenderError
+from glrt.core.resources import cache_folder, folder
+from glrt.core.version import VERSION
 from glrt.error.estimate import DARK, estimated_error
-from glrt.error.judgement import judged
-from glrt.errors import RenderError
+from glrt.error.reliability_of_scene import judged
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read, shader_files
 from glrt.image.image import Image
-from glrt.methods.contents import contents_of
+from glrt.plan.facts import contents_of
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
-from glrt.resources import cache_folder, folder
-from glrt.scene.loading import hashes_of
-from glrt.scene.materials import Lambertian, Light, Metal
+from glrt.scene.loading.loading import hashes_of
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Finish, Scene
-from glrt.scene.toml import scene_to_dict
+from glrt.scene.scenefile.toml import scene_to_dict
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
-from glrt.version import VERSION
 
 Floats = NDArray[np.float64]
 

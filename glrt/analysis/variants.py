@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.denoise import oidn
-from glrt.methods.features import needs_of
-from glrt.methods.particles import caster_bits, link_bits, refusal
-from glrt.methods.table import METHODS as TRAITS
+from glrt.plan.features import needs_of
+from glrt.plan.methods import METHODS as TRAITS
+from glrt.plan.particles import caster_bits, link_bits, refusal
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 

@@ -2,12 +2,11 @@
 
 Modules, each importing only what stands above it:
 
-- process: streams, age and memory of the process
 - options: what command lines share
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
-- doubts: what is said of an error that is not to be believed
-- figures: what is told of a render that has ended
+- warnings: warnings about a finished picture
+- render_report: report of a finished render
 - caustics: whether a render has particles, where the command line leaves it open
 - progress: the progress bar
 - render: `glrt render`

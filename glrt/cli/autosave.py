@@ -7,10 +7,10 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from glrt.cli.process import tell
-from glrt.errors import RenderError
-from glrt.files import reason
+from glrt.core.errors import RenderError
+from glrt.core.files import reason
 from glrt.image.image import Image
+from glrt.process.command import tell
 from glrt.rendering.renderer import Renderer
 
 INTERVAL = 60.0  # seconds between two saves: what a power cut may cost

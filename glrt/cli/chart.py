@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any, get_args
 
-from glrt import files
 from glrt.analysis.chart import files as method_files
 from glrt.analysis.chart.experiment import Plan, Tell, frame_of, measure_scene
 from glrt.analysis.chart.files import save_chart
@@ -21,18 +20,19 @@ from glrt.analysis.motion.measure import tracks_of
 from glrt.analysis.motion.report import PAGE, save_page, save_tracks
 from glrt.analysis.plot import MOST_CURVES, check_matplotlib
 from glrt.cli.options import SCENE, add_context, add_files, file_rules
-from glrt.cli.process import file_names
-from glrt.errors import UsageError
+from glrt.core import files
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
-from glrt.rendering.ataa import CHOICES, SAMPLES
+from glrt.process.command import file_names
+from glrt.process.signals import INTERRUPTED
+from glrt.rendering.history.ataa import CHOICES, SAMPLES
+from glrt.rendering.history.temporal import Mode, Way
+from glrt.rendering.history.wrls import Predictor
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.rendering.stopping import Interruption
-from glrt.rendering.temporal import Mode, Way
-from glrt.rendering.wrls import Predictor
-from glrt.scene.path_text import text_of
+from glrt.scene.files.path_text import text_of
 from glrt.scene.scene import Scene
-from glrt.signals import INTERRUPTED
 
 DESCRIPTION = (
     "Measure the error of every method against its time; write charts (SVG, PNG), figures (CSV, "

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from glrt.cli.options import Parser
-from glrt.version import VERSION
+from glrt.core.version import VERSION
 
 COMMANDS = {  # name, and what `glrt --help` says of it
     "render": "render a scene to a file",

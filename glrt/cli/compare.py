@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from glrt import files
 from glrt.comparison.result import CHANNELS, Comparison
 from glrt.comparison.verdict import compare
-from glrt.errors import UsageError
+from glrt.core import files
+from glrt.core.errors import UsageError
 from glrt.image.image import Image
 
 DESCRIPTION = (
@@ -98,7 +98,7 @@ def light_groups(image: Image, path: str) -> dict[str, Image]:
         raise UsageError(f"{path}: --groups needs the recipe of a picture that glrt rendered.")
     from glrt.api import render
     from glrt.image.sources import files_read
-    from glrt.methods.light_layers import emitters
+    from glrt.plan.plan import emitters
     from glrt.scene.scene import with_lights
 
     scene, settings = files_read(image.recipe, Path(path)).scene, image.recipe.settings

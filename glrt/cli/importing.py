@@ -4,13 +4,13 @@ import argparse
 import sys
 from pathlib import Path
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
+from glrt.core.text import counted, escaped
 from glrt.image.sources import load
-from glrt.scene.catalog import find
-from glrt.scene.limits import cautions
 from glrt.scene.model_scene import is_model
+from glrt.scene.scenefile.catalog import find
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
-from glrt.text import counted, escaped
 
 DESCRIPTION = "Write the scene of a model (.glb, .gltf, .obj, .ply or .stl) as a scene file."
 EPILOG = (

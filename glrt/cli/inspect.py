@@ -2,26 +2,19 @@
 
 import argparse
 
-from glrt.cli.options import (
-    SCENE,
-    add_context,
-    add_files,
-    add_pipeline,
-    add_settings,
-    error_limit,
-)
+from glrt.cli.options import SCENE, add_context, add_files, add_pipeline, add_settings, error_limit
 from glrt.cli.request import check_limit, open_renderer, scene_and_settings
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
+from glrt.core.text import counted
 from glrt.image.sources import recipe_of, shown
-from glrt.methods.contents import contents_of
-from glrt.methods.explanation import explain
-from glrt.methods.omissions import left_out, omissions
-from glrt.methods.slowness import slow_because
-from glrt.scene.limits import cautions
+from glrt.plan.explanation import explain
+from glrt.plan.facts import contents_of
+from glrt.plan.omissions import left_out, omissions
+from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
 from glrt.scene.summary import summary
+from glrt.scene.warnings import cautions
 from glrt.settings import Settings
-from glrt.text import counted
 
 DESCRIPTION = (
     "Show what a scene holds, and what the kernel for it contains and leaves out, and why; with "

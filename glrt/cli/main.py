@@ -5,7 +5,7 @@ Nothing that takes time is imported before `main` has seen to Ctrl-C.
 
 import sys
 
-from glrt.early import leave_early
+from glrt.process.early import leave_early
 
 SMALLER = "Render a smaller picture or a --crop."
 
@@ -20,12 +20,12 @@ def main(arguments: list[str] | None = None) -> int:
         leave_early()
     from contextlib import nullcontext
 
-    from glrt.cli import process
+    from glrt.process import command
 
-    process.open_missing()
+    command.open_missing()
     if arguments is None:
-        process.make_patient()
-    with process.loading() if arguments is None else nullcontext():
+        command.make_patient()
+    with command.loading() if arguments is None else nullcontext():
         from glrt.cli import commands
 
         commands.load(arguments)
@@ -33,11 +33,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _run(arguments: list[str] | None) -> int:
-    from glrt import signals
-    from glrt.cli import commands, process
-    from glrt.cli.process import fail
-    from glrt.errors import GlrtError, RenderError
-    from glrt.files import reason
+    from glrt.cli import commands
+    from glrt.core.errors import GlrtError, RenderError
+    from glrt.core.files import reason
+    from glrt.process import command, signals
+    from glrt.process.command import fail
 
     try:
         with signals.handled(signals.interrupt):
@@ -49,12 +49,12 @@ def _run(arguments: list[str] | None) -> int:
     except KeyboardInterrupt as error:
         return fail(signals.PLAIN, signals.exit_code_of(error))
     except BrokenPipeError:
-        process.silence(sys.stdout)
+        command.silence(sys.stdout)
         return 0
     except MemoryError as error:
         return fail(f"out of memory: {reason(error)}. {SMALLER}", RenderError.exit_code)
     except OSError as error:
-        process.settle(sys.stdout)
+        command.settle(sys.stdout)
         return fail(f"{_what_failed(error)}: {reason(error)}", RenderError.exit_code)
 
 

@@ -4,14 +4,14 @@ import argparse
 import sys
 from pathlib import Path
 
-from glrt.cli.doubts import doubt, too_dark
 from glrt.cli.options import add_outputs, add_summary
-from glrt.cli.process import file_names, print_figures
-from glrt.errors import UsageError
+from glrt.cli.warnings import doubt, too_dark
+from glrt.core.errors import UsageError
+from glrt.core.text import counted
 from glrt.image.image import Image, check_writable, read_recipe
 from glrt.image.merge import merged_image
 from glrt.image.recipe import Recipe
-from glrt.text import counted
+from glrt.process.command import file_names, print_figures
 
 DESCRIPTION = "Put parts of a render together, each made with --part K/N."
 EPILOG = (

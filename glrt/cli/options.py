@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import ROUTES, Pipeline
 from glrt.image.sources import FileRules
 from glrt.settings import RenderSettings, Settings, editable_of

@@ -4,7 +4,6 @@ import argparse
 import sys
 from pathlib import Path as File
 
-from glrt import files
 from glrt.cli.options import (
     SCENE,
     add_context,
@@ -15,16 +14,17 @@ from glrt.cli.options import (
     settings_given,
 )
 from glrt.cli.request import scene_and_settings
-from glrt.errors import UsageError
-from glrt.files import reason
+from glrt.core import files
+from glrt.core.errors import UsageError
+from glrt.core.files import reason
 from glrt.image.sources import check_not_scene, files_read, recipe_of, shown
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from glrt.rendering.path_file import StoredPaths
-    from glrt.rendering.path_values import Path as PixelPath
+    from glrt.rendering.paths.file import StoredPaths
+    from glrt.rendering.paths.values import Path as PixelPath
 
 DESCRIPTION = (
     "Show the paths of a pixel's samples: which samples carry most of its light, where their paths "
@@ -86,8 +86,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _show(arguments: argparse.Namespace) -> int:
     scene, settings, pixel = _asked(arguments)
-    from glrt.rendering.path_file import paths_to_json
-    from glrt.rendering.path_replay import pixel_paths
+    from glrt.rendering.paths.file import paths_to_json
+    from glrt.rendering.paths.replay import pixel_paths
 
     recipe = recipe_of(arguments.scene)
     if recipe and recipe.traced:
@@ -140,7 +140,7 @@ def _replay(arguments: argparse.Namespace) -> int:
             "--replay FILE.json takes scene, pixel and settings from the file alone, and tells "
             "whether its paths come out again: leave the others out."
         )
-    from glrt.rendering.path_file import TOLERANCE, first_difference
+    from glrt.rendering.paths.file import TOLERANCE, first_difference
 
     name = shown(arguments.replay)
     stored, renderer, pairs = _traced_again(arguments)
@@ -160,8 +160,8 @@ def _traced_again(
     arguments: argparse.Namespace,
 ) -> "tuple[StoredPaths, str, list[tuple[PixelPath, PixelPath | None]]]":
     """What a file holds, the driver here, and each stored path with what it is now, if it is."""
-    from glrt.rendering.path_file import LARGEST, paths_from_json
-    from glrt.rendering.path_replay import check_pixel, check_samples, path_replay
+    from glrt.rendering.paths.file import LARGEST, paths_from_json
+    from glrt.rendering.paths.replay import check_pixel, check_samples, path_replay
 
     name = arguments.replay
     try:

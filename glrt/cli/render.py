@@ -7,10 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from glrt import signals
 from glrt.cli.autosave import Autosave
 from glrt.cli.caustics import with_caustics
-from glrt.cli.figures import Done, tell
 from glrt.cli.options import (
     SCENE,
     add_context,
@@ -22,18 +20,20 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
-from glrt.cli.process import fail, since_start
+from glrt.cli.render_report import Done, tell
 from glrt.cli.request import Order, opened, order
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
+from glrt.core.text import counted
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
-from glrt.methods.slowness import slow_because
-from glrt.rendering.parts import render_parts
+from glrt.plan.slow_scenes import slow_because
+from glrt.process import signals
+from glrt.process.command import fail, since_start
+from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
-from glrt.scene.limits import cautions
-from glrt.text import counted
+from glrt.scene.warnings import cautions
 
 DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (

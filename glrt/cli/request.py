@@ -9,21 +9,21 @@ from pathlib import Path
 from typing import get_args
 
 from glrt.cli.options import file_rules, is_automatic, settings_given
-from glrt.cli.process import since_start
+from glrt.core.errors import UsageError
 from glrt.denoise.filters import with_filter
-from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline
 from glrt.image.image import Image
 from glrt.image.partition import Partition, one_part
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting, recipe_to_resume
 from glrt.image.sources import files_read, load_recipe, recipe_of
-from glrt.methods.combinations import Way, check, ways_of
+from glrt.plan.combinations import Way, check, ways_of
+from glrt.process.command import since_start
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
-from glrt.scene.loading import with_files_of
-from glrt.scene.own_trees import Apart
+from glrt.scene.instancing import Apart
+from glrt.scene.loading.loading import with_files_of
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import MAX_SAMPLES, Cost, Settings, settings_for
 

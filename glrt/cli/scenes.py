@@ -4,9 +4,9 @@ import argparse
 import json
 from typing import Any
 
-from glrt.scene.catalog import all_scene_names, file_of
-from glrt.scene.toml import read_scene
-from glrt.text import counted
+from glrt.core.text import counted
+from glrt.scene.scenefile.catalog import all_scene_names, file_of
+from glrt.scene.scenefile.toml import read_scene
 
 DESCRIPTION = "List the scenes that come with glrt: name, size in pixels, number of objects, title."
 EPILOG = "Each name can stand wherever a command asks for a SCENE."

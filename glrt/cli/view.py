@@ -10,13 +10,13 @@ from glrt.cli.options import (
     file_rules,
     settings_given,
 )
+from glrt.core.errors import ContextError, UsageError
 from glrt.denoise.filters import with_filter
-from glrt.early import leave_at_once
-from glrt.errors import ContextError, UsageError
 from glrt.image.sources import load_recipe
+from glrt.process.early import leave_at_once
+from glrt.process.signals import handled
 from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
-from glrt.signals import handled
 
 DESCRIPTION = (
     "Show a scene in a window and change all its settings live. Closing the window saves only its "

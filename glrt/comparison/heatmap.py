@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt import files
 from glrt.comparison.regions import Array, spread_out
 from glrt.comparison.result import Comparison
+from glrt.core import files
 
 Colors = NDArray[np.uint8]
 

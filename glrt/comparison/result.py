@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from glrt.comparison.regions import BLOCK, Array
 from glrt.comparison.sensitivity import Sensitivity
-from glrt.text import escaped
+from glrt.core.text import escaped
 
 Verdict = Literal["same", "different", "undecided"]
 

@@ -19,10 +19,10 @@ from glrt.comparison.result import (
     percent,
 )
 from glrt.comparison.sensitivity import sensitivity
+from glrt.core.errors import UsageError
 from glrt.error.estimate import sidak_threshold
-from glrt.errors import UsageError
 from glrt.image.image import Image
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
 
 Flags = NDArray[np.bool_]
 

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import UsageError
+from glrt.core.text import counted
 from glrt.denoise import nlm, oidn
 from glrt.denoise.half import Half, Pixels
-from glrt.errors import UsageError
 from glrt.settings import Settings
-from glrt.text import counted
 
 
 class Filtered(NamedTuple):

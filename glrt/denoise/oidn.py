@@ -8,8 +8,8 @@ from importlib.util import find_spec
 
 import numpy as np
 
+from glrt.core.errors import UsageError
 from glrt.denoise.half import Half, Pixels
-from glrt.errors import UsageError
 
 PACKAGE = "pyoidn"
 

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, NamedTuple
 
+from glrt.core.version import VERSION
 from glrt.doctor.install_hints import remedies
-from glrt.doctor.lacks import lacking
+from glrt.doctor.missing_features import lacking
 from glrt.gpu.context import MOST_DEVICES, ROUTES
 from glrt.gpu.driver_checks import MOST_ROUNDS
-from glrt.version import VERSION
 
 PATIENCE = 120  # seconds for one route: a cold software driver compiles for some of them
 PIPELINES = ("compute", "fragment")

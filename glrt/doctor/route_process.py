@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
+from glrt.core.text import one_line
 from glrt.gpu.context import Context, open_context, open_device
 from glrt.gpu.driver_checks import self_test
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
-from glrt.scene.toml import parse_scene
-from glrt.text import one_line
+from glrt.scene.scenefile.toml import parse_scene
 
 BOUNCES = 8
 _ROOM = {

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.error.neighbours import brightest_beside
+from glrt.error.brightest_neighbour import brightest_beside
 
 BAND = 1 << 18  # values in work at a time: copies in float64 stay small beside the image
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)

@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glrt.error.brightest_neighbour import brightest_beside
 from glrt.error.estimate import BAND, DARK, estimated_error, squared_levels
-from glrt.error.neighbours import brightest_beside
 from glrt.error.seen_lamps import Seen
 
 Pixels = NDArray[np.float32]

@@ -12,13 +12,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.error.brightest_neighbour import brightest_beside
 from glrt.error.estimate import DARK
-from glrt.error.neighbours import brightest_beside
 from glrt.scene.camera import Camera
-from glrt.scene.materials import Lambertian, Light
-from glrt.scene.meshes import Mesh
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
 from glrt.settings import Settings
 
 Pixels = NDArray[np.float32]

@@ -18,9 +18,9 @@ from typing import Any, Literal
 import glcontext  # type: ignore[import-untyped]
 import moderngl
 
-from glrt.errors import ContextError, RenderError
+from glrt.core.errors import ContextError, RenderError
+from glrt.gpu.context_turns import TurnTaker
 from glrt.gpu.osmesa import OSMesa
-from glrt.gpu.turns import TurnTaker
 
 Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]

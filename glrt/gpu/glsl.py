@@ -11,8 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from glrt.errors import RenderError
-from glrt.resources import folder
+from glrt.core.errors import RenderError
+from glrt.core.resources import folder
 
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".

@@ -5,7 +5,7 @@ Mesa 25.1 removed it.
 
 import ctypes
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 
 _LIBRARIES = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
 # In OSMesa's names: FORMAT = RGBA, DEPTH_BITS, PROFILE = CORE, CONTEXT_MAJOR_VERSION and _MINOR_.

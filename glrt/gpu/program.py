@@ -5,11 +5,11 @@ from itertools import count
 
 import moderngl
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
+from glrt.core.text import one_line
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.structs import read_constants
-from glrt.signals import postponed
-from glrt.text import one_line
+from glrt.process.signals import postponed
 
 TILE = read_constants(read("passes/tiles.glsl"))["TILE"]  # pixels along the edge of a tile
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from glrt.image.recipe import Recipe
-from glrt.scene.toml import scene_to_dict
+from glrt.scene.scenefile.toml import scene_to_dict
 
 
 class Pair(NamedTuple):

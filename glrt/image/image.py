@@ -9,11 +9,11 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt import files
+from glrt.core import files
+from glrt.core.errors import SceneError, UsageError
 from glrt.denoise.denoising import Denoised
 from glrt.error.estimate import estimated_error
-from glrt.error.judgement import judged
-from glrt.errors import SceneError, UsageError
+from glrt.error.reliability_of_scene import judged
 from glrt.image import aovs, denoised_channels, particle_film
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState, from_channels, to_channels

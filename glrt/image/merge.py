@@ -6,7 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
+from glrt.core.text import counted
 from glrt.image.aovs import AovImage
 from glrt.image.differences import (
     Pair,
@@ -23,7 +24,6 @@ from glrt.image.particle_film import ParticleFilm, observations_of, summed
 from glrt.image.partition import Partition
 from glrt.image.recipe import Recipe
 from glrt.settings import Settings
-from glrt.text import counted
 
 Recipes = Mapping[str, Recipe]  # by the names that messages call pictures
 

@@ -5,9 +5,9 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
+from glrt.core.text import counted
 from glrt.settings import MAX_SAMPLES, Frozen, Settings
-from glrt.text import counted
 
 
 class Partition(Frozen):

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from glrt import files
-from glrt.errors import UsageError
-from glrt.silence import silenced
-from glrt.text import escaped
+from glrt.core import files
+from glrt.core.errors import UsageError
+from glrt.core.text import escaped
+from glrt.process.silence import silenced
 
 MOST_PIXELS = 16384**2  # of the largest frame
 

@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
+from glrt.core.errors import SceneError
 from glrt.denoise.filters import least_samples
-from glrt.errors import SceneError
 from glrt.image.partition import Partition
-from glrt.methods.light_layers import Layering, Plan, Weights, are_trivial
-from glrt.scene.loading import hashes_of, with_hashes
+from glrt.plan.plan import Layering, Plan, Weights, are_trivial
+from glrt.scene.loading.loading import hashes_of, with_hashes
 from glrt.scene.scene import Scene
-from glrt.scene.toml import LARGEST, parse_scene, scene_to_dict
+from glrt.scene.scenefile.toml import LARGEST, parse_scene, scene_to_dict
 from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for
 
 # What recipes meant before they had a key, where that is not its default now.

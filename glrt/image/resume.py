@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.differences import (
     Pair,
     differing_fields,
@@ -13,7 +13,7 @@ from glrt.image.differences import (
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
-from glrt.methods.table import reuses_points
+from glrt.plan.methods import reuses_points
 from glrt.settings import Cost, Settings, cost_of
 
 # Else no recipe would give the same bits again.

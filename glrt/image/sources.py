@@ -7,19 +7,19 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple, TextIO
 
-from glrt.errors import UsageError
-from glrt.files import reason
+from glrt.core.errors import UsageError
+from glrt.core.files import reason
+from glrt.core.text import escaped
 from glrt.image.image import read_recipe
 from glrt.image.recipe import Recipe
-from glrt.scene.assets import AssetFolder
-from glrt.scene.catalog import PICTURES, find
-from glrt.scene.loading import files_of, with_files
+from glrt.scene.files.assets import AssetFolder
+from glrt.scene.loading.loading import files_of, with_files
 from glrt.scene.model_scene import is_model, model_scene
 from glrt.scene.scene import Scene
-from glrt.scene.toml import LARGEST, decode_scene, read_scene
-from glrt.scene.validation import scene_error
+from glrt.scene.scenefile.catalog import PICTURES, find
+from glrt.scene.scenefile.toml import LARGEST, decode_scene, read_scene
+from glrt.scene.schema.validation import scene_error
 from glrt.settings import Settings
-from glrt.text import escaped
 
 STANDARD_INPUT = "-"  # as a SCENE
 _ITS_NAME = "standard input"

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.settings import ToneMap
 
 Colors = NDArray[np.float64]

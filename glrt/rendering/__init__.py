@@ -1,63 +1,28 @@
-"""A scene and settings in, samples on a film out.
+"""Render a scene with settings: samples on a film.
 
 Modules, each importing only what stands above it:
 
-- kernel_structs: structs and constants that host and kernel share
-- pack_shapes: shapes as rows, a packer for each kind
-- aims: where lamps can be seen from
-- lamp_bodies: where lamps are and how far they reach
-- tree_cache: what takes long to build, kept on the disk
-- pack_details: what some materials have beyond their row
-- pack_materials: materials as rows, a packer for each type
-- pack_mesh: triangles of meshes, in the frame of the tree
-- pack_instances: meshes with a tree of their own, and where they stand
-- pack_tree: the tree over shapes, a packer of leaves for each kind
-- pack_lights: lamps as rows of the kernel's blocks
-- pack_maps: images on surfaces, and where they lie on shapes
-- pack_particles: what particles from lamps read
-- pack_probes: what probes read
-- pack: a scene as arrays for the kernel
-- passes: what runs over the pixels of a picture, as values
-- texel_texture: the texels of images on surfaces
-- pipelines: compute or fragment shader
-- image_texture: an image of a scene as a texture
-- sky_table: the image of the sky as a tree by which it is sampled
-- evaluation: functions of the path tracer over arrays
-- schedule: how much work a dispatch takes
-- device_scene: a scene in the driver's memory, and the kernel source that reads it
-- kernel_switch: a generic kernel and a faster one by turns
-- pass_film: what a pass adds samples to
+- passes: passes over the pixels of a picture, as values
+- pipelines: compute or fragment pipeline
+- shader_functions: calls of shader functions with a scene
+- schedule: work per dispatch
+- device_scene: a scene in driver memory, and its kernel source
+- kernel_switch: switches between a generic and a baked kernel
+- pass_film: film of a pass
 - film: running mean and variance in textures
-- aov_tracer: gathers AOVs as the picture grows
-- particle_tracer: gathers what particles from lamps bring
-- probe_weights: how much of an update probes take
-- probe_tracer: gathers what probes hold
-- probe_supply: the probes that a picture needs next
-- probe_balls: probes drawn over a picture
-- tracer: adds samples to a film, a dispatch at a time
-- path_values: paths of a pixel as values
-- path_records: what a replay writes down, read as such
-- path_recorder: the kernel that writes it down
-- path_replay: samples of single pixels traced again
-- path_file: paths as JSON, and where two of them differ
-- drawn_pass: a fragment shader over all pixels of a picture
-- weighting: a film's layers under weights
-- display: the display pass
-- false_colors: numbers of pixels as colours
-- aov_view: AOVs as colours
-- magnifier: part of a picture with sharp pixels
-- surface_view: the first surface under simple light
-- progress: what a render tells of itself
-- halver: keeps the first half of a render, for a denoiser
-- renderer: scene and settings to samples, step by step
-- surfaces: the first surface behind the middle of each pixel, by which samples are found again
-- reprojection: what was shown of one view, brought to another
-- resolver: what makes a picture of film and history
-- taa: temporal antialiasing
-- more_samples: more samples of some pixels
-- ataa: adaptive temporal antialiasing
-- wrls: weighted recursive least squares
-- temporal: what the screen shows while the camera moves
-- stopping: render to a limit of samples, time or error
-- parts: a merged picture rendered again
+- aov_tracer: gathers AOVs
+- particle_tracer: gathers light of particles
+- probe_weights: weight of an update of probes
+- probe_tracer: gathers light of probes
+- probe_supply: probes of the next samples
+- screen: film, AOVs and probes drawn for the screen
+- tracer: adds samples to a film
+- paths: single paths, recorded and replayed
+- layer_weights: weighted sum of the layers of a film
+- progress: read-only properties of a renderer
+- first_half: the first half of a render, for a denoiser
+- renderer: the renderer: a scene and settings to samples
+- history: samples of earlier views while the camera moves
+- stopping: renders up to a limit of samples, time or error
+- render_parts: renders a merged picture again
 """

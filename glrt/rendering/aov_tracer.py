@@ -11,15 +11,15 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
 from glrt.image.aovs import AovImage, AovImages
-from glrt.methods.light_layers import Plan
+from glrt.packing.shapes import order_of_kernel
+from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import AnyKernel, ready
-from glrt.rendering.pack_shapes import order_of_kernel
 from glrt.rendering.pass_film import Array, PassFilm
 from glrt.rendering.passes import SLOTS, aov_pass
 from glrt.rendering.schedule import (

@@ -7,23 +7,25 @@ from typing import Any, Protocol
 import moderngl
 import numpy as np
 
-from glrt.errors import RenderError, SceneError
+from glrt.core.errors import RenderError, SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Images, Kernel, Resource
-from glrt.gpu.shared import Shared
+from glrt.gpu.shared_resources import Shared
 from glrt.gpu.struct_arrays import FILE, Arrays, block_of, write_rows
-from glrt.methods.contents import Contents
-from glrt.methods.features import needs_of
-from glrt.methods.light_layers import Plan
-from glrt.methods.particles import ball_around, sky_sends_particles
-from glrt.methods.probe_grid import grid_of
-from glrt.rendering.image_texture import ImageTexture
-from glrt.rendering.kernel_structs import STRUCTS
-from glrt.rendering.pack import pack_frame, pack_scene
-from glrt.rendering.pack_maps import images_of, textures_of
-from glrt.rendering.pack_particles import with_particles
-from glrt.rendering.pack_tree import SceneTree, tree_of
+from glrt.packing.image_texture import ImageTexture
+from glrt.packing.kernel_structs import STRUCTS
+from glrt.packing.particles import with_particles
+from glrt.packing.scene_arrays import pack_frame, pack_scene
+from glrt.packing.scene_tree import SceneTree, tree_of
+from glrt.packing.sky_table import SkyTable
+from glrt.packing.texel_texture import TexelTexture
+from glrt.packing.texture_maps import images_of, textures_of
+from glrt.plan.facts import Contents
+from glrt.plan.features import needs_of
+from glrt.plan.particles import ball_around, sky_sends_particles
+from glrt.plan.plan import Plan
+from glrt.plan.probe_grid import grid_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
@@ -38,10 +40,8 @@ from glrt.rendering.pipelines import (
     upload,
 )
 from glrt.rendering.schedule import DispatchRange, stride_of
-from glrt.rendering.sky_table import SkyTable
-from glrt.rendering.texel_texture import TexelTexture
 from glrt.scene.glasses import around_camera
-from glrt.scene.loading import check_loaded
+from glrt.scene.loading.loading import check_loaded
 from glrt.scene.scene import Scene
 
 SLOTS = block_of("Slot")

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import moderngl
 import numpy as np
 
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
 from glrt.gpu.glsl import read
 from glrt.gpu.program import Resource
 from glrt.gpu.structs import read_constants

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from copy import copy
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel

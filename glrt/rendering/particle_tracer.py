@@ -12,13 +12,13 @@ from typing import NamedTuple
 import moderngl
 import numpy as np
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
 from glrt.image.particle_film import ParticleFilm, observations_of, summed
-from glrt.methods.light_layers import Plan, Weights, are_trivial
-from glrt.methods.particles import particle_groups
+from glrt.plan.particles import particle_groups
+from glrt.plan.plan import Plan, Weights, are_trivial
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import AnyKernel, ready
 from glrt.rendering.pass_film import Array, PassFilm

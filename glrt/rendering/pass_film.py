@@ -10,7 +10,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import checked
 
 Array = np.ndarray[Any, np.dtype[np.float32]]

@@ -5,15 +5,15 @@ from typing import Literal, NamedTuple
 
 import moderngl
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel, Resource
 from glrt.gpu.struct_arrays import Arrays, scene_arrays, uniform_bytes
-from glrt.rendering.pack_shapes import NUMBERED
+from glrt.packing.shapes import NUMBERED
+from glrt.packing.texel_texture import BITS, WIDTH
 from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
-from glrt.rendering.texel_texture import BITS, WIDTH
 
 # "baked" writes the shapes into the kernel's text, so that each edit of them compiles; "generic"
 # reads them. Materials are never written: a colour is to change without compiling.

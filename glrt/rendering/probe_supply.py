@@ -2,11 +2,11 @@
 
 import math
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.gpu.program import Resource
-from glrt.methods.light_layers import Plan
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
+from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.probe_tracer import ProbeTracer
 

@@ -15,12 +15,7 @@ import numpy as np
 
 from glrt.gpu.context import Context
 from glrt.gpu.program import Images, Resource
-from glrt.methods.light_layers import Plan
-from glrt.methods.probe_grid import Grid
-from glrt.methods.table import METHODS
-from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
-from glrt.rendering.pack_probes import (
+from glrt.packing.probes import (
     DISTANCE_MAP,
     DISTANCES,
     IN_ROW,
@@ -33,13 +28,12 @@ from glrt.rendering.pack_probes import (
     turn,
     update_block,
 )
-from glrt.rendering.passes import (
-    PROBE_DISTANCES,
-    PROBE_LIGHT,
-    PROBE_PLACES,
-    PROBE_RAYS,
-    RenderPass,
-)
+from glrt.plan.methods import METHODS
+from glrt.plan.plan import Plan
+from glrt.plan.probe_grid import Grid
+from glrt.rendering.device_scene import DeviceScene
+from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.passes import PROBE_DISTANCES, PROBE_LIGHT, PROBE_PLACES, PROBE_RAYS, RenderPass
 from glrt.rendering.probe_weights import WEIGHTS
 from glrt.rendering.schedule import DispatchRange
 

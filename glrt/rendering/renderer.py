@@ -10,28 +10,28 @@ from typing import Any, Unpack
 import moderngl
 import numpy as np
 
+from glrt.core.errors import UsageError
+from glrt.core.version import VERSION
 from glrt.denoise.filters import with_filter
-from glrt.errors import UsageError
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
 from glrt.image.image import Image
 from glrt.image.layer_sums import LayerSums
 from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
-from glrt.methods.combinations import check_render
-from glrt.methods.light_layers import ONE, Layering, Weights, plan_for
-from glrt.rendering.display import displayed
-from glrt.rendering.halver import Halver, check_rest
+from glrt.plan.combinations import check_render
+from glrt.plan.plan import ONE, Layering, Weights, plan_for
+from glrt.rendering.first_half import Halver, check_rest
+from glrt.rendering.layer_weights import Mixer, Reading, gathered, mixed, read_row
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
+from glrt.rendering.screen.display import displayed
 from glrt.rendering.tracer import Tracer
-from glrt.rendering.weighting import Mixer, Reading, gathered, mixed, read_row
-from glrt.scene.own_trees import Apart
+from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, SettingOptions, Settings, settings_for
-from glrt.version import VERSION
 
 
 class Renderer(Progress):

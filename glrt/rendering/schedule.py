@@ -10,17 +10,17 @@ import math
 from itertools import count
 from typing import NamedTuple
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.methods.contents import MESH, Contents, contents_of
-from glrt.methods.features import NEAR, has_image
-from glrt.methods.light_layers import Plan
-from glrt.methods.particles import caster_bits, link_bits, sky_sends_particles, targets_of
-from glrt.methods.table import METHODS, SPATIAL, TEMPORAL, reuses_points
-from glrt.rendering.kernel_structs import CONSTANTS
+from glrt.packing.kernel_structs import CONSTANTS
+from glrt.plan.facts import MESH, Contents, contents_of
+from glrt.plan.features import NEAR, has_image
+from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
+from glrt.plan.particles import caster_bits, link_bits, sky_sends_particles, targets_of
+from glrt.plan.plan import Plan
 from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings, Settings
 

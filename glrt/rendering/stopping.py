@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from glrt.image.image import Image
+from glrt.process.signals import handled
 from glrt.rendering.renderer import Renderer
 from glrt.settings import MAX_SAMPLES
-from glrt.signals import handled
 
 FIRST_LOOK = 64  # samples
 

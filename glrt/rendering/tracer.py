@@ -12,7 +12,7 @@ from glrt.gpu.program import tile_count
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
 from glrt.image.particle_film import ParticleFilm
-from glrt.methods.light_layers import Plan, Weights
+from glrt.plan.plan import Plan, Weights
 from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film

@@ -2,66 +2,29 @@
 
 Modules, each importing only what stands above it:
 
-- facets: what facets of rough glass lose to each other
-- gloss: what the facets of principled surfaces reflect
 - values: numbers, vectors and colours with their ranges
-- path_text: names of files as text that a scene can hold
-- assets: files that a scene names, held to its folder and hashed
-- float_images: Radiance .hdr and OpenEXR files as arrays
-- image_files: images in files, of any format, as arrays of linear values
-- named_files: files that a scene names by a path
-- named_images: images that a scene names by a path
-- texture_sizes: images made smaller
-- textures: images and checkerboards in place of colors and numbers
-- vertex_means: normals and tangents of vertices
-- repeated_triangles: triangles that a mesh has twice
-- triangle_meshes: triangle meshes as arrays, checked
-- gltf: glTF files
-- mesh_formats: files of meshes as arrays
-- named_meshes: meshes that a scene names by a path
-- camera: where a scene is seen from
-- clear_sky: a clear sky for a direction of the sun
-- background: light from infinity
-- objects: what every shape has
-- cone: the directions that a lamp lights
-- conductors: metals by their complex index of refraction
-- surfaces: what all materials have
-- dielectric: glass and liquids
-- principled: glTF's metallic roughness
-- materials: what surfaces are made of
-- solids: shapes with faces that enclose a volume
-- meshes: triangle meshes and their places
-- cylinder: the round one of them, with ends or without
-- shapes: what there is to see
-- texture_axes: texture coordinates of flat shapes
-- sun: a disc at infinity
-- probes: where a scene wants its probes
-- sky_picture: the image of all directions that a scene has
-- contents: the fields of a scene
-- validation: what is wrong with a scene, in words
-- file_contents: what the files hold that a scene names
-- mtl_files: materials of OBJ files
-- own_trees: which meshes have a tree of their own
-- file_materials: the materials that OBJ and glTF files bring along
-- own_materials: meshes divided by the materials of their files
-- loading: the files that a scene names, read into it
-- file_copies: copies of them elsewhere
-- tables: the parts of a scene as plain tables, and tables as TOML
+- camera: the camera
+- meshes: triangle meshes as arrays
+- files: files that a scene names by their path
+- images: image files as arrays
+- shapes: shapes, one file for each kind
+- lights: background, sun, clear sky, and the cone of a lamp
+- materials: materials, one file for each type
+- model_files: files of models: glTF, OBJ, PLY and STL
+- probes: grid of probes
+- schema: fields of a scene, and their checks
+- instancing: meshes that share a BVH
+- loading: loads the files that a scene names
 - nesting: glasses that overlap by priority
-- twins: objects that another one in the same place covers
-- scene: all of it together, and whether the parts fit
-- flat_polygons: flat surfaces of objects as polygons
-- coincidence: lamps that share a place with other surfaces
-- names: scenes without their names, which no light depends on
-- studio: light and ground for models without light of their own
-- model_scene: scenes of model files alone
-- catalog: the scenes that come with glrt, by name
-- toml: scene files read
-- toml_lists: objects that come and go in the text of a scene file
-- toml_writer: scene files written, with their comments kept
-- glasses: the glasses of a scene, and what is around its camera
-- summary: what a scene holds, in words
-- flat_faces: whether solids share a part of a plane
-- crossing_glass: how solids of glass lie to each other
-- limits: what lies beyond float32 or the model: cautions
+- twins: objects that coincide
+- scene: the scene, with checks across its parts
+- coincidence: lamps that coincide with other surfaces
+- nameless: scenes compared without the names of their parts
+- studio: light and ground for models without light
+- model_scene: scenes of model files
+- scenefile: scene files (TOML), read and written
+- glasses: glasses of a scene, and the medium around its camera
+- summary: contents of a scene in words
+- crossing_glass: how glass solids intersect
+- warnings: warnings about numbers and limits of the model
 """

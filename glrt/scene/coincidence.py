@@ -9,12 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.memo import kept_for_the_same
-from glrt.scene.flat_polygons import Polygons, joined, polygons_of
-from glrt.scene.materials import Material
-from glrt.scene.meshes import Mesh
+from glrt.core.memo import kept_for_the_same
+from glrt.scene.materials.kinds import Material
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Shape
+from glrt.scene.shapes.flat_polygons import Polygons, joined, polygons_of
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
 
 TOGETHER = 2.0**-17  # of the size of two surfaces: twice what the kernel takes for rounding
 LEAST_OVERLAP = 1e-4  # of the smaller one, across each edge: neighbours that touch share no place

@@ -8,9 +8,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.scene.flat_faces import share_a_face
-from glrt.scene.objects import Object
-from glrt.scene.shapes import Plane, Shape, Sphere
+from glrt.scene.shapes.base import Object
+from glrt.scene.shapes.flat_faces import share_a_face
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.sphere import Sphere
 
 MOST_COMPARED = 1000  # solids that are looked at with all others
 MOST_PAIRS = 300  # of solids near each other, of which one is no ball, that are looked at

@@ -5,11 +5,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.scene.materials import Dielectric, glass_of
-from glrt.scene.meshes import Mesh
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import glass_of
 from glrt.scene.nesting import BITS
 from glrt.scene.scene import Finish, Scene
-from glrt.scene.shapes import Plane, Shape
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
 from glrt.scene.values import BLACK, Color
 
 Array = np.ndarray[Any, Any]

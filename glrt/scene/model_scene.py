@@ -7,20 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from glrt.errors import SceneError
-from glrt.scene.assets import Asset, AssetFolder, AssetReader
-from glrt.scene.file_contents import Beside, with_content
-from glrt.scene.gltf.document import Document
-from glrt.scene.gltf.stage import camera_of, left_out, lights_of
-from glrt.scene.loading import with_files
-from glrt.scene.materials import Lambertian
-from glrt.scene.mesh_formats import FORMATS, GLTF
-from glrt.scene.named_meshes import MeshFile
-from glrt.scene.path_text import text_of
+from glrt.core.errors import SceneError
+from glrt.scene.files.assets import Asset, AssetFolder, AssetReader
+from glrt.scene.files.named_meshes import MeshFile
+from glrt.scene.files.path_text import text_of
+from glrt.scene.loading.file_contents import Beside, with_content
+from glrt.scene.loading.loading import with_files
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.model_files.gltf.cameras_lights import camera_of, left_out, lights_of
+from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
 from glrt.scene.scene import Scene
+from glrt.scene.schema.validation import validated
 from glrt.scene.studio import LEAST_RADIUS, lights_itself, with_studio
-from glrt.scene.triangle_meshes import TriangleMesh
-from glrt.scene.validation import validated
 
 Table = dict[str, Any]
 

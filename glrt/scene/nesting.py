@@ -4,10 +4,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from glrt.scene.materials import Dielectric, Material
-from glrt.scene.shapes import Shape
-from glrt.scene.validation import Place
-from glrt.text import quoted
+from glrt.core.text import quoted
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import Material
+from glrt.scene.schema.validation import Place
+from glrt.scene.shapes.kinds import Shape
 
 MOST_MEDIA = 6  # glasses with a priority in a scene: the kernel counts them in one word
 BITS = 5  # BITS_OF_COUNT of the kernel

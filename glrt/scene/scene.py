@@ -1,8 +1,4 @@
-"""A scene as a frozen value, and the checks that its parts fit together.
-
-The models of this package state every default, range and meaning once; `glrt.scene.toml` reads
-files.
-"""
+"""A scene as a frozen value, and the checks that its parts fit together."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -10,28 +6,29 @@ from typing import Any, NamedTuple, Self
 
 from pydantic import model_validator
 
-from glrt.errors import SceneError, UsageError
-from glrt.files import write_text
-from glrt.scene.assets import AssetFolder
-from glrt.scene.background import Background
+from glrt.core.errors import SceneError, UsageError
+from glrt.core.files import write_text
+from glrt.core.text import number, quoted, unknown
 from glrt.scene.camera import Camera
-from glrt.scene.contents import Contents
-from glrt.scene.file_copies import copy_files
-from glrt.scene.loading import with_files
-from glrt.scene.materials import Material, Opaque, glass_of
-from glrt.scene.meshes import Mesh
+from glrt.scene.files.assets import AssetFolder
+from glrt.scene.lights.background import Background
+from glrt.scene.lights.sky_image import SkyPicture, sky_picture
+from glrt.scene.lights.sun import Sun
+from glrt.scene.loading.file_copies import copy_files
+from glrt.scene.loading.loading import with_files
+from glrt.scene.loading.mesh_parts import lacks_material
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.nesting import nesting_problems
-from glrt.scene.objects import Object
-from glrt.scene.own_materials import lacks_material
-from glrt.scene.shapes import Shape
-from glrt.scene.sky_picture import SkyPicture, sky_picture
-from glrt.scene.sun import Sun
-from glrt.scene.tables import to_tables, toml_text
+from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.tables import to_tables, toml_text
+from glrt.scene.schema.validation import MisfitError, Place, validated
+from glrt.scene.shapes.base import Object
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.twins import shown
-from glrt.scene.validation import MisfitError, Place, validated
 from glrt.scene.values import BLACK, LARGEST, Number, Radiance
 from glrt.settings import RenderSettings
-from glrt.text import number, quoted, unknown
 
 SKY_GROUP = "background"
 SUN_GROUP = "sun"

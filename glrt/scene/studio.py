@@ -6,10 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.camera import Camera
-from glrt.scene.materials import Lambertian, Light, Material, Opaque, Principled
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import Material
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.principled import Principled
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.scene import Scene
-from glrt.scene.triangle_meshes import TriangleMesh
-from glrt.scene.validation import validated
+from glrt.scene.schema.validation import validated
 
 Table = dict[str, Any]
 Vector = NDArray[np.float64]

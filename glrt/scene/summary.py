@@ -2,11 +2,12 @@
 
 from collections.abc import Iterable, Iterator
 
-from glrt.scene.materials import TYPES, Opaque
-from glrt.scene.meshes import Mesh
+from glrt.core.text import counted, number, shortened
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import TYPES
 from glrt.scene.scene import SKY_GROUP, Scene
-from glrt.scene.shapes import KINDS
-from glrt.text import counted, number, shortened
+from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.shapes.mesh import Mesh
 
 MOST_NAMED = 8  # of a sort
 

@@ -9,10 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.memo import kept_for_the_same
-from glrt.scene.materials import Material, Principled, glass_of
-from glrt.scene.meshes import Mesh
-from glrt.scene.shapes import KINDS, Disk, Quad, Shape
+from glrt.core.memo import kept_for_the_same
+from glrt.scene.materials.kinds import Material, glass_of
+from glrt.scene.materials.principled import Principled
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.kinds import KINDS, Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.quad import Quad
 
 
 class Twin(NamedTuple):

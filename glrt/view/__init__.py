@@ -2,19 +2,22 @@
 
 Modules, each importing only what stands above it:
 
-- opengl: the window's OpenGL context
-- file_watch: files that another program changes
-- event_wait: no frame where it would show nothing new
-- native: title, and files dropped on the window
+- controls: range, unit and cost of a control
+- opengl: OpenGL context of the window
+- file_watch: files changed by other programs
+- edits: edits of a scene and its settings, with undo
+- event_wait: no frames while nothing changes
+- native_window: title of the window, and dropped files
 - state: values and pure functions behind the window
+- widgets: widgets that several panels use
 - file_browser: a file dialog inside the window
-- file_dialogs: file dialogs of the desktop, or of the window
-- viewport: what is drawn of a picture, and moves of the camera
-- pair: the picture A, which goes on beside B
-- messages: what the window tells and asks
-- files: what is open, and where it is saved
-- camera_moves: the camera, by mouse and keys
-- app: what the window's parts share
-- panels: what the user sees and edits
-- window: the loop, and how it ends
+- file_dialogs: the desktop's file dialogs, or that of the window
+- viewport: the picture, picking, and moves of the camera
+- compared_picture: picture A, rendered next to B
+- messages: messages and questions
+- files: open and saved files
+- camera_moves: the camera moved by mouse and keys
+- app: state shared by the parts of the window
+- panels: the panels
+- window: main loop and shutdown
 """

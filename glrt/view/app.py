@@ -7,26 +7,26 @@ from dataclasses import InitVar, dataclass, field
 from functools import partial
 from pathlib import Path
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.gpu.glsl import files_anew
-from glrt.rendering.temporal import Way
+from glrt.rendering.history.temporal import Way
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.kinds import Shape
 from glrt.scene.values import Vector
 from glrt.view.camera_moves import CameraMoves
+from glrt.view.compared_picture import Pair
+from glrt.view.edits.new_objects import two_digits, with_model, with_new
+from glrt.view.edits.scene_edits import found_again, with_duplicate, without_object
+from glrt.view.edits.state_differences import told_change
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
-from glrt.view.pair import Pair
-from glrt.view.state.changes import told_change
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
 from glrt.view.state.live_probes import LiveProbes
-from glrt.view.state.new_objects import two_digits, with_model, with_new
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
-from glrt.view.state.scene_edits import found_again, with_duplicate, without_object
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT, Rectangle, Zoom
 from glrt.view.viewport import orbit

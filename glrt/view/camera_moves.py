@@ -4,11 +4,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.scene.camera import Camera
 from glrt.scene.values import LARGEST, SMALLEST, Vector
+from glrt.view.controls import replaced
 from glrt.view.messages import Messages
-from glrt.view.state.controls import replaced
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.viewport import orbit

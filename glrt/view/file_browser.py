@@ -4,7 +4,7 @@ from pathlib import Path
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
-from glrt.text import escaped
+from glrt.core.text import escaped
 from glrt.view.state.folders import Listing, listing, nearest_folder
 
 _WIDTH, _ROWS = 34.0, 14.0  # letters' heights

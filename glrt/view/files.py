@@ -7,23 +7,23 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from glrt.errors import GlrtError
-from glrt.files import unused, write_text
+from glrt.core.errors import GlrtError
+from glrt.core.files import unused, write_text
+from glrt.core.memo import kept_for_the_same
+from glrt.core.text import escaped
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
-from glrt.memo import kept_for_the_same
-from glrt.rendering.path_file import paths_to_json
-from glrt.rendering.path_values import PixelPaths
-from glrt.scene.catalog import MODELS
+from glrt.rendering.paths.file import paths_to_json
+from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
-from glrt.scene.toml_writer import scene_with, write_scene
+from glrt.scene.scenefile.catalog import MODELS
+from glrt.scene.scenefile.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings, Settings, settings_for
-from glrt.text import escaped
+from glrt.view.controls import replaced
+from glrt.view.edits.edited_state import State
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.messages import Messages
-from glrt.view.state.controls import replaced
-from glrt.view.state.edited import State
 from glrt.view.state.recent import load_recent, save_recent, with_opened
 from glrt.view.state.session import Session
 

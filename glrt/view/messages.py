@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from glrt.errors import GlrtError
-from glrt.text import escaped
+from glrt.core.errors import GlrtError
+from glrt.core.text import escaped
 from glrt.view.state.session import Session
 
 SHOWN = 5.0  # seconds that a message of what was done stays in sight

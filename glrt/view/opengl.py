@@ -10,7 +10,7 @@ from imgui_bundle import imgui  # noqa: F401 - first: glfw then is the library t
 import glfw  # isort: skip
 import moderngl
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 from glrt.gpu.context import COMPUTE, FRAGMENT, Context, Pipeline
 
 INSTEAD = "Use `glrt render`, which needs no window; `glrt doctor` shows which OpenGL works here."

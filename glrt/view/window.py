@@ -6,26 +6,26 @@ from collections.abc import Callable
 import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
-from glrt.rendering.aov_view import AovView
-from glrt.rendering.false_colors import FalseColors
-from glrt.rendering.probe_balls import ProbeBalls
+from glrt.rendering.screen.aov_view import AovView
+from glrt.rendering.screen.false_colors import FalseColors
+from glrt.rendering.screen.probe_balls import ProbeBalls
+from glrt.rendering.screen.surface_view import SurfaceView
 from glrt.rendering.stopping import Interruption
-from glrt.rendering.surface_view import SurfaceView
 from glrt.scene.scene import Scene
 from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
-from glrt.view.native import Native
+from glrt.view.native_window import Native
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
+from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
-from glrt.view.panels.questions import draw_question
 from glrt.view.panels.shortcuts import draw_keys
 from glrt.view.panels.tour import draw_tour
 from glrt.view.panels.viewport import draw_viewport

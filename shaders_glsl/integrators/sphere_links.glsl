@@ -1,6 +1,6 @@
 // Links through one sphere: the ways of light between a vertex and the eye by one reflection outside a smooth sphere, or
 // through a ball of glass by two refractions with 0 or 1 reflections between them. LINKED: a bit for each sphere that
-// has them, by its number; nothing lies within it (glrt/methods/particles.py).
+// has them, by its number; nothing lies within it (glrt/plan/particles.py).
 //
 // All of a link lies in the plane of the eye, the vertex and the centre, and the angle of incidence t is its one
 // unknown. Seen from the centre the way turns, beside half a turn for each chord, by

@@ -2,7 +2,7 @@
 //
 // Views hold surfaces as integrators/middle_surface.glsl has them. `before` is the other view, and
 // `history` what was shown of it. Places are in its texels, their middles at halves; row 0 is on top.
-// Entry files declare what it reads: reproject.frag has the list, glrt/rendering/reprojection.py fills it.
+// Entry files declare what it reads: reproject.frag has the list, glrt/rendering/history/reprojection.py fills it.
 
 #include "passes/surface_flags.glsl"
 

@@ -1,5 +1,5 @@
 // Probes: a grid of points, each with maps of the light and of the distances around it (Majercik et al., "Dynamic
-// Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 2019). glrt/methods/probe_grid.py places it.
+// Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 2019). glrt/plan/probe_grid.py places it.
 
 const int LIGHT_SIDE = 6;      // inner texels of a map, of irradiance
 const int DISTANCE_SIDE = 14;  // of distances

@@ -31,7 +31,7 @@ Inward inward_of(Instance instance) {
     return Inward(instance.to_x, instance.to_y, instance.to_z, instance.origin, instance.reach);
 }
 
-// As the packer writes it into a leaf: glrt/rendering/pack_instances.py.
+// As the packer writes it into a leaf: glrt/packing/instances.py.
 Inward inward_at(Slot slot) {
     precise vec4 a = uintBitsToFloat(slot.a);
     precise vec4 b = uintBitsToFloat(slot.b);

@@ -15,7 +15,7 @@ int kind_of(Slot leaf) { return int(leaf.d.w >> 28u & 7u); }
 
 int number_in(Slot leaf) { return int(leaf.d.w & LINK); }
 
-// The shape of a leaf; its packer: glrt/rendering/pack_tree.py.
+// The shape of a leaf; its packer: glrt/packing/shape_tree.py.
 Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int ignored) {
     int kind = kind_of(slot);
     precise vec4 a = uintBitsToFloat(slot.a);

@@ -1,4 +1,4 @@
-// What a replay of single paths writes down (paths.comp), as glrt/rendering/path_records.py reads it. Positions are
+// What a replay of single paths writes down (paths.comp), as glrt/rendering/paths/records.py reads it. Positions are
 // relative to the camera; objects have the kernel's numbers.
 
 struct SampleRecord {

@@ -1,4 +1,4 @@
-// Shapes, numbered through by kind (glrt/rendering/pack_shapes.py has the order). Positions are in scene units, relative
+// Shapes, numbered through by kind (glrt/packing/shapes.py has the order). Positions are in scene units, relative
 // to the camera; axes are those of the world.
 
 const int NO_SHAPE = -1;
@@ -120,10 +120,10 @@ struct Slot {
 };
 
 // Kinds of leaves.
-const int INSTANCE = 0;   // a mesh with a tree of its own: see glrt/rendering/pack_instances.py
+const int INSTANCE = 0;   // a mesh with a tree of its own: see glrt/packing/instances.py
 const int SPHERE = 1;
 const int QUAD = 2;
 const int DISK = 3;
 const int BOX = 4;
 const int CYLINDER = 5;
-const int TRIANGLES = 7;  // two of a mesh: see glrt/rendering/pack_mesh.py
+const int TRIANGLES = 7;  // two of a mesh: see glrt/packing/triangles.py

@@ -8,13 +8,13 @@ from numpy.testing import assert_allclose
 
 from glrt.accel.light_clusters import grouped, light_probabilities
 from glrt.gpu.context import Context
-from glrt.methods import contents
-from glrt.methods.contents import MOST_NEAR
-from glrt.rendering import pack_lights
-from glrt.rendering.lamp_bodies import bodies_of
-from glrt.rendering.pack import pack_scene
-from glrt.rendering.pack_lights import PARTS, radiance
-from glrt.rendering.pack_shapes import in_order
+from glrt.packing import lights
+from glrt.packing.lamp_bounds import bodies_of
+from glrt.packing.lights import PARTS, radiance
+from glrt.packing.scene_arrays import pack_scene
+from glrt.packing.shapes import in_order
+from glrt.plan import facts
+from glrt.plan.facts import MOST_NEAR
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.shaders.test_light import LAMPS
@@ -260,11 +260,9 @@ def test_a_corridor_needs_a_third_of_the_samples(
     balls = [sphere([0, 0.8, -1 - step * i], 0.1 * step / 2, "lamp") for i in range(lamps_in_all)]
     corridor = scene_of([*walls, *balls], LAMPS)
     near = rendered(corridor, context, 64, bounces=2)
-    for module in (contents, pack_lights):
+    for module in (facts, lights):
         monkeypatch.setattr(module, "MOST_NEAR", 1)
-    monkeypatch.setattr(
-        pack_lights, "grouped", lambda place, weight, most: [np.arange(len(weight))]
-    )
+    monkeypatch.setattr(lights, "grouped", lambda place, weight, most: [np.arange(len(weight))])
     by_table = rendered(corridor, context, 64, bounces=2)
     assert near.error is not None
     assert by_table.error is not None

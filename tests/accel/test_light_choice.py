@@ -6,9 +6,9 @@ from numpy.testing import assert_allclose
 
 from glrt.accel.light_clusters import alias_table, light_probabilities
 from glrt.gpu.context import Context
-from glrt.methods.contents import MOST_NEAR
-from glrt.methods.features import needs_of
-from glrt.rendering.pack import pack_scene
+from glrt.packing.scene_arrays import pack_scene
+from glrt.plan.facts import MOST_NEAR
+from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, settings_for
 from tests.conftest import CallGlsl

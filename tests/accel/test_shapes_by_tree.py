@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.methods import contents
-from glrt.methods.contents import REST_FROM, TREE_FROM, contents_of
+from glrt.plan import facts
+from glrt.plan.facts import REST_FROM, TREE_FROM, contents_of
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Disk
+from glrt.scene.shapes.disk import Disk
 from glrt.settings import Cost
 from tests.conftest import CallGlsl
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
@@ -111,7 +111,7 @@ def found(call_glsl: CallGlsl, has_tree: bool, scene: Scene = CROWD, **inputs: A
 @pytest.fixture(autouse=True)
 def spheres_in_the_tree(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spheres have a tree of their own only where a test asks for it."""
-    monkeypatch.setattr(contents, "SPHERES_FROM", 1 << 30)
+    monkeypatch.setattr(facts, "SPHERES_FROM", 1 << 30)
 
 
 @pytest.mark.parametrize("kind", RAYS)
@@ -142,7 +142,7 @@ def test_each_kind_alone(call_glsl: CallGlsl, kind: str) -> None:
 def test_trees_of_few_levels(
     call_glsl: CallGlsl, monkeypatch: pytest.MonkeyPatch, count: int
 ) -> None:
-    monkeypatch.setattr(contents, "TREE_FROM", 1)
+    monkeypatch.setattr(facts, "TREE_FROM", 1)
     scene = crowd(count, 7)
     given = {**rays("anywhere"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
     by_tree, without = (found(call_glsl, has_tree, scene, **given) for has_tree in (True, False))
@@ -153,7 +153,7 @@ def test_children_that_a_node_does_not_have_are_not_visited(
     call_glsl: CallGlsl, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """From so far that every box is met: they would lead beyond the last slot, and back."""
-    monkeypatch.setattr(contents, "TREE_FROM", 1)
+    monkeypatch.setattr(facts, "TREE_FROM", 1)
     scene = scene_of([disk([k, k, k], [1, 1, 1], 0.5, "white") for k in (0, 3)], MATERIALS)
     shapes = [item for item in scene.objects if isinstance(item, Disk)]
     corner = Disk.bounds(np.array([item.row for item in shapes]))[0].min(axis=0)
@@ -197,7 +197,7 @@ def test_a_picture_is_the_same_with_the_tree_and_without(
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     by_tree = rendered(scene, context, 3, method=method, **SETTINGS)
-    monkeypatch.setattr(contents, "TREE_FROM", 1 << 30)
+    monkeypatch.setattr(facts, "TREE_FROM", 1 << 30)
     assert same(by_tree, rendered(scene, context, 3, method=method, **SETTINGS))
 
 
@@ -206,7 +206,7 @@ def test_a_picture_is_the_same_with_the_tree_and_without(
 def test_spheres_have_a_tree_beside_that_of_the_others(
     context: Context, monkeypatch: pytest.MonkeyPatch, rest: int
 ) -> None:
-    monkeypatch.setattr(contents, "SPHERES_FROM", TREE_FROM)
+    monkeypatch.setattr(facts, "SPHERES_FROM", TREE_FROM)
     balls, others = crowd(TREE_FROM, 13, ("sphere",)), crowd(rest, 17, KINDS[1:])
     scene = balls.model_copy(update={"objects": (*balls.objects, *others.objects[:-1])})
     found = contents_of(scene)
@@ -214,7 +214,7 @@ def test_spheres_have_a_tree_beside_that_of_the_others(
     assert bool(found.tree_kinds) == (rest >= REST_FROM)
     by_tree = rendered(scene, context, 3, **SETTINGS)
     for name in ("TREE_FROM", "SPHERES_FROM", "REST_FROM"):
-        monkeypatch.setattr(contents, name, 1 << 30)
+        monkeypatch.setattr(facts, name, 1 << 30)
     assert same(by_tree, rendered(scene, context, 3, **SETTINGS))
 
 
@@ -235,7 +235,7 @@ def test_a_camera_that_moves_builds_no_tree(
             camera = scene.camera.model_copy(update={"position": position})
             moved = scene.model_copy(update={"camera": camera})
             with monkeypatch.context() as patch:
-                patch.setattr("glrt.rendering.pack_tree.build", None)
+                patch.setattr("glrt.packing.scene_tree.build", None)
                 assert renderer.update(moved) is Cost.RESTART
             image = renderer.render(3).image()
             assert same(image, rendered(moved, context, 3, **SETTINGS))

@@ -7,9 +7,9 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.methods import contents
-from glrt.methods.contents import SPHERES_FROM
-from glrt.rendering.pack import pack_scene
+from glrt.packing.scene_arrays import pack_scene
+from glrt.plan import facts
+from glrt.plan.facts import SPHERES_FROM
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
 from tests.conftest import CallGlsl
@@ -252,7 +252,7 @@ def without_tree(
 ) -> Image:
     with monkeypatch.context() as patch:
         for name in ("TREE_FROM", "SPHERES_FROM"):
-            patch.setattr(contents, name, 1 << 30)
+            patch.setattr(facts, name, 1 << 30)
         return rendered(scene, context, 3, **more)
 
 

@@ -12,7 +12,7 @@ from glrt.analysis.method_choice import caustics
 from glrt.analysis.method_choice.caustics import CHOICES, may_gain, particles_worth
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.materials import Dielectric
+from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere

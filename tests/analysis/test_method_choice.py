@@ -10,10 +10,10 @@ from glrt.analysis import reference as references
 from glrt.analysis.method_choice import search, trial
 from glrt.analysis.method_choice.advice import conclusion
 from glrt.analysis.method_choice.search import what_suffices
+from glrt.core.resources import folder
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.table import CLASSIC
-from glrt.resources import folder
+from glrt.plan.methods import CLASSIC
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, lamp, plane, scene_of, sphere

@@ -9,26 +9,18 @@ import numpy as np
 import pytest
 
 from glrt.analysis.chart.rays import rays_of
-from glrt.analysis.motion.measure import (
-    BEFORE,
-    FRAMES,
-    Seen,
-    Track,
-    by_probes,
-    looks_of,
-    tracks_of,
-)
+from glrt.analysis.motion.measure import BEFORE, FRAMES, Seen, Track, by_probes, looks_of, tracks_of
 from glrt.analysis.motion.playing import play
 from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
 from glrt.analysis.motion.sequences import light_step, orbit, turned
 from glrt.analysis.plot import MOST_CURVES
 from glrt.cli.chart import _ways
 from glrt.cli.commands import run
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.history.temporal import WAYS, Mode, Way
 from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
-from glrt.rendering.temporal import WAYS, Mode, Way
 from glrt.settings import Settings, settings_for
 from tests.rendering.test_live_probes import warmed_up
 from tests.truths.test_probes import room

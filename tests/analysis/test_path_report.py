@@ -8,7 +8,7 @@ import pytest
 from glrt.analysis.path_report import explanation, report
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load
-from glrt.rendering.path_values import Contribution, Path, PathVertex, PixelPaths, running_mean
+from glrt.rendering.paths.values import Contribution, Path, PathVertex, PixelPaths, running_mean
 from glrt.settings import Settings
 
 

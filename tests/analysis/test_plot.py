@@ -10,7 +10,7 @@ from PIL import Image
 
 from glrt.analysis import plot
 from glrt.analysis.plot import Chart, Curve, save_chart, save_sheet
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
 
 X = [1.0, 10.0, 100.0]
 CHART = Chart(

@@ -10,7 +10,7 @@ from glrt.analysis.method_choice.candidate import OfProbes
 from glrt.analysis.method_choice.search import WITHOUT_PROBES
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
 from glrt.rendering.probe_tracer import LOOKS, PUSHED, RAYS, UPDATES
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, scene_of, sphere

@@ -12,12 +12,12 @@ import pytest
 
 from glrt.analysis import reference
 from glrt.analysis.reference import OTHER_NUMBERS, Reference, closed_form, reference_for
+from glrt.core.resources import folder
 from glrt.error.estimate import relative_error
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
-from glrt.resources import folder
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, settings_for
 from tests.support.alarms import assert_near

@@ -12,7 +12,7 @@ from glrt.analysis.chart.experiment import Experiment, Plan, measure_scene
 from glrt.analysis.variants import Variant, variants_of
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.support.builders import box_of_quads, lamp, quad, scene_of

@@ -15,9 +15,9 @@ from glrt.analysis.stress.cases import CASES
 from glrt.analysis.stress.sweep import Case, Finding, Lab, Sweep
 from glrt.cli import stress
 from glrt.cli.main import main
+from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
-from glrt.resources import folder
 from tests.support.alarms import book
 
 TINY = 1 / 64

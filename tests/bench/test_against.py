@@ -17,7 +17,7 @@ from bench.against import PROGRAM, Row, Side, main, measure, overall, samples_fo
 from bench.checkouts import commit_of, exported
 from bench.processes import ROOT, Process, environment_of
 from bench.ratios import LEAST_ROUNDS
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
 from tests.support.system_packages import needs_package
 
 LINE = ["--scenes", "sky", "--size", "8", "--rounds", str(LEAST_ROUNDS), "--seconds", "0.001"]

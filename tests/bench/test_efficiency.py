@@ -5,7 +5,7 @@ import pytest
 
 from bench.efficiency import SCENES, Runs, Way, main, measure, scene_of, table
 from glrt.gpu.context import Context
-from glrt.scene.catalog import scene_names
+from glrt.scene.scenefile.catalog import scene_names
 
 
 def test_a_row_holds_what_its_runs_did(context: Context) -> None:

@@ -6,7 +6,7 @@ import pytest
 from bench.efficiency import measure_scene
 from bench.many_lamps import SCENES, WAYS, main
 from glrt.gpu.context import Context
-from glrt.methods.contents import MOST_NEAR, contents_of
+from glrt.plan.facts import MOST_NEAR, contents_of
 
 
 @pytest.mark.parametrize("name", SCENES)

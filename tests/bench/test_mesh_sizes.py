@@ -4,8 +4,8 @@ import pytest
 
 from bench.mesh_sizes import cluttered, displaced, main, measure, scene_of, table
 from glrt.gpu.context import Context
-from glrt.methods.contents import contents_of
-from glrt.scene.meshes import Mesh
+from glrt.plan.facts import contents_of
+from glrt.scene.shapes.mesh import Mesh
 
 
 def test_a_ball_is_closed_and_stands_in_an_open_box() -> None:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from bench.peer import Peer, Request
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.renders import rendered

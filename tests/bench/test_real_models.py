@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from bench import real_models
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.sources import load
-from glrt.scene.meshes import Mesh
+from glrt.scene.shapes.mesh import Mesh
 from tests.support.gltf_files import Builder
 from tests.support.meshes import box
 

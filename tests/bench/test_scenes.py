@@ -25,14 +25,18 @@ from bench.scenes import (
 )
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.cylinder import Cylinder
-from glrt.scene.limits import cautions
-from glrt.scene.materials import Metal
-from glrt.scene.meshes import Mesh
+from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
-from glrt.scene.solids import Box
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.kinds import KINDS, Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.renders import rendered
 

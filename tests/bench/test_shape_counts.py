@@ -7,7 +7,7 @@ from bench import shape_counts
 from bench.shape_counts import FIRST, KINDS, crowd, main, measure, table
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
-from glrt.scene.shapes import Sphere
+from glrt.scene.shapes.sphere import Sphere
 
 
 @pytest.mark.parametrize("count", [16, 485])

@@ -8,7 +8,7 @@ from bench.shader_edits import Edit, edited
 from bench.steps import BY_FLUX, STARTS, TABLES, by_start, main, roulette
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.rendering import lamp_bodies
+from glrt.packing import lamp_bounds
 from tests.support.renders import assert_agree, same
 
 EDITS = {tuple(way.edits) for table in TABLES.values() for way in table.values()} - {()}
@@ -47,9 +47,9 @@ def test_edits_do_what_they_are_named_for(
     by_flux = picture(context, Way({}, BY_FLUX))
     far = {
         kind: lambda lamp, body=body: body(lamp)._replace(center=np.zeros(3), spread2=2.0**40)
-        for kind, body in lamp_bodies.LAMPS.items()
+        for kind, body in lamp_bounds.LAMPS.items()
     }
-    monkeypatch.setattr(lamp_bodies, "LAMPS", far)  # none is nearer
+    monkeypatch.setattr(lamp_bounds, "LAMPS", far)  # none is nearer
     assert same(by_flux, picture(context, PLAIN))
 
 

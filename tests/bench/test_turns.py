@@ -23,7 +23,7 @@ from bench.turns import (
     started,
     verdict,
 )
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from tests.bench.painter import painter
 from tests.support.builders import MATTE, scene_of, sphere
 

@@ -10,7 +10,7 @@ import pytest
 
 from glrt.cli import autosave
 from glrt.cli.autosave import INTERVAL, SHARE, Autosave
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.image.image import Image
 from tests.support.images import picture
 

@@ -12,7 +12,7 @@ from glrt.cli.main import main
 from glrt.comparison.heatmap import SPAN, colors, save_picture
 from glrt.comparison.result import percent
 from glrt.comparison.verdict import compare
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load

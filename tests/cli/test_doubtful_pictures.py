@@ -10,7 +10,7 @@ import glrt as library
 from bench.fooling_scenes import fooling_scene
 from glrt.cli.main import main
 from glrt.image.image import Image
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml_writer import write_scene
 
 CAUTION = "is not to be believed"
 SIZE = ("--width", "48", "--height", "36", "--bounces", "6", "--sampler", "sobol")

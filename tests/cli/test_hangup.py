@@ -78,7 +78,8 @@ asked = []
 def hook(event, arguments):
     if event == "import":
         asked.append(arguments[0])
-        if "glrt.cli.process" in asked and len(asked) == asked.index("glrt.cli.process") + {count}:
+        own = "glrt.process.command"
+        if own in asked and len(asked) == asked.index(own) + {count}:
             os.kill(os.getpid(), signal.SIGINT)
 sys.addaudithook(hook)
 """
@@ -108,5 +109,5 @@ def test_nothing_is_imported_before_ctrl_c_is_seen_to() -> None:
         "print(*sorted(set(sys.modules) - before))"
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    glrt = {"glrt", "glrt.cli", "glrt.cli.main", "glrt.early", "glrt.version"}
+    glrt = {"glrt", "glrt.cli", "glrt.cli.main", "glrt.process.early", "glrt.core.version"}
     assert set(told.stdout.split()) <= glrt | {"signal"}

@@ -4,12 +4,12 @@ import re
 
 import pytest
 
+from glrt.core.resources import folder
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import shader_files
 from glrt.image.sources import load
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
-from glrt.resources import folder
 from tests.support.processes import glrt
 
 

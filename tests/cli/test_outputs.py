@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from glrt.cli.main import main
+from glrt.core.resources import folder
+from glrt.core.text import escaped
 from glrt.image.image import Image
-from glrt.resources import folder
-from glrt.text import escaped
 
 SMALL = ("--width", "8", "--height", "8", "--samples", "2")
 

@@ -11,11 +11,11 @@ import pytest
 
 import glrt as package
 from glrt.cli.main import main
+from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.rendering.path_file import TOLERANCE, first_difference, paths_from_json
-from glrt.resources import folder
+from glrt.rendering.paths.file import TOLERANCE, first_difference, paths_from_json
 from tests.support.drivers import OLD_DRIVER, ZINK
 from tests.support.processes import glrt
 from tests.support.system_packages import needs_package

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from glrt.cli.main import main
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.image.image import Image, read_recipe
 from tests.support.sky_images import random_sky, write_exr
 

@@ -9,13 +9,13 @@ import pytest
 
 from glrt.cli import chart
 from glrt.cli.main import main
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
+from glrt.core.resources import folder
 from glrt.image import sources
 from glrt.image.image import read_recipe
 from glrt.image.sources import STRICT, load, scene_file_of
-from glrt.resources import folder
-from glrt.scene import catalog, toml
-from glrt.scene.catalog import all_scene_names
+from glrt.scene.scenefile import catalog, toml
+from glrt.scene.scenefile.catalog import all_scene_names
 from glrt.scene.summary import MOST_NAMED, summary
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
 

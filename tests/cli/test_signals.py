@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from glrt import signals
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel, drawing
+from glrt.process import signals
 from tests.support.kernel_text import written_for
 
 SAYS = "glrt: interrupted\n"

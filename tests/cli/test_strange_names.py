@@ -10,10 +10,10 @@ import pytest
 from glrt.cli.main import main
 from glrt.image.image import read_recipe
 from glrt.image.sources import load
-from glrt.scene.loading import files_of
-from glrt.scene.path_text import name_of, text_of
+from glrt.scene.files.path_text import name_of, text_of
+from glrt.scene.loading.loading import files_of
 from glrt.scene.scene import Scene
-from glrt.view.state.new_objects import with_model
+from glrt.view.edits.new_objects import with_model
 from glrt.view.state.recent import load_recent, save_recent, with_opened
 from tests.support.gltf_files import COLORS, png, textured_square
 from tests.support.processes import glrt

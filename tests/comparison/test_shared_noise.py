@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from glrt.comparison.verdict import compare
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from tests.support.images import recipe
 from tests.support.noisy_images import noisy
 

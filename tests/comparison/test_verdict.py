@@ -14,7 +14,7 @@ import glrt
 from bench.false_alarms import without_errors
 from glrt.comparison.regions import blocks
 from glrt.comparison.verdict import _same_method, compare
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 import pytest
 
 from bench.peer import Peer
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from tests.mitsuba.engine import LLVM_PACKAGE
 from tests.support.system_packages import needs_package
 

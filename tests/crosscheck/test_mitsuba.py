@@ -14,7 +14,7 @@ import glrt
 from bench.peer import Peer, Request
 from glrt.comparison.result import Comparison
 from glrt.comparison.verdict import compare
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import SceneError
-from glrt.scene.shapes import Sphere
+from glrt.core.errors import SceneError
+from glrt.scene.shapes.sphere import Sphere
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
 from tests.support.builders import MATTE, box, cylinder, disk, plane, quad, scene_of, sphere
 

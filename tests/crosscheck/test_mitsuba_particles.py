@@ -7,7 +7,7 @@ import pytest
 from bench.peer import Peer
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.materials import Lambertian
+from glrt.scene.materials.lambertian import Lambertian
 from tests.crosscheck.test_mitsuba import judged, ours, theirs
 from tests.mitsuba.scenes import everything
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from glrt.core.errors import UsageError
 from glrt.denoise import oidn
 from glrt.denoise.denoising import denoise
 from glrt.denoise.filters import FILTERS, with_filter
-from glrt.errors import UsageError
 from glrt.settings import Settings
 from tests.denoise.noisy_halves import drawn, truth_with_an_edge
 from tests.support.system_packages import needs

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.error.judgement import judged
 from glrt.error.reliability import is_doubtful
+from glrt.error.reliability_of_scene import judged
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.error.test_seen_lamps import BALL, SIZE, SKY, found, scene

@@ -13,7 +13,7 @@ import pytest
 from bench.fooling_scenes import fooling_scene
 from bench.methods_compared import metal_balls
 from glrt.analysis.stress.noisy_scenes import CASES, room
-from glrt.cli.doubts import doubt
+from glrt.cli.warnings import doubt
 from glrt.error import reliability
 from glrt.error.estimate import relative_error
 from glrt.error.reliability import LEAST_OBSERVATIONS, is_doubtful
@@ -21,7 +21,7 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.scene.scene import Scene
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml_writer import write_scene
 from tests.support.noisy_images import KINDS, flat, noisy
 from tests.support.processes import glrt
 from tests.support.renders import rendering

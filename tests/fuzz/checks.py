@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene, read_scene, scene_to_dict
+from glrt.scene.scenefile.toml import parse_scene, read_scene, scene_to_dict
 from tests.fuzz.grammar import Table
 
 SOURCE = "chance.toml"

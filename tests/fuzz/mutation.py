@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from glrt.resources import folder
+from glrt.core.resources import folder
 from tests.fuzz.grammar import Table, scenes
 
 JUNK = st.one_of(

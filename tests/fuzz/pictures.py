@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from hypothesis import strategies as st
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe

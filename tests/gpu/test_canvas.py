@@ -6,7 +6,7 @@ import pytest
 
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.context import Context
-from glrt.rendering.magnifier import Magnifier
+from glrt.rendering.screen.magnifier import Magnifier
 
 
 @pytest.mark.parametrize("dtype", ["f1", "f4"])

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 from glrt.gpu import context
 from glrt.gpu.context import open_context
 

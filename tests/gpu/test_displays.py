@@ -15,9 +15,9 @@ from typing import Any
 import pytest
 
 from bench.screens import screen
-from glrt.errors import RenderError
-from glrt.gpu import context, turns
-from glrt.gpu.turns import TurnTaker
+from glrt.core.errors import RenderError
+from glrt.gpu import context, context_turns
+from glrt.gpu.context_turns import TurnTaker
 from tests.support.processes import glrt
 from tests.support.system_packages import needs_package
 
@@ -193,7 +193,7 @@ def test_the_window_of_a_program_stays_current_after_a_render(display: str) -> N
 def test_a_context_that_does_not_get_current_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     """Calls would reach no context, and a picture would be black."""
     answers = iter([True, False])
-    monkeypatch.setattr(turns, "_is_current", lambda: next(answers))
+    monkeypatch.setattr(context_turns, "_is_current", lambda: next(answers))
     loader: Any = open_nothing()
     taker = TurnTaker(lambda: loader)
     with pytest.raises(RenderError, match="has the display gone"), taker:

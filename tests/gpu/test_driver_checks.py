@@ -6,8 +6,8 @@ import moderngl
 import numpy as np
 import pytest
 
+from glrt.core.errors import SceneError
 from glrt.doctor.report import findings
-from glrt.errors import SceneError
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import (

@@ -7,7 +7,8 @@ from pathlib import Path
 import moderngl
 import pytest
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
+from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, files_anew, read
@@ -15,7 +16,6 @@ from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
 from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, SURFACES, RenderPass, aov_pass
 from glrt.rendering.pipelines import sources
-from glrt.resources import folder
 from tests.gpu.test_precise import computed_returns, imprecise
 from tests.support.builders import EVERYTHING, FEATURE_SETS
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings

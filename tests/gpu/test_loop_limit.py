@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.cli.figures import Done
 from glrt.cli.main import main
+from glrt.cli.render_report import Done
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.image.sources import load
-from glrt.methods import contents
+from glrt.plan import facts
 from glrt.rendering import schedule
 from glrt.rendering.renderer import Renderer
 from tests.support.builders import MATTE, plane, scene_of, sphere
@@ -42,7 +42,7 @@ def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
         assert renderer.nonfinite() == 0
         image = renderer.image()
     for name in ("TREE_FROM", "SPHERES_FROM"):
-        monkeypatch.setattr(contents, name, 1 << 30)
+        monkeypatch.setattr(facts, name, 1 << 30)
     assert same(image, rendered(scene, context, 300, **settings))
 
 

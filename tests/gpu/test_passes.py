@@ -5,8 +5,8 @@ import re
 import moderngl
 import pytest
 
+from glrt.core.resources import folder
 from glrt.gpu.glsl import Source, read, shader_files
-from glrt.resources import folder
 from tests.gpu.test_glsl import FILES
 from tests.support.driver_log import COMPUTE, FRAGMENT, VERTEX, warnings
 

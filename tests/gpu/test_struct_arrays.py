@@ -9,13 +9,13 @@ from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context
 from glrt.gpu.struct_arrays import FILE, uniform_content
 from glrt.image.sources import load
+from glrt.packing.kernel_structs import STRUCTS
 from glrt.rendering import pipelines
-from glrt.rendering.evaluation import no_rows
-from glrt.rendering.kernel_structs import STRUCTS
 from glrt.rendering.pipelines import MOST_BAKED, Tier
 from glrt.rendering.renderer import Renderer
-from glrt.scene.catalog import scene_names
+from glrt.rendering.shader_functions import no_rows
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import scene_names
 from glrt.settings import Cost, Sampler
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.kernel_text import written_for, written_for_everything

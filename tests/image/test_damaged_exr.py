@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt import silence
 from glrt.cli.main import main
-from glrt.errors import SceneError, UsageError
-from glrt.files import reason
+from glrt.core.errors import SceneError, UsageError
+from glrt.core.files import reason
 from glrt.image.image import Image, read_recipe
-from glrt.scene.image_files import decode_image
+from glrt.process import silence
+from glrt.scene.images.image_files import decode_image
 from tests.support.image_bytes import WHERE
 from tests.support.images import recipe
 

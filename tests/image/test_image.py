@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image as Pillow
 from PIL.PngImagePlugin import PngInfo
 
-from glrt.errors import SceneError, UsageError
+from glrt.core.errors import SceneError, UsageError
 from glrt.image.image import Image, read_recipe
 from glrt.image.recipe import Recipe
 from glrt.image.tonemap import expose_and_encode

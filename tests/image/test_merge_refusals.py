@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.image import Image
 from glrt.image.merge import merge
 from glrt.image.recipe import Recipe

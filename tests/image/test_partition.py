@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.partition import Partition, one_part, parse_part, sample_range
 from glrt.settings import BLOCKS, Settings
 from tests.support.renders import SAMPLERS

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.image.recipe import Recipe, Traced, lasting
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 from glrt.settings import Settings, settings_for
 
 SCENE = {

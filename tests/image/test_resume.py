@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.image import Image

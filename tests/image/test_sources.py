@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.errors import SceneError, UsageError
+from glrt.core.errors import SceneError, UsageError
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe
-from glrt.scene import catalog
-from glrt.scene.catalog import scene_names
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile import catalog
+from glrt.scene.scenefile.catalog import scene_names
+from glrt.scene.scenefile.toml import parse_scene
 from glrt.settings import Settings
 
 TOML = """

@@ -10,8 +10,8 @@ from glrt.gpu.context import Context
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.image.sources import load
-from glrt.methods.features import needs_of
-from glrt.methods.table import CLASSIC, METHODS
+from glrt.plan.features import needs_of
+from glrt.plan.methods import CLASSIC, METHODS
 from glrt.rendering.pipelines import Tier
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for

@@ -14,8 +14,8 @@ import pytest
 from glrt.analysis.method_choice import caustics, search
 from glrt.cli import caustics as command
 from glrt.cli.commands import run
-from glrt.errors import UsageError
-from glrt.methods.combinations import (
+from glrt.core.errors import UsageError
+from glrt.plan.combinations import (
     _REFUSED,
     _UNTRIED,
     _WORKS,
@@ -171,6 +171,6 @@ def test_a_cell_does_not_work_and_have_a_reason() -> None:
 def test_what_the_table_does_not_name_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """The default for a new row."""
     table = {**_WORKS, Way.CROP: (), Way.AOV: ()}
-    monkeypatch.setattr("glrt.methods.combinations._WORKS", table)
+    monkeypatch.setattr("glrt.plan.combinations._WORKS", table)
     with pytest.raises(UsageError, match="A crop and AOVs do not go together: nobody has tried"):
         check([Way.AOV, Way.CROP])

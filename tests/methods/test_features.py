@@ -12,13 +12,13 @@ import moderngl
 import numpy as np
 import pytest
 
+from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
-from glrt.methods.contents import MOST_NEAR, SPHERES_FROM, TREE_FROM
-from glrt.methods.features import Needs, needs_of
-from glrt.resources import folder
-from glrt.scene import own_trees
+from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM
+from glrt.plan.features import Needs, needs_of
+from glrt.scene import instancing
 from glrt.settings import settings_for
 from tests.support.builders import (
     EVERYTHING,
@@ -43,7 +43,7 @@ FLAGS = {name for name, value in EVERYTHING.items() if value is True}
 @pytest.fixture(autouse=True)
 def _instances(monkeypatch: pytest.MonkeyPatch) -> None:
     """A triangle that is used twice has a tree of its own."""
-    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1)
+    monkeypatch.setattr(instancing, "LEAST_SAVED", 1)
 
 
 def smallest_with(flag: str) -> set[str]:

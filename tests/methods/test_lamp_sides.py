@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from glrt.methods.lamp_sides import front_shares
-from glrt.methods.particles import emitters_of
+from glrt.plan.lamp_sides import front_shares
+from glrt.plan.particles import emitters_of
 from tests.support.builders import MATTE, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import Faces, icosphere, mesh
 

@@ -8,9 +8,9 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.features import needs_of
-from glrt.scene.catalog import scene_names
+from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import scene_names
 from glrt.settings import settings_for
 from tests.support.builders import quad, scene_of, sphere
 from tests.support.hard_scenes import BALL, CEILING, FLOOR, HARD, MATERIALS, Samples, hard_scene

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from glrt.methods.omissions import omissions
-from glrt.methods.table import CLASSIC
+from glrt.plan.methods import CLASSIC
+from glrt.plan.omissions import omissions
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
 from tests.support.processes import glrt

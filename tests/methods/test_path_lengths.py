@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import MOST_LAYERS
+from glrt.plan.plan import MOST_LAYERS
 from glrt.settings import Cost
 from tests.support.relit_room import layered, radiance, room, seen
 

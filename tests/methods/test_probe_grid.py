@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glrt.image.sources import load
-from glrt.methods.probe_grid import extent_of, grid_of
+from glrt.plan.probe_grid import extent_of, grid_of
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, box_of_quads, plane, room_of_planes, scene_of, sphere
 

@@ -7,9 +7,9 @@ import pytest
 
 from glrt.cli.main import main
 from glrt.image.sources import load
-from glrt.methods.slowness import slow_because
+from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml_writer import write_scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import mesh

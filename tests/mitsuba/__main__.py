@@ -5,7 +5,7 @@ import json
 import sys
 import time
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.image.image import check_writable
 from glrt.image.sources import load
 from glrt.settings import Settings, settings_for

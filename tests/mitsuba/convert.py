@@ -6,14 +6,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.errors import SceneError
-from glrt.scene.cylinder import Cylinder
-from glrt.scene.facets import facet_loss
-from glrt.scene.materials import Dielectric, Lambertian, Metal, Opaque, Principled
-from glrt.scene.meshes import Mesh
+from glrt.core.errors import SceneError
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.facets import facet_loss
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Finish, Scene
-from glrt.scene.shapes import Disk, Plane, Quad, Sphere
-from glrt.scene.solids import Box
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 from glrt.scene.values import Radiance
 from glrt.settings import Settings
 from tests.mitsuba import metal, rough_glass

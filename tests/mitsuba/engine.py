@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
+from glrt.core.version import VERSION
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
-from glrt.version import VERSION
 from tests.mitsuba.convert import BLOCK, Liberties, convert
 
 LLVM = "libLLVM.so.19.1"  # with 15 and 16, Mitsuba ends the process; 14 it refuses

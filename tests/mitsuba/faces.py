@@ -5,11 +5,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from glrt.errors import SceneError
-from glrt.scene.cylinder import Cylinder
+from glrt.core.errors import SceneError
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
-from glrt.scene.solids import Box
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 from tests.mitsuba.near import Vector, around, corners, length, normal_of
 
 TOUCH = 1e-6  # of a radius or an edge: surfaces that come as near only touch

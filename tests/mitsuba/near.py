@@ -11,9 +11,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.scene.materials import Dielectric
+from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Disk, Plane, Quad, Sphere
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 
 Vector = NDArray[np.float64]
 

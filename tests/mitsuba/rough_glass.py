@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.scene.facets import STEPS, FacetLoss
+from glrt.scene.materials.facets import STEPS, FacetLoss
 
 NAME = "glrt_rough_glass"
 EVEN = 0.2  # of samples, those that are spread by the cosine over both sides

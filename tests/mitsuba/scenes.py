@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from glrt.scene.assets import AssetFolder
-from glrt.scene.loading import with_files
+from glrt.scene.files.assets import AssetFolder
+from glrt.scene.loading.loading import with_files
 from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.gltf_files import png

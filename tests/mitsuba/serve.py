@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from bench.peer import Request, serve
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.image import Image
 from glrt.settings import settings_for
 from tests.mitsuba.convert import Liberties

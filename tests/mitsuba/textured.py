@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.scene.textures import Texture
+from glrt.scene.materials.textures import Texture
 from glrt.scene.values import Radiance
 from tests.mitsuba.near import Vector
 

@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.screens import screen
+from glrt.core.resources import folder
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import load
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
-from glrt.resources import folder
-from glrt.scene.catalog import scene_names
+from glrt.scene.scenefile.catalog import scene_names
 from tests.support.drivers import OLD_DRIVER, ZINK
 
 ROOT = Path(__file__).parents[2]

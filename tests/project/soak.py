@@ -18,12 +18,12 @@ from typing import Any, NamedTuple, get_args
 from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
-from glrt.methods.light_layers import Layering
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
+from glrt.plan.plan import Layering
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
-from glrt.scene.catalog import scene_names
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import scene_names
 from glrt.settings import Method, Sampler
 from tests.support.builders import MATTE, lamp, scene_of, sphere
 from tests.support.hard_scenes import HARD, hard_scene

@@ -7,13 +7,13 @@ from pathlib import Path
 from statistics import median
 
 import glrt
+from glrt.core.resources import folder
 from glrt.gpu.glsl import shader_files
-from glrt.resources import folder
 
 PACKAGE = Path(glrt.__file__).parent
 ROOT = PACKAGE.parent
 # Packages whose modules may use moderngl; the others go through them.
-KNOW_OPENGL = {"gpu", "rendering", "view", "analysis"}
+KNOW_OPENGL = {"gpu", "packing", "rendering", "view", "analysis"}
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich", "trimesh"}
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60
@@ -85,7 +85,7 @@ def sources() -> list[Path]:
 
 
 def dotted(file: Path) -> str:
-    """`glrt.scene.toml`; a package has the name of its folder."""
+    """`glrt.scene.scenefile.toml`; a package has the name of its folder."""
     parts = file.relative_to(ROOT).with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
@@ -197,7 +197,7 @@ def test_an_import_against_the_order_is_seen_wherever_it_stands() -> None:
     assert upward("glrt.gpu.program", late) == {"glrt.rendering.renderer"}
     assert upward("glrt.rendering.film", late) == {"glrt.rendering.renderer"}
     assert upward("glrt.cli.render", late) == set()
-    assert upward("glrt.gpu.glsl", ast.parse("from glrt import errors, api")) == {"glrt.api"}
+    assert upward("glrt.gpu.glsl", ast.parse("from glrt import settings, api")) == {"glrt.api"}
     assert upward("glrt.rendering.film", ast.parse("import glrt")) == {"glrt"}
     assert upward("glrt.rendering.film", ast.parse("from glrt import Scene")) == {"glrt"}
     inner = ast.parse("from glrt.view.panels import panel")

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from PIL import Image as Pillow
 
+from glrt.core.resources import folder
 from glrt.gpu.context import ADVICE
-from glrt.resources import folder
 from tests.support.processes import glrt
 
 PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "ci.md").read_text()

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from glrt.version import VERSION
+from glrt.core.version import VERSION
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -24,7 +24,9 @@ SUFFIXES = {
 }
 EXTRA = re.compile(r"glrt\[(\w+)\]")  # as in `pip install 'glrt[view]'`
 INFO = f"glrt-{VERSION}.dist-info"
-LICENSES = {f"{INFO}/licenses/{name}" for name in ("LICENSE", "glrt/scene/clear_sky_license.txt")}
+LICENSES = {
+    f"{INFO}/licenses/{name}" for name in ("LICENSE", "glrt/scene/lights/clear_sky_license.txt")
+}
 
 
 def sources() -> set[str]:

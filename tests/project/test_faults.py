@@ -15,7 +15,7 @@ import pytest
 from glrt.analysis.reference import reference_for
 from glrt.cli import autosave
 from glrt.cli.main import main
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.image.image import Image

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.errors import GlrtError, RenderError, UsageError
-from glrt.files import write_text
+from glrt.core.errors import GlrtError, RenderError, UsageError
+from glrt.core.files import write_text
 from glrt.image.image import Image, check_writable
 from tests.support.images import picture, same_bits
 

@@ -1,6 +1,6 @@
 """Results that are kept while what they were made of is the same object."""
 
-from glrt.memo import kept_for_the_same
+from glrt.core.memo import kept_for_the_same
 
 
 def test_a_result_is_kept_for_the_same_objects_and_no_others() -> None:

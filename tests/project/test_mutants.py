@@ -94,7 +94,7 @@ def test_text_that_is_not_there_once_is_not_replaced(
         (CLEAN, False),
         (CLEAN._replace(failures=("assert 1 == 2",)), True),
         (CLEAN._replace(failures=("AssertionError: worst z 9",)), True),
-        (CLEAN._replace(failures=("glrt.errors.RenderError: the driver refuses",)), False),
+        (CLEAN._replace(failures=("glrt.core.errors.RenderError: the driver refuses",)), False),
         (CLEAN._replace(failures=("Failed: Timeout",)), False),
         (CLEAN._replace(failures=("assert 1 == 2",), errors=1), False),
     ],

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from glrt.rendering.renderer import Renderer
-from glrt.scene.limits import cautions
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.alarms import ALPHA, book
 from tests.support.processes import glrt

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import glrt
-from glrt.resources import folder
+from glrt.core.resources import folder
 
 PACKAGE = Path(glrt.__file__).parent
 

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import GlrtError, SceneError, UsageError
+from glrt.core.errors import GlrtError, SceneError, UsageError
 from glrt.image.image import Image, read_recipe
-from glrt.scene import toml
 from glrt.scene.scene import Scene
-from glrt.scene.toml import LARGEST, read_scene
+from glrt.scene.scenefile import toml
+from glrt.scene.scenefile.toml import LARGEST, read_scene
 from tests.support.bad_scenes import GOOD_SCENE
 from tests.support.processes import glrt
 

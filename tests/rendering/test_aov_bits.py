@@ -15,7 +15,7 @@ from glrt.gpu.driver_checks import usable_rounds
 from glrt.image.aovs import AovImage, AovImages
 from glrt.image.image import Image
 from glrt.image.sources import load
-from glrt.methods import contents
+from glrt.plan import facts
 from glrt.rendering import renderer as renderer_module
 from glrt.rendering import schedule, tracer
 from glrt.rendering.device_scene import DeviceScene
@@ -183,7 +183,7 @@ def test_aovs_in_many_small_dispatches_have_the_same_bits(
 def test_a_tree_and_a_loop_find_the_same(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     by_tree = gathered(load("weekend"), context, 2, **SIZE)
     for name in ("TREE_FROM", "SPHERES_FROM"):
-        monkeypatch.setattr(contents, name, 1 << 30)
+        monkeypatch.setattr(facts, name, 1 << 30)
     assert same_aovs(gathered(load("weekend"), context, 2, **SIZE), by_tree)
 
 

@@ -10,7 +10,7 @@ from glrt.gpu.context import Context
 from glrt.image.aovs import AovImage
 from glrt.image.sources import load
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import KINDS
+from glrt.scene.shapes.kinds import KINDS
 from tests.conftest import CallGlsl
 from tests.support.alarms import SIGMAS, assert_near, book
 from tests.support.aov_scenes import heap, world

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import RenderError, SceneError, UsageError
+from glrt.core.errors import RenderError, SceneError, UsageError
 from glrt.gpu.context import Context
 from glrt.image.aovs import AovImages
 from glrt.image.image import Image

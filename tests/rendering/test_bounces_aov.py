@@ -5,15 +5,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.aovs import AovImage
 from glrt.image.sources import load
-from glrt.rendering.aov_view import MOST_BOUNCES, scale_of_bounces
 from glrt.rendering.passes import Resolved
-from glrt.rendering.path_replay import pixel_paths
+from glrt.rendering.paths.replay import pixel_paths
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.screen.aov_view import MOST_BOUNCES, scale_of_bounces
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from glrt.view.viewport.views import ticks_of

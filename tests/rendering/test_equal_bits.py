@@ -12,12 +12,12 @@ import pytest
 from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
-from glrt.methods.contents import SAMPLED
-from glrt.methods.features import Needs, needs_of
+from glrt.plan.facts import SAMPLED
+from glrt.plan.features import Needs, needs_of
 from glrt.rendering.renderer import Renderer
-from glrt.scene import own_trees
-from glrt.scene.materials import TYPES
-from glrt.scene.shapes import KINDS
+from glrt.scene import instancing
+from glrt.scene.materials.kinds import TYPES
+from glrt.scene.shapes.kinds import KINDS
 from glrt.settings import settings_for
 from tests.support import profiles
 from tests.support.every_feature import RENDERS
@@ -31,7 +31,7 @@ pytestmark = pytest.mark.usefixtures("exact_kernels", "instances")
 @pytest.fixture
 def instances(monkeypatch: pytest.MonkeyPatch) -> None:
     """Meshes of few triangles have trees of their own where they are repeated."""
-    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1)
+    monkeypatch.setattr(instancing, "LEAST_SAVED", 1)
 
 
 @pytest.fixture

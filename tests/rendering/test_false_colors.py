@@ -9,13 +9,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from glrt.core.errors import RenderError
+from glrt.core.resources import folder
 from glrt.error.estimate import squared_levels
-from glrt.errors import RenderError
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.methods.light_layers import ONE, Layering
-from glrt.rendering.false_colors import (
+from glrt.plan.plan import ONE, Layering
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.screen.false_colors import (
     BLUE_WHITE_RED,
     DIFFERENCE,
     DROPPED,
@@ -27,8 +29,6 @@ from glrt.rendering.false_colors import (
     Told,
     symmetric,
 )
-from glrt.rendering.renderer import Renderer
-from glrt.resources import folder
 from glrt.scene.scene import Scene, with_lights
 from tests.support.builders import MATTE, lamp, quad, room_of_planes, scene_of, sphere
 

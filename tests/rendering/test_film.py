@@ -8,16 +8,16 @@ import moderngl
 import numpy as np
 import pytest
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
 from glrt.gpu.struct_arrays import FILE
 from glrt.image.film_state import empty_state
 from glrt.image.sources import load
-from glrt.methods.features import needs_of
+from glrt.packing.scene_arrays import pack_frame, pack_scene
+from glrt.plan.features import needs_of
 from glrt.rendering.film import Exposure, Extent, Film, standard_error
-from glrt.rendering.pack import pack_frame, pack_scene
 from glrt.rendering.pipelines import scene_text, upload
 from glrt.settings import settings_for
 from tests.support.builders import lamp, scene_of, sphere

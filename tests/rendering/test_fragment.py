@@ -14,12 +14,12 @@ from glrt.gpu.evaluate import Probe
 from glrt.gpu.struct_arrays import ROWS, scene_arrays, texture_of, write_rows
 from glrt.image.image import Image
 from glrt.image.sources import load
-from glrt.rendering.kernel_structs import STRUCTS
+from glrt.packing.kernel_structs import STRUCTS
 from glrt.rendering.passes import Resolved
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
-from glrt.scene.catalog import scene_names
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import scene_names
 from tests.support.drivers import OLD_DRIVER
 from tests.support.images import same_bits
 from tests.support.mixed_scene import everything

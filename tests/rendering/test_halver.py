@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from glrt import Image, Renderer, load
+from glrt.core.errors import UsageError
 from glrt.denoise.denoising import denoise
-from glrt.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.halves import halves_of
-from glrt.rendering.halver import Halver
+from glrt.rendering.first_half import Halver
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.settings import Settings
 from tests.support.images import same_bits

@@ -5,12 +5,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.contents import contents_of
-from glrt.rendering.pack_instances import check_numbers
-from glrt.rendering.pack_tree import tree_of
-from glrt.scene import own_trees
+from glrt.packing.instances import check_numbers
+from glrt.packing.scene_tree import tree_of
+from glrt.plan.facts import contents_of
+from glrt.scene import instancing
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.rendering.test_mesh_hits import FLOOR, at_edges, exact, found, rays
@@ -43,12 +43,12 @@ MATERIALS: dict[str, dict[str, Any]] = {
 @pytest.fixture(autouse=True)
 def _always(monkeypatch: pytest.MonkeyPatch) -> None:
     """Meshes of any size have trees of their own where they are used twice."""
-    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1)
+    monkeypatch.setattr(instancing, "LEAST_SAVED", 1)
 
 
 def flat(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     """From here on they have none."""
-    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1 << 40)
+    monkeypatch.setattr(instancing, "LEAST_SAVED", 1 << 40)
     assert not contents_of(scene).instances
 
 

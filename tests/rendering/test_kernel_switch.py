@@ -6,20 +6,20 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.methods.light_layers import Layering
+from glrt.plan.plan import Layering
 from glrt.rendering import kernel_switch
 from glrt.rendering.pipelines import MOST_BAKED, compiled
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import INTERACTIVE
-from glrt.scene.materials import Lambertian
+from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Sphere
+from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import Cost
-from glrt.view.state.controls import replaced
-from glrt.view.state.scene_edits import with_material
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_material
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.mixed_scene import everything
 from tests.support.renders import SAMPLERS, rendering, same

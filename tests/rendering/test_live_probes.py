@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
-from glrt.rendering.pack_probes import IN_ROW
+from glrt.packing.probes import IN_ROW
 from glrt.rendering.probe_tracer import UPDATES, ProbeTracer, kept_light
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.methods.contents import contents_of
+from glrt.plan.facts import contents_of
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, box, plane, quad, scene_of, sphere

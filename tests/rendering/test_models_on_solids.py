@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.kinds import Shape
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.numerics import Array
 from tests.support.renders import rendered

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.rendering import renderer as renderer_module
 from glrt.rendering import schedule as schedule_module

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.merge import merge
 from glrt.image.particle_film import ParticleFilm, summed
 from glrt.image.partition import Partition
-from glrt.rendering.parts import render_parts
+from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption
 from tests.support.images import same_bits

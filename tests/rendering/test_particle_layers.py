@@ -8,7 +8,7 @@ import pytest
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.tonemap import expose_and_encode
-from glrt.methods.light_layers import NONE, ONE, Weights
+from glrt.plan.plan import NONE, ONE, Weights
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost

@@ -7,7 +7,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.methods.particles import link_bits
+from glrt.plan.particles import link_bits
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import Schedule, rounds_for_particles
 from glrt.scene.scene import Scene

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene

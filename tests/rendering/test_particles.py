@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from glrt.cli.main import main
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
-from glrt.rendering import pack_particles, particle_tracer
+from glrt.packing import particles
+from glrt.rendering import particle_tracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.particle_tracer import ParticleTracer
 from glrt.rendering.renderer import Renderer
@@ -148,7 +149,7 @@ def test_sums_need_both_of_their_words(context: Context, monkeypatch: pytest.Mon
     """With units of which a word holds all, or of which a splat takes thousands of words."""
     found = {}
     for bits in (20, 40, 50):
-        monkeypatch.setattr(pack_particles, "UNIT_BITS", bits)
+        monkeypatch.setattr(particles, "UNIT_BITS", bits)
         found[bits] = picture(context, particles=4.0).radiance.astype(np.float64)
     np.testing.assert_allclose(found[40], found[50], rtol=1e-6)
     np.testing.assert_allclose(found[20], found[50], rtol=2e-4)
@@ -158,7 +159,7 @@ def test_light_beyond_a_sum_is_cut_and_told(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     expected = picture(context)
-    monkeypatch.setattr(pack_particles, "UNIT_BITS", 70)
+    monkeypatch.setattr(particles, "UNIT_BITS", 70)
     with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
         image = renderer.render(40).image()
         assert renderer.lost_particles.clipped > 10
@@ -169,7 +170,7 @@ def test_light_beyond_a_sum_is_cut_and_told(
 def test_a_cut_is_told_by_the_command(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Any
 ) -> None:
-    monkeypatch.setattr(pack_particles, "UNIT_BITS", 66)
+    monkeypatch.setattr(particles, "UNIT_BITS", 66)
     words = ["--caustics", "on", "--width", "24", "--height", "24", "--samples", "16"]
     assert main(["render", "cornell", *words, "-o", str(tmp_path / "a.png")]) == 0
     assert "brought more light than a pixel takes at once" in capsys.readouterr().err

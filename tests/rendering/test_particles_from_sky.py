@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
-from glrt.methods.features import needs_of
-from glrt.methods.particles import ball_around
+from glrt.plan.features import needs_of
+from glrt.plan.particles import ball_around
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.conftest import CallGlsl

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.rendering.path_values import PixelPaths
+from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad
+from glrt.scene.shapes.quad import Quad
 from tests.support.builders import glass, lamp, plane, quad, scene_of, sphere
 from tests.support.path_checks import (
     NEAR,

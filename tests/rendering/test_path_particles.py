@@ -9,11 +9,11 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering import pack_particles
-from glrt.rendering.path_values import PixelPaths
+from glrt.packing import particles
+from glrt.rendering.paths.values import PixelPaths
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad
+from glrt.scene.shapes.quad import Quad
 from tests.support.first_hits import axes_of
 from tests.support.path_checks import NEAR, off_surface, outward, vector
 from tests.support.pixel_paths import assert_same_bits, replayed
@@ -92,7 +92,7 @@ def test_their_weight_is_against_both_ways_of_the_camera(
     found: PixelPaths, context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Densities of the film in closed form: 1 / (4 tan^2 cos^3), by cosine over square distance."""
-    monkeypatch.setattr(pack_particles, "front_shares", lambda _, lamps: [0.5] * len(lamps))
+    monkeypatch.setattr(particles, "front_shares", lambda _, lamps: [0.5] * len(lamps))
     matte = replayed(load("cornell"), (3, 9), context, **ON)  # of a wall
     assert found.particles
     assert matte.particles

@@ -4,13 +4,13 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.path_recorder import TOGETHER
-from glrt.rendering.path_replay import _runs, path_replay
-from glrt.scene.catalog import scene_names
+from glrt.rendering.paths.recorder import TOGETHER
+from glrt.rendering.paths.replay import _runs, path_replay
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import scene_names
 from glrt.settings import settings_for
 from tests.support.mixed_scene import everything
 from tests.support.pixel_paths import assert_same_bits, camera_picture, replayed
@@ -73,7 +73,7 @@ def test_records_beyond_the_first_room_are_all_read(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = replayed(everything(), (9, 11), context)
-    monkeypatch.setattr("glrt.rendering.path_recorder.FIRST_ROWS", 3)
+    monkeypatch.setattr("glrt.rendering.paths.recorder.FIRST_ROWS", 3)
     assert replayed(everything(), (9, 11), context).paths == whole.paths
 
 
@@ -81,7 +81,7 @@ def test_samples_of_several_dispatches_are_all_there(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = replayed(everything(), (9, 11), context)
-    monkeypatch.setattr("glrt.rendering.path_replay.TOGETHER", 5)
+    monkeypatch.setattr("glrt.rendering.paths.replay.TOGETHER", 5)
     parts = replayed(everything(), (9, 11), context)
     assert parts.paths == whole.paths
     assert parts.radiances.tobytes() == whole.radiances.tobytes()

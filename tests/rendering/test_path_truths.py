@@ -9,7 +9,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.path_values import PathVertex, PixelPaths
+from glrt.rendering.paths.values import PathVertex, PixelPaths
 from tests.support.path_checks import (
     NEAR,
     crossed_between,

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from glrt.gpu.context import Context
-from glrt.rendering.false_colors import VIRIDIS, FalseColors, Scale
-from glrt.rendering.probe_balls import RADIUS, ProbeBalls, farthest
+from glrt.rendering.screen.false_colors import VIRIDIS, FalseColors, Scale
+from glrt.rendering.screen.probe_balls import RADIUS, ProbeBalls, farthest
 from glrt.scene.scene import Scene
 from tests.rendering.test_live_probes import warmed_up
 from tests.support.builders import lamp, plane, quad, scene_of, sphere

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import Layering
+from glrt.plan.plan import Layering
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import with_lights
 from tests.support.mixed_scene import everything

@@ -7,20 +7,12 @@ import pytest
 
 from glrt.error.estimate import block_means
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import (
-    MOST_LAYERS,
-    NONE,
-    ONE,
-    Layering,
-    emitters,
-    layer_of_group,
-    plan_for,
-)
+from glrt.plan.plan import MOST_LAYERS, NONE, ONE, Layering, emitters, layer_of_group, plan_for
 from glrt.rendering.renderer import Renderer
-from glrt.scene.background import Background
+from glrt.scene.lights.background import Background
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Cost, settings_for
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from tests.support.builders import MATTE, lamp, room_of_planes, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.relit_room import layered, radiance, room, seen, tinted

@@ -9,7 +9,7 @@ from glrt.cli.request import open_renderer
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load_recipe, recipe_of
-from glrt.methods.light_layers import Weights
+from glrt.plan.plan import Weights
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for

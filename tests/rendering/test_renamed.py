@@ -5,11 +5,11 @@ from typing import Any
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.scene.names import less_names
+from glrt.scene.nameless import less_names
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Cost
-from glrt.view.state.controls import replaced
-from glrt.view.state.scene_edits import with_object, with_renamed_material
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_object, with_renamed_material
 from tests.support.images import same_bits
 from tests.support.relit_room import layered, radiance, room
 

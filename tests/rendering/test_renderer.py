@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
 from glrt.gpu.context import Context, open_context
 from glrt.gpu.program import Kernel
 from glrt.rendering.device_scene import DeviceScene

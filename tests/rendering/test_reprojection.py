@@ -7,7 +7,7 @@ import pytest
 
 from glrt.analysis.motion.playing import read_texture
 from glrt.gpu.context import Context
-from glrt.rendering.reprojection import Limits, Reprojection, shares_objects
+from glrt.rendering.history.reprojection import Limits, Reprojection, shares_objects
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.moving import FOV, UNLIMITED, brought, noise, two_walls, view, wall

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.rendering.pack import pack_camera
+from glrt.packing.scene_arrays import pack_camera
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.surface_view import NEEDED, SurfaceView
+from glrt.rendering.screen.surface_view import NEEDED, SurfaceView
 from tests.support.mixed_scene import everything
 
 SIZE = (24, 16)

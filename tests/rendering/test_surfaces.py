@@ -6,8 +6,8 @@ import pytest
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
+from glrt.rendering.history.gbuffer import SurfacePass, Surfaces
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.surfaces import SurfacePass, Surfaces
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
 from tests.support.first_hits import axes_of, hits_of_centers

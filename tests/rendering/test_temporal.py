@@ -9,8 +9,16 @@ from glrt.analysis.motion.playing import play, screen_of
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.sources import load
+from glrt.rendering.history.temporal import (
+    END,
+    OTHER_LIGHT,
+    Mode,
+    Reproject,
+    Temporal,
+    Way,
+    is_lit_alike,
+)
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import END, OTHER_LIGHT, Mode, Reproject, Temporal, Way, is_lit_alike
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, scene_of, sphere

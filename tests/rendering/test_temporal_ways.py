@@ -9,9 +9,9 @@ from glrt.analysis.motion.playing import screen_of
 from glrt.analysis.motion.sequences import orbit
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.light_layers import Layering
+from glrt.plan.plan import Layering
+from glrt.rendering.history.temporal import Mode, Temporal, Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Mode, Temporal, Way
 from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
 from tests.support.images import same_bits

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from glrt.accel import shape_tree
-from glrt.methods.contents import contents_of
-from glrt.rendering import pack_tree, tree_cache
-from glrt.rendering.pack import pack_scene
-from glrt.rendering.pack_tree import SceneTree, tree_of
+from glrt.packing import scene_tree, tree_cache
+from glrt.packing.scene_arrays import pack_scene
+from glrt.packing.scene_tree import SceneTree, tree_of
+from glrt.plan.facts import contents_of
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, quad, scene_of
 from tests.support.meshes import blob, mesh
@@ -35,7 +35,7 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[None]:
         found.append(None)
         return shape_tree.build(*given)
 
-    monkeypatch.setattr(pack_tree, "build", build)
+    monkeypatch.setattr(scene_tree, "build", build)
     return found
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import moderngl
 import pytest
 
-from glrt.errors import RenderError, SceneError, UsageError
+from glrt.core.errors import RenderError, SceneError, UsageError
 from glrt.gpu.context import Context
 from glrt.rendering import device_scene, kernel_switch
 from glrt.rendering.schedule import INTERACTIVE

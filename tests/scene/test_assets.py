@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from glrt.errors import SceneError
-from glrt.scene import assets
-from glrt.scene.assets import Asset, AssetFolder, AssetReader
+from glrt.core.errors import SceneError
+from glrt.scene.files import assets
+from glrt.scene.files.assets import Asset, AssetFolder, AssetReader
 
 WHERE = "room.toml: objects[2].file"
 SECRET = b"a private key"

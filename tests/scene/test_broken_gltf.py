@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import SceneError
-from glrt.scene.mesh_formats import decode_mesh
+from glrt.core.errors import SceneError
+from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.scene.test_mesh_files import damaged
 from tests.support.gltf_files import Builder, textured_square
 

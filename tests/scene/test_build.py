@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import glrt
-from glrt.errors import RenderError, SceneError, UsageError
-from glrt.scene.contents import Contents
-from glrt.scene.toml import parse_scene
+from glrt.core.errors import RenderError, SceneError, UsageError
+from glrt.scene.scenefile.toml import parse_scene
+from glrt.scene.schema.fields import Contents
 from tests.project.test_readme import blocks
 from tests.scene.test_toml import assert_is_one_paragraph
 from tests.support.bad_scenes import GOOD_SCENE

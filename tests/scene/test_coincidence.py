@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glrt.scene.coincidence import box_pairs, coincidence_of
-from glrt.scene.limits import cautions
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import (
     MATTE,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from glrt.scene.cone import Cone
+from glrt.scene.lights.cone import Cone
 from tests.support.numerics import directions
 
 CASES = [(0, 45), (20, 30), (30, 30), (0, 180), (170, 180), (89, 91), (0.001, 0.01)]

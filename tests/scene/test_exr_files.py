@@ -8,9 +8,9 @@ import numpy as np
 import OpenEXR  # type: ignore[import-not-found]
 import pytest
 
-from glrt.errors import RenderError
-from glrt.scene import float_images
-from glrt.scene.image_files import decode_image
+from glrt.core.errors import RenderError
+from glrt.scene.images import float_images
+from glrt.scene.images.image_files import decode_image
 from tests.support.image_bytes import WHERE, exr, exr_of_parts, exr_written, refusal
 from tests.support.images import picture
 

@@ -6,8 +6,8 @@ from numpy.testing import assert_allclose
 
 from glrt.gpu.glsl import expanded
 from glrt.gpu.structs import read_constants
-from glrt.scene import facets
-from glrt.scene.gloss import ROUGHNESS_STEPS, facet_shares, shares_by_step
+from glrt.scene.materials import facets
+from glrt.scene.materials.gloss import ROUGHNESS_STEPS, facet_shares, shares_by_step
 
 
 def test_host_and_kernel_step_alike() -> None:

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.scene.glasses import around_camera, glasses_of, holds
-from glrt.scene.limits import cautions
-from glrt.scene.loading import mesh_problems
+from glrt.scene.loading.loading import mesh_problems
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import (
     MATTE,

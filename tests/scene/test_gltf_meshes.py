@@ -7,8 +7,8 @@ import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
-from glrt.scene.mesh_formats import decode_mesh
-from glrt.scene.triangle_meshes import TriangleMesh
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.support.gltf_files import POINTS, SQUARE, UV, Builder, square
 from tests.support.meshes import icosphere
 

@@ -8,14 +8,16 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.limits import cautions
-from glrt.scene.loading import files_of
-from glrt.scene.materials import Light, Principled
+from glrt.scene.loading.loading import files_of
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad, Sphere
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.gltf_files import COLORS, Builder, square, textured_square
 from tests.support.meshes import box

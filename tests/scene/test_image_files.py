@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from PIL import Image as Pillow
 from PIL import features
 
-from glrt.errors import SceneError
-from glrt.scene import image_files
-from glrt.scene.image_files import decode_image, decode_srgb
+from glrt.core.errors import SceneError
+from glrt.scene.images import image_files
+from glrt.scene.images.image_files import decode_image, decode_srgb
 from tests.fuzz.hunt import hunt
 from tests.fuzz.pictures import broken
 from tests.support.image_bytes import (

@@ -8,9 +8,9 @@ import pytest
 from glrt.cli.main import main
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.catalog import scene_names
-from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import scene_names
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.renders import rendered

@@ -11,10 +11,12 @@ from PIL import Image as Pillow
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.limits import cautions
-from glrt.scene.loading import hashes_of
-from glrt.scene.materials import Lambertian, Material, Principled
+from glrt.scene.loading.loading import hashes_of
+from glrt.scene.materials.kinds import Material
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.gltf_files import COLORS, POINTS, SQUARE, Builder, png, square, textured_square
 from tests.support.renders import rendered, same

@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import glrt
-from glrt.scene.mesh_formats import decode_mesh
-from glrt.scene.named_meshes import mesh_of_arrays
-from glrt.scene.triangle_meshes import checked
+from glrt.scene.files.named_meshes import mesh_of_arrays
+from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.model_files.mesh_formats import decode_mesh
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
 FACE = np.array([[0, 1, 2]])

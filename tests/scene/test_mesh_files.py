@@ -11,10 +11,10 @@ from numpy.testing import assert_allclose
 
 import glrt
 from glrt.cli.main import main
-from glrt.errors import SceneError
-from glrt.scene.loading import files_of
-from glrt.scene.mesh_formats import decode_mesh
-from glrt.scene.named_meshes import mesh_of_arrays
+from glrt.core.errors import SceneError
+from glrt.scene.files.named_meshes import mesh_of_arrays
+from glrt.scene.loading.loading import files_of
+from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.support.meshes import box, icosphere
 
 SCENE = """

@@ -6,12 +6,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt import Renderer
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene import loading
-from glrt.scene.limits import cautions
-from glrt.scene.loading import hashes_of
+from glrt.scene.loading import loading
+from glrt.scene.loading.loading import hashes_of
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.gltf_files import COLORS, png, textured_square
 from tests.support.renders import rendered, same

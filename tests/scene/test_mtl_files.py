@@ -5,9 +5,11 @@ import random
 
 import pytest
 
-from glrt.errors import SceneError
-from glrt.scene.materials import Dielectric, Lambertian, Metal
-from glrt.scene.mtl_files import decode_mtl, material_of
+from glrt.core.errors import SceneError
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.metal import Metal
+from glrt.scene.model_files.mtl import decode_mtl, material_of
 
 HALF = (0.5, 0.25, 0.125)
 _KD, _KS = "Kd 0.5 0.25 0.125\n", "Ks 0.5 0.25 0.125\n"

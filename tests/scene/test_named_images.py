@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import glrt
-from glrt.errors import SceneError, UsageError
+from glrt.core.errors import SceneError, UsageError
 from glrt.image.sources import load
-from glrt.scene.loading import files_of, hashes_of
+from glrt.scene.loading.loading import files_of, hashes_of
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene, scene_to_dict
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
+from glrt.scene.scenefile.toml_writer import write_scene
 from tests.support.sky_images import random_sky, write_exr
 
 SCENE = """

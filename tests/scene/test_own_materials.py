@@ -7,15 +7,15 @@ import pytest
 
 import glrt
 from glrt.cli.main import main
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.image.image import Image, read_recipe
-from glrt.methods.contents import contents_of
-from glrt.scene.assets import AssetFolder
-from glrt.scene.loading import with_files
-from glrt.scene.mesh_formats import decode_mesh, libraries
-from glrt.scene.meshes import Mesh
+from glrt.plan.facts import contents_of
+from glrt.scene.files.assets import AssetFolder
+from glrt.scene.loading.loading import with_files
+from glrt.scene.model_files.mesh_formats import decode_mesh, libraries
 from glrt.scene.scene import Scene
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml_writer import write_scene
+from glrt.scene.shapes.mesh import Mesh
 from tests.support.meshes import box, icosphere
 
 HEAD = """

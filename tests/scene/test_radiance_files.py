@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from glrt.scene.image_files import decode_image
+from glrt.scene.images.image_files import decode_image
 from tests.support.image_bytes import WHERE, flat_hdr, hdr, refusal, rle_hdr
 
 DRAW = np.random.default_rng(5)

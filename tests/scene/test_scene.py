@@ -9,13 +9,18 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import SceneError
-from glrt.scene.background import Background
+from glrt.core.errors import SceneError
 from glrt.scene.camera import Camera
-from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
+from glrt.scene.lights.background import Background
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Finish, Scene, with_lights
-from glrt.scene.shapes import Plane, Quad, Sphere
-from glrt.scene.toml import parse_scene, read_scene, scene_to_dict
+from glrt.scene.scenefile.toml import parse_scene, read_scene, scene_to_dict
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import RenderSettings
 from tests.support.bad_scenes import GOOD_SCENE, changed
 

@@ -11,15 +11,15 @@ from PIL import Image
 from bench.contact_sheet import MOST_BYTES, save_sheet
 from bench.gallery import main, render_gallery
 from bench.weekend import scene_text
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
+from glrt.core.resources import folder
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.resources import folder
-from glrt.scene.catalog import scene_names
-from glrt.scene.materials import Light
+from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Sphere
+from glrt.scene.scenefile.catalog import scene_names
+from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import settings_for
 
 SMALL = 24  # pixels of the longer side

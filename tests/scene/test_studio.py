@@ -8,9 +8,10 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.materials import Light
+from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
 from tests.support.gltf_files import Builder, square
 from tests.support.meshes import box
 from tests.support.renders import rendered

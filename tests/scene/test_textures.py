@@ -8,14 +8,15 @@ import pytest
 from numpy.testing import assert_allclose
 
 import glrt
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.image.sources import load
-from glrt.scene.loading import files_of, hashes_of
-from glrt.scene.materials import Lambertian, Principled
+from glrt.scene.images.texture_sizes import reduced, sizes_of
+from glrt.scene.loading.loading import files_of, hashes_of
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.textures import Texture
 from glrt.scene.scene import Scene
-from glrt.scene.texture_sizes import reduced, sizes_of
-from glrt.scene.textures import Texture
-from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
 from tests.support.builders import box, cylinder, scene_of, sphere
 from tests.support.gltf_files import png
 from tests.support.meshes import icosphere, mesh

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import SceneError
-from glrt.scene.toml import parse_scene, read_scene
+from glrt.core.errors import SceneError
+from glrt.scene.scenefile.toml import parse_scene, read_scene
 from tests.support.bad_lamps import BAD_LAMPS
 from tests.support.bad_scenes import BAD_SCENES, GOOD_SCENE, BadScene
 

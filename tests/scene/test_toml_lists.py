@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from glrt.scene.scene import Scene
-from glrt.scene.toml import decode_scene
-from glrt.view.state.controls import replaced
+from glrt.scene.scenefile.toml import decode_scene
+from glrt.view.controls import replaced
 from tests.support.scene_texts import changed_lines, saved
 
 THREE = """\

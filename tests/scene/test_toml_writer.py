@@ -5,17 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from glrt.errors import RenderError, UsageError
+from glrt.core.errors import RenderError, UsageError
+from glrt.core.resources import folder
 from glrt.image.sources import load
-from glrt.resources import folder
-from glrt.scene import toml_writer
-from glrt.scene.catalog import scene_names
 from glrt.scene.scene import Scene, with_lights
-from glrt.scene.toml import read_scene
-from glrt.scene.toml_writer import scene_with, write_scene
+from glrt.scene.scenefile import toml_writer
+from glrt.scene.scenefile.catalog import scene_names
+from glrt.scene.scenefile.toml import read_scene
+from glrt.scene.scenefile.toml_writer import scene_with, write_scene
 from glrt.settings import settings_for
+from glrt.view.controls import replaced
 from glrt.view.file_watch import INTERVAL, Watch, watch_for
-from glrt.view.state.controls import replaced
 from tests.support.builders import lamp, scene_of, sphere
 from tests.support.scene_texts import changed_lines, saved
 

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.scene.limits import cautions
-from glrt.scene.repeated_triangles import _keys, repeated
-from glrt.scene.triangle_meshes import checked
+from glrt.scene.meshes.repeated_triangles import _keys, repeated
+from glrt.scene.meshes.triangle_meshes import checked
 from glrt.scene.twins import Twin, twins
+from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, box, cylinder, disk, glass, lamp, plane, quad, sphere
 from tests.support.builders import scene_of as scene_from

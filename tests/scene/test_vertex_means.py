@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from glrt.scene.triangle_meshes import checked
-from glrt.scene.vertex_means import mean_tangents
+from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.meshes.vertex_means import mean_tangents
 from tests.support.meshes import Array, Faces
 
 STEPS = 32

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.explanation import explain
-from glrt.methods.omissions import omissions
-from glrt.rendering.pack import pack_scene
+from glrt.packing.scene_arrays import pack_scene
+from glrt.plan.explanation import explain
+from glrt.plan.omissions import omissions
 from glrt.scene.scene import Scene
-from glrt.scene.solids import Box, rotation
+from glrt.scene.shapes.box import Box, rotation
 from glrt.settings import Settings
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, box, glass, lamp, scene_of

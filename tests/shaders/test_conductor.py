@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.scene.conductors import PRESETS, Conductor
+from glrt.scene.materials.conductors import PRESETS, Conductor
 from tests.conftest import CallGlsl
 from tests.support.builders import scene_of, sphere
 from tests.support.numerics import Array

@@ -8,12 +8,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 import glrt
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.rendering.pack import pack_scene
-from glrt.scene.cylinder import Cylinder
+from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene, scene_to_dict
+from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
+from glrt.scene.shapes.cylinder import Cylinder
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, cylinder, glass, lamp, scene_of
 from tests.support.images import same_bits

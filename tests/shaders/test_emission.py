@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.rendering.aims import Aims, around_all, cone_fields, everywhere
-from glrt.scene.cone import Cone
+from glrt.packing.emission_cones import Aims, around_all, cone_fields, everywhere
+from glrt.scene.lights.cone import Cone
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import lamp, quad, scene_of, sphere

@@ -7,7 +7,7 @@ be sampled as a quad.
 import re
 
 from glrt.gpu.glsl import read
-from glrt.methods.contents import SAMPLED
+from glrt.plan.facts import SAMPLED
 
 FILES = ("lights/sampling.glsl", "integrators/classic.glsl", "integrators/path.glsl")
 TELLING = {

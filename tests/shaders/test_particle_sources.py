@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.methods.particles import ball_around, caster_bits, targets_of
+from glrt.plan.particles import ball_around, caster_bits, targets_of
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import (

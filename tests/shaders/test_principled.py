@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.scene.gloss import facet_shares
+from glrt.scene.materials.gloss import facet_shares
 from tests.conftest import CallGlsl
 from tests.shaders.test_material import ggx_d64, ggx_lambda
 from tests.support.builders import scene_of, sphere

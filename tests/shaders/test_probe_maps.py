@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from glrt.rendering.pack_probes import even_directions, seeds, turn
+from glrt.packing.probes import even_directions, seeds, turn
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, plane, scene_of
 

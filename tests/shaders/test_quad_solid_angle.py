@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
-from glrt.rendering.pack import pack_scene
+from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import lamp, plane, quad, scene_of

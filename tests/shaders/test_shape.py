@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.rendering.pack import pack_scene
+from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, disk, plane, quad, scene_of, sphere

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.methods.contents import contents_of
-from glrt.scene import own_trees
-from glrt.scene.materials import Principled
-from glrt.scene.named_meshes import MeshFile
+from glrt.plan.facts import contents_of
+from glrt.scene import instancing
+from glrt.scene.files.named_meshes import MeshFile
+from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.textures import Texture
+from glrt.scene.meshes.triangle_meshes import checked
 from glrt.scene.scene import Scene
-from glrt.scene.textures import Texture
-from glrt.scene.triangle_meshes import checked
 from tests.conftest import CallGlsl
 from tests.support.builders import disk, plane, quad, scene_of, sphere
 from tests.support.meshes import mesh
@@ -251,7 +251,7 @@ def test_tangents_of_corners_go_before_those_of_triangles(
     call_glsl: CallGlsl, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As a file gives them: upwards here, in a mesh that is used once, or twice."""
-    monkeypatch.setattr(own_trees, "LEAST_SAVED", 1)
+    monkeypatch.setattr(instancing, "LEAST_SAVED", 1)
     corners = np.array([[-2.0, -2, 0], [2, -2, 0], [0, 2, 0]])
     uv, along = np.tile(corners[:, :2] * [1, -1], 2), np.tile([0.0, 2, 0], (3, 1))
     given = checked(corners, [[0, 1, 2]], uv=uv, tangents=along)

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from glrt.methods.features import everything
+from glrt.plan.features import everything
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 
 EVERYTHING = everything()
 

@@ -13,7 +13,8 @@ from glrt.gpu.context import Context
 from glrt.image.aovs import AovImage, AovImages
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad, Sphere
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import OF_PATHS, Aov
 from tests.support.alarms import ALPHA, book
 from tests.support.images import same_bits

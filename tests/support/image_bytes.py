@@ -13,8 +13,8 @@ import OpenEXR  # type: ignore[import-not-found]
 import pytest
 from numpy.typing import NDArray
 
-from glrt.errors import SceneError
-from glrt.scene.image_files import decode_image
+from glrt.core.errors import SceneError
+from glrt.scene.images.image_files import decode_image
 
 WHERE = "room.toml: background.image: sky.png"
 GREY, COLOR, PALETTE, GREY_ALPHA, COLOR_ALPHA = 0, 2, 3, 4, 6  # kinds of PNG

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 from glrt.settings import Settings
 
 # Zeros of both signs, denormals, the largest and values that no half float holds.

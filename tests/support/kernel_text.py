@@ -4,9 +4,9 @@ import numpy as np
 
 from glrt.gpu.struct_arrays import FILE, MOST_UNIFORM_BYTES
 from glrt.image.sources import load
-from glrt.rendering.evaluation import no_rows
-from glrt.rendering.pack import pack_scene
+from glrt.packing.scene_arrays import pack_scene
 from glrt.rendering.pipelines import Tier, text_of
+from glrt.rendering.shader_functions import no_rows
 
 
 def written_for(

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.scene.named_meshes import mesh_of_arrays
+from glrt.scene.files.named_meshes import mesh_of_arrays
 
 Array = np.ndarray[Any, Any]
 Faces = tuple[Array, Array]  # vertices (v, 3), faces (n, 3), counter-clockwise seen from outside

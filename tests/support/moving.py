@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from glrt.analysis.motion.playing import read_texture
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.context import Context
-from glrt.rendering.drawn_pass import DrawnPass
+from glrt.rendering.history.drawn_pass import DrawnPass
+from glrt.rendering.history.gbuffer import SurfacePass, Surfaces
+from glrt.rendering.history.reprojection import Limits, Reprojection
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.reprojection import Limits, Reprojection
-from glrt.rendering.surfaces import SurfacePass, Surfaces
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of
 

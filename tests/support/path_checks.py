@@ -8,9 +8,10 @@ import numpy as np
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering.path_values import Contribution, Path, PixelPaths
+from glrt.rendering.paths.values import Contribution, Path, PixelPaths
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Sphere
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.sphere import Sphere
 from tests.support.mixed_scene import everything
 from tests.support.pixel_paths import replayed
 

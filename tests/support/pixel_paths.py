@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from glrt.gpu.context import Context
-from glrt.rendering.path_replay import pixel_paths
-from glrt.rendering.path_values import Path, PixelPaths
+from glrt.rendering.paths.replay import pixel_paths
+from glrt.rendering.paths.values import Path, PixelPaths
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene

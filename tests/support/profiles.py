@@ -18,7 +18,7 @@ import pytest
 from glrt.gpu import struct_arrays
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import Arrays
-from glrt.methods.features import Needs, needs_of
+from glrt.plan.features import Needs, needs_of
 from glrt.rendering import aov_tracer, device_scene, pipelines, schedule
 from glrt.rendering.schedule import rounds_of_search
 from glrt.scene.scene import Scene

@@ -9,11 +9,11 @@ import numpy as np
 
 from glrt.gpu.context import Context
 from glrt.image.image import Pixels
-from glrt.methods.light_layers import Layering, Weights
+from glrt.plan.plan import Layering, Weights
 from glrt.rendering.renderer import Renderer
-from glrt.scene.materials import Light
+from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from tests.support.builders import MATTE, quad, room_of_planes, scene_of, sphere
 
 LAMPS = {

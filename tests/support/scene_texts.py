@@ -5,8 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from glrt.scene.scene import Scene
-from glrt.scene.toml import read_scene
-from glrt.scene.toml_writer import write_scene
+from glrt.scene.scenefile.toml import read_scene
+from glrt.scene.scenefile.toml_writer import write_scene
 
 
 def changed_lines(before: str, after: str) -> list[str]:

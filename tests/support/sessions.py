@@ -5,7 +5,7 @@ from typing import Any
 
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from glrt.view.state.idle_compile import Finding
 from glrt.view.state.idle_kernel import PAUSE
 from glrt.view.state.preview_size import STILL

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import OpenEXR  # type: ignore[import-not-found]
 
-from glrt.scene.named_images import ImageFile, Pixels
+from glrt.scene.files.named_images import ImageFile, Pixels
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, glass, scene_of
 from tests.support.numerics import Array

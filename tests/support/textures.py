@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from glrt.scene.materials import Opaque
-from glrt.scene.named_images import TextureImage
+from glrt.scene.files.named_images import TextureImage
+from glrt.scene.materials.base import Opaque
 from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]

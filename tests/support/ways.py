@@ -7,9 +7,9 @@ import pytest
 
 from glrt import Renderer, load, merge
 from glrt.cli.commands import run
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.image import Image
-from glrt.methods.combinations import Way
+from glrt.plan.combinations import Way
 from glrt.scene.scene import with_lights
 from tests.support.renders import assert_agree, same
 

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from glrt.analysis.motion.playing import read_texture
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.evaluate import Probe
-from glrt.methods.light_layers import Layering
-from glrt.rendering.ataa import Ataa
-from glrt.rendering.more_samples import OTHER_SEED
+from glrt.plan.plan import Layering
+from glrt.rendering.history.ataa import Ataa
+from glrt.rendering.history.more_samples import OTHER_SEED
+from glrt.rendering.history.temporal import Temporal, Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere

@@ -10,10 +10,10 @@ import pytest
 from glrt.analysis.motion.playing import read_texture
 from glrt.gpu.context import Context
 from glrt.gpu.evaluate import Probe
+from glrt.rendering.history.history_filter import Fresh
+from glrt.rendering.history.taa import ANY, Taa, TaaOptions
+from glrt.rendering.history.temporal import Temporal, Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.resolver import Fresh
-from glrt.rendering.taa import ANY, Taa, TaaOptions
-from glrt.rendering.temporal import Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.images import same_bits

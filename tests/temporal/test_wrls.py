@@ -13,10 +13,10 @@ from glrt.analysis.motion.playing import play, read_texture
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.history.history_filter import Fresh
+from glrt.rendering.history.temporal import Mode, Temporal, Way
+from glrt.rendering.history.wrls import Predictor, Wrls
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.resolver import Fresh
-from glrt.rendering.temporal import Mode, Temporal, Way
-from glrt.rendering.wrls import Predictor, Wrls
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.moving import drawn, noise, textures_of, two_walls, view, wall

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 from glrt.analysis.motion.playing import Picture, screen_of
+from glrt.rendering.history.temporal import Temporal
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Temporal
 from glrt.scene.scene import Scene
 
 

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.features import needs_of
-from glrt.methods.light_layers import plan_for
-from glrt.methods.omissions import omissions
-from glrt.scene.clear_sky import ClearSky, sky_pixels
+from glrt.plan.features import needs_of
+from glrt.plan.omissions import omissions
+from glrt.plan.plan import plan_for
+from glrt.scene.lights.clear_sky import ClearSky, sky_pixels
+from glrt.scene.lights.sun import Sun
 from glrt.scene.scene import Scene
-from glrt.scene.sun import Sun
-from glrt.scene.toml import decode_scene
+from glrt.scene.scenefile.toml import decode_scene
 from glrt.settings import Settings
 from tests.support.builders import MATTE, plane, scene_of, sphere
 from tests.support.numerics import Array

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
-from glrt.scene.conductors import PRESETS
+from glrt.scene.materials.conductors import PRESETS
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, lamp, plane, room_of_planes, scene_of, sphere
 from tests.support.renders import METHODS, assert_agree, assert_mean, rendered, same, whole

@@ -9,7 +9,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.scene.cone import Cone
+from glrt.scene.lights.cone import Cone
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, disk, lamp, plane, quad, room_of_planes, scene_of, sphere
 from tests.support.images import same_bits

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from glrt.analysis.reference import closed_form
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import plan_for
-from glrt.methods.table import CLASSIC
+from glrt.plan.methods import CLASSIC
+from glrt.plan.plan import plan_for
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Settings
 from tests.conftest import CallGlsl

@@ -7,7 +7,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.table import CLASSIC
+from glrt.plan.methods import CLASSIC
 from glrt.scene.scene import Scene, with_lights
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.images import same_bits

@@ -1,7 +1,7 @@
 """Light groups of objects, and hidden objects: the bits of a scene that says the same."""
 
 from glrt.gpu.context import Context
-from glrt.methods.features import needs_of
+from glrt.plan.features import needs_of
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere

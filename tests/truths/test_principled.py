@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.features import needs_of
-from glrt.methods.omissions import omissions
+from glrt.plan.features import needs_of
+from glrt.plan.omissions import omissions
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.support.builders import MATTE, box, lamp, plane, quad, scene_of, sphere

@@ -9,15 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from glrt.gpu.context import Context
-from glrt.rendering.pack_probes import (
-    IN_ROW,
-    LIGHT,
-    LIGHT_MAP,
-    even_directions,
-    seeds,
-    turn,
-    update_block,
-)
+from glrt.packing.probes import IN_ROW, LIGHT, LIGHT_MAP, even_directions, seeds, turn, update_block
 from glrt.rendering.probe_tracer import RAYS, ProbeTracer
 from tests.support.builders import MATTE, plane, scene_of
 from tests.truths.test_probes import WAY, directions, inner, probes_of, room

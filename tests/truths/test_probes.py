@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
-from glrt.rendering.pack_probes import DISTANCE_MAP, IN_ROW, LIGHT_MAP, even_directions
+from glrt.packing.probes import DISTANCE_MAP, IN_ROW, LIGHT_MAP, even_directions
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.probe_tracer import UPDATES, ProbeTracer, kept_light
 from glrt.rendering.renderer import Renderer

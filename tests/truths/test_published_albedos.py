@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glrt.scene.gloss import facet_shares
+from glrt.scene.materials.gloss import facet_shares
 
 # MaterialX (Academy Software Foundation), the rational fit of the directional albedo of GGX with
 # height-correlated shadowing: factors of 1, x, y, xy, x^2, y^2, x^2 y, x y^2 and x^2 y^2, with the

@@ -163,7 +163,7 @@ def test_closed_white_room_ends_at_its_bounce_limit(context: Context) -> None:
 @pytest.mark.parametrize("fov", [1e-3, 0.01, 1.0, 120.0, 179.0, 179.9])
 def test_rays_are_right_at_any_field_of_view(call_glsl: CallGlsl, fov: float) -> None:
     """Within 4 roundings of a direction, or of the frame where that is coarser. A pixel narrower
-    than a direction's rounding is a caution (glrt/scene/limits.py).
+    than a direction's rounding is a caution (glrt/scene/warnings.py).
     """
     camera = {"position": [3, -2, 5], "look_at": [-1, 4, 2], "up": [0.3, 1, 0.2], "fov": fov}
     scene = scene_of([sphere([0, 0, 0], 0.01, "m")], {"m": MATTE}, camera, render=SQUARE)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.view.state.new_objects import LAMP, with_new
+from glrt.view.edits.new_objects import LAMP, with_new
 from tests.support.builders import MATTE, lamp, plane, scene_of
 from tests.support.meshes import mesh, quads
 from tests.support.renders import rendered

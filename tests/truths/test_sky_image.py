@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from glrt.analysis.reference import closed_form
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.explanation import explain
-from glrt.methods.features import needs_of
-from glrt.methods.omissions import omissions
+from glrt.plan.explanation import explain
+from glrt.plan.features import needs_of
+from glrt.plan.omissions import omissions
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Settings
 from tests.conftest import CallGlsl

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.rendering.sky_table import sky_sampling
+from glrt.packing.sky_table import sky_sampling
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.shaders.test_sampling import DRAWS, RNG, cells_of

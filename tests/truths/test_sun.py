@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.methods.features import needs_of
-from glrt.methods.omissions import omissions
+from glrt.plan.features import needs_of
+from glrt.plan.omissions import omissions
+from glrt.scene.lights.sun import Sun
 from glrt.scene.scene import Scene, with_lights
-from glrt.scene.sun import Sun
 from glrt.settings import Settings
 from tests.support.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.renders import METHODS, assert_agree, assert_mean, rendered, whole

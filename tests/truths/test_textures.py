@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context, open_context
-from glrt.methods.features import needs_of
+from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere

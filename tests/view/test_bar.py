@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from imgui_bundle import ImVec2, imgui
 
-from glrt.view.panels.anchor import ANCHOR
 from glrt.view.panels.bar import below_bar
-from glrt.view.panels.widgets import button
 from glrt.view.state.preferences import Preferences
+from glrt.view.widgets.fields import button
+from glrt.view.widgets.steady_widget import ANCHOR
 
 SIZE = ImVec2(300.0, 200.0)
 

@@ -8,11 +8,10 @@ import pytest
 from glrt.image.sources import load
 from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
-from glrt.view.state.changes import told_change
-from glrt.view.state.controls import replaced
-from glrt.view.state.edited import State
-from glrt.view.state.new_objects import with_new
-from glrt.view.state.scene_edits import (
+from glrt.view.controls import replaced
+from glrt.view.edits.edited_state import State
+from glrt.view.edits.new_objects import with_new
+from glrt.view.edits.scene_edits import (
     with_object,
     with_own_material,
     with_renamed_material,
@@ -20,6 +19,7 @@ from glrt.view.state.scene_edits import (
     without_object,
     without_unused_materials,
 )
+from glrt.view.edits.state_differences import told_change
 
 ROOM = load("cornell")
 START = State(ROOM, settings_for(ROOM.render))

@@ -4,14 +4,17 @@ from typing import get_args
 
 import pytest
 
-from glrt.errors import UsageError
-from glrt.scene.background import Background
+from glrt.core.errors import UsageError
 from glrt.scene.camera import Camera
-from glrt.scene.materials import Dielectric, Lambertian, Light, Metal
+from glrt.scene.lights.background import Background
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Sphere
+from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import Cost, Method, Settings
-from glrt.view.state.controls import Control, control_of_items, controls_of, replaced
+from glrt.view.controls import Control, control_of_items, controls_of, replaced
 from glrt.view.state.preferences import Preferences
 
 

@@ -2,8 +2,9 @@
 
 import pytest
 
-from glrt.methods.light_layers import Plan, plan_for
+from glrt.plan.plan import Plan, plan_for
 from glrt.settings import Cost
+from glrt.view.edits.scene_edits import with_material
 from glrt.view.state.costs import (
     cost_of_light,
     cost_of_tint,
@@ -12,7 +13,6 @@ from glrt.view.state.costs import (
     reach_of_size,
     traced_bounces,
 )
-from glrt.view.state.scene_edits import with_material
 from glrt.view.state.session import Session
 from tests.support.sessions import start
 

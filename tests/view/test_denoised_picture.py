@@ -13,7 +13,7 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
-from glrt.scene.materials import Light
+from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings, settings_for
 from glrt.view.state import denoise_process

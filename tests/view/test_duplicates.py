@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.kinds import Shape
 from glrt.view.viewport.transform import clear_of
 from tests.support.builders import box, disk, plane, quad, scene_of, sphere
 

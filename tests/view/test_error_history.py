@@ -9,7 +9,7 @@ from bench.fooling_scenes import fooling_scene
 from glrt.error.estimate import Band
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.methods.light_layers import ONE, Weight
+from glrt.plan.plan import ONE, Weight
 from glrt.view.panels.plots import forecast, told_error
 from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
 from tests.support.mixed_scene import everything

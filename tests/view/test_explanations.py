@@ -2,9 +2,9 @@
 
 import pytest
 
-from glrt.scene.materials import Metal
+from glrt.scene.materials.metal import Metal
+from glrt.view.controls import Control, controls_of
 from glrt.view.panels import lights, panel
-from glrt.view.state.controls import Control, controls_of
 from glrt.view.state.explanations import EXPLANATIONS, explanation_of
 
 

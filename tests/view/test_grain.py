@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glrt.view.state.grain import MOST, SURE, FirstSurface, grain_of
+from glrt.view.state.preview_noise import MOST, SURE, FirstSurface, grain_of
 
 
 def noisy(deviation: float, size: tuple[int, int] = (60, 80)) -> np.ndarray:

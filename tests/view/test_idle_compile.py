@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for

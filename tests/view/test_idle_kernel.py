@@ -2,7 +2,7 @@
 
 import pytest
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.idle_compile import Finding, TrialCompile

@@ -5,11 +5,11 @@ from typing import Any
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import Layering
+from glrt.plan.plan import Layering
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights
-from glrt.view.state.controls import replaced
-from glrt.view.state.scene_edits import with_material
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_material
 from glrt.view.state.session import Session
 from tests.support.builders import sphere
 from tests.support.images import same_bits

@@ -6,9 +6,9 @@ from typing import Any
 import moderngl
 import pytest
 
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import NONE, ONE
+from glrt.plan.plan import NONE, ONE
 from glrt.rendering.film import Film
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for

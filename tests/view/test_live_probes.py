@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.scene.scene import with_lights

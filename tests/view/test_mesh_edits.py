@@ -11,10 +11,10 @@ from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import Arrays
 from glrt.rendering.pipelines import Tier, upload
 from glrt.rendering.renderer import Renderer
-from glrt.scene.meshes import Mesh
 from glrt.scene.scene import Scene
+from glrt.scene.shapes.mesh import Mesh
 from glrt.settings import Cost
-from glrt.view.state.scene_edits import with_object
+from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport.pick import pick
 from glrt.view.viewport.transform import moved_to, object_matrix, scaled, shifted
 from tests.support.builders import lamp, plane, scene_of, sphere
@@ -106,8 +106,8 @@ def test_a_camera_that_moves_packs_no_triangles(
     fresh.release()
     renderer = Renderer(scene, context=context, tier="generic", **small)
     renderer.render(4)
-    monkeypatch.setattr("glrt.rendering.pack_tree.triangles_of", None)
-    monkeypatch.setattr("glrt.rendering.pack_tree.build", None)
+    monkeypatch.setattr("glrt.packing.scene_tree.triangles_of", None)
+    monkeypatch.setattr("glrt.packing.scene_tree.build", None)
     uploads: list[str] = []
 
     def watched(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:

@@ -10,14 +10,14 @@ from glrt.cli.request import open_renderer
 from glrt.gpu.context import Context
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import Arrays
-from glrt.rendering import pack_instances
+from glrt.packing import instances
 from glrt.rendering.pipelines import Tier, upload
 from glrt.rendering.renderer import Renderer
-from glrt.scene import own_trees
-from glrt.scene.meshes import Mesh
+from glrt.scene import instancing
 from glrt.scene.scene import Scene
+from glrt.scene.shapes.mesh import Mesh
 from glrt.settings import Cost
-from glrt.view.state.scene_edits import with_object
+from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport.transform import shifted
 from tests.support.builders import MATTE, lamp, plane, scene_of
 from tests.support.meshes import blob, icosphere, mesh
@@ -29,7 +29,7 @@ AHEAD = {"position": [0, 0, 4], "look_at": [0, 0, 0], "fov": 40}
 @pytest.fixture(autouse=True)
 def _large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Meshes are large from 1,000 triangles on."""
-    monkeypatch.setattr(own_trees, "LEAST_LARGE", 1000)
+    monkeypatch.setattr(instancing, "LEAST_LARGE", 1000)
 
 
 def things() -> Scene:
@@ -74,7 +74,7 @@ def test_a_large_mesh_that_is_moved_again_builds_and_uploads_no_tree(
         for step in (scene, moved(scene, 0, 0, 0.5, 0), moved(scene, 1, 0, 0.25, 0.5))
     ]
     assert np.array_equal(renderer.render(4).image().radiance, expected[0])
-    monkeypatch.setattr(pack_instances, "build", None)
+    monkeypatch.setattr(instances, "build", None)
     uploads: list[str] = []
 
     def watched(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:
@@ -125,8 +125,8 @@ def test_a_picture_with_moved_meshes_is_made_again_from_its_recipe(context: Cont
 def test_a_mesh_in_the_same_place_is_not_moved() -> None:
     before = things().meshes
     same = [mesh.model_copy(update={"material": "lamp"}) for mesh in before]
-    assert own_trees.after_moves("moved", before, same) == "moved"
+    assert instancing.after_moves("moved", before, same) == "moved"
     turned = before[0].model_copy(update={"rotate": (0.0, 1.0, 0.0)})
     assert isinstance(turned, Mesh)
-    assert own_trees.after_moves("moved", before, (turned, *before[1:])) == "large"
-    assert own_trees.after_moves("repeated", before, (turned, *before[1:])) == "repeated"
+    assert instancing.after_moves("moved", before, (turned, *before[1:])) == "large"
+    assert instancing.after_moves("repeated", before, (turned, *before[1:])) == "repeated"

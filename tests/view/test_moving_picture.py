@@ -6,15 +6,15 @@ import moderngl
 import pytest
 
 from glrt.analysis.motion.playing import read_texture
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.rendering import surfaces, wrls
-from glrt.rendering.drawn_pass import DrawnPass
-from glrt.rendering.temporal import END, Mode, Temporal, Way
+from glrt.rendering.history import gbuffer, wrls
+from glrt.rendering.history.drawn_pass import DrawnPass
+from glrt.rendering.history.temporal import END, Mode, Temporal, Way
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from glrt.view.state.error_history import Progress
 from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import Session
@@ -173,7 +173,7 @@ def test_without_room_the_picture_goes_on_without_history(
     def refuse(*_: object) -> None:
         raise RenderError("no room")
 
-    monkeypatch.setattr(surfaces.Surfaces, "begin", refuse)
+    monkeypatch.setattr(gbuffer.Surfaces, "begin", refuse)
     walk(moving)
     assert "temporal reset" in moving.problem
     assert moving.samples == 1

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glrt.errors import GlrtError, UsageError
+from glrt.core.errors import GlrtError, UsageError
 from glrt.scene.camera import Camera
 from glrt.scene.values import LARGEST, SMALLEST
 from glrt.view.viewport import orbit

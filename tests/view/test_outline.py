@@ -8,10 +8,14 @@ import pytest
 
 import glrt
 from glrt.scene.camera import Camera
-from glrt.scene.cylinder import Cylinder
-from glrt.scene.meshes import Mesh
-from glrt.scene.shapes import KINDS, Disk, Plane, Quad, Shape, Sphere
-from glrt.scene.solids import Box
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.kinds import KINDS, Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 from glrt.view.viewport import outline as outlines
 from glrt.view.viewport.outline import STEPS, faces_of_triangles, outline
 from glrt.view.viewport.pick import ray_through

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from glrt.image.sources import load
-from glrt.rendering.path_values import Contribution, Path, PathVertex
+from glrt.rendering.paths.values import Contribution, Path, PathVertex
 from glrt.view.viewport.outline import projected
 from glrt.view.viewport.path_lines import FOV, Ball, lines_of, outside, surroundings
 

@@ -8,14 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Plane, Quad, Shape, Sphere
-from glrt.view.state.scene_edits import with_object
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
+from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import pick, ray_through
 from glrt.view.viewport.transform import (

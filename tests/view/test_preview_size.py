@@ -5,15 +5,7 @@ from typing import Any
 
 import pytest
 
-from glrt.view.state.preview_size import (
-    COARSEST,
-    FACTORS,
-    FINER,
-    LEAST,
-    OVERRUN,
-    STILL,
-    Preview,
-)
+from glrt.view.state.preview_size import COARSEST, FACTORS, FINER, LEAST, OVERRUN, STILL, Preview
 from tests.support.sessions import Clock
 
 PIXELS = 1 << 16

@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import SceneError, UsageError
+from glrt.core.errors import SceneError, UsageError
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_material, with_object
 from glrt.view.state.preview_size import COARSEST, FACTORS, FIRST_SAMPLES, STILL
-from glrt.view.state.scene_edits import with_material, with_object
 from glrt.view.state.session import Session
 from tests.support.sessions import Clock, frames, start, walked
 

@@ -11,8 +11,8 @@ from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import settings_for
-from glrt.view.state.controls import replaced
-from glrt.view.state.edited import State
+from glrt.view.controls import replaced
+from glrt.view.edits.edited_state import State
 from glrt.view.state.reference_image import ReferenceImage
 from glrt.view.state.session import ANNOUNCED, Session
 from glrt.view.viewport.difference import difference_of

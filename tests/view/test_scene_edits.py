@@ -6,14 +6,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.errors import GlrtError, UsageError
+from glrt.core.errors import GlrtError, UsageError
 from glrt.image.sources import load
-from glrt.scene.materials import TYPES, Dielectric, Lambertian, Light, Metal, Principled
-from glrt.scene.meshes import Mesh
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import TYPES
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene, with_lights
-from glrt.view.state.controls import replaced
-from glrt.view.state.new_objects import ADDED, with_model, with_new
-from glrt.view.state.scene_edits import (
+from glrt.scene.shapes.mesh import Mesh
+from glrt.view.controls import replaced
+from glrt.view.edits.new_objects import ADDED, with_model, with_new
+from glrt.view.edits.scene_edits import (
     found_again,
     free_name,
     retyped,

@@ -2,14 +2,14 @@
 
 import pytest
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.rendering.renderer import Renderer
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_renamed_material
 from glrt.view.state.frame_budget import LEAST, FrameBudget
-from glrt.view.state.scene_edits import with_renamed_material
 from glrt.view.state.session import Session
 from tests.support.builders import MATTE, lamp, sphere
 from tests.support.mixed_scene import everything

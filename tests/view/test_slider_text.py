@@ -2,7 +2,7 @@
 
 import pytest
 
-from glrt.view.panels.slider_text import Slider, beside_grip, share_of
+from glrt.view.widgets.slider_text import Slider, beside_grip, share_of
 
 GRIP, SPACE, FORM = 12.0, 4.0, "%.3g"
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from imgui_bundle import ImVec2, imgui
 
+from glrt.core.resources import folder
 from glrt.image.sources import load
-from glrt.resources import folder
 from glrt.settings import Settings
 from glrt.view.files import Files
 from glrt.view.messages import SHOWN, Messages

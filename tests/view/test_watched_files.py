@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
+from glrt.core.resources import folder
 from glrt.image.sources import load
-from glrt.resources import folder
 from glrt.scene.scene import Scene
-from glrt.scene.toml import read_scene
+from glrt.scene.scenefile.toml import read_scene
 from glrt.settings import Settings
 from glrt.view.file_watch import INTERVAL
 from glrt.view.files import Files

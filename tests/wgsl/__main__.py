@@ -9,10 +9,10 @@ import sys
 import time
 from typing import Any
 
-from glrt.cli.process import peak_bytes, since_start
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.image.image import check_writable
 from glrt.image.sources import load_recipe
+from glrt.process.command import peak_bytes, since_start
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.device import describe, open_device

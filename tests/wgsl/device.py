@@ -3,7 +3,7 @@
 from functools import cache
 from typing import Any
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
 
 Device = Any  # wgpu is imported where it is used: it is no dependency of glrt
 

@@ -1,16 +1,17 @@
 """A scene as the bytes of the thesis's buffers.
 
-The numbers are those of `glrt.rendering.pack`, relative to the camera: both versions read these.
+The numbers are those of `glrt.packing.scene_arrays`, relative to the camera: both versions read
+these.
 """
 
 from typing import Any
 
 import numpy as np
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt.gpu.structs import read_constants, record
-from glrt.methods.contents import contents_of
-from glrt.rendering.pack import pack_camera, pack_scene
+from glrt.packing.scene_arrays import pack_camera, pack_scene
+from glrt.plan.facts import contents_of
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.text import read, struct
@@ -22,7 +23,7 @@ _POSITIONS = {"SPHERE": "center", "PLANE": "point", "QUAD": "corner"}
 
 
 def camera_buffer(scene: Scene, settings: Settings) -> bytes:
-    """Position is the origin; orientation, focus and lens as in `glrt.rendering.pack`."""
+    """Position is the origin; orientation, focus and lens as in `glrt.packing.scene_arrays`."""
     camera = pack_camera(scene.camera, settings.width / settings.height)
     return record(struct("Camera"), camera).tobytes()
 

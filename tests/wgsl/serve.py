@@ -4,7 +4,7 @@ import sys
 import time
 
 from bench.peer import Request, serve
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.image.image import Image
 from tests.wgsl.device import describe, open_device
 from tests.wgsl.program import RayTracer

@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer

@@ -12,8 +12,8 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.program import Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.methods.features import needs_of
-from glrt.rendering.pack import pack_frame, pack_scene
+from glrt.packing.scene_arrays import pack_frame, pack_scene
+from glrt.plan.features import needs_of
 from glrt.rendering.pipelines import scene_text, upload
 from glrt.scene.scene import Scene
 from glrt.settings import Settings

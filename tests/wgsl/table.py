@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.sources import load
 from glrt.scene.scene import Scene

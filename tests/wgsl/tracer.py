@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
+from glrt.core.version import VERSION
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.rendering.film import Exposure, standard_error
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
-from glrt.version import VERSION
 from tests.wgsl.device import describe
 from tests.wgsl.program import RayTracer
 from tests.wgsl.resources import RandomTexture, SceneBuffers, color_texture, read_texture

@@ -4,7 +4,7 @@ import math
 
 from imgui_bundle import imgui
 
-from glrt.view.state.scene_edits import with_object
+from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport import orbit
 from tests.window.gestures import ball, lines_told, press
 from tests.window.hand import Hand, check

@@ -5,8 +5,9 @@ from typing import Any
 import pytest
 
 from glrt.settings import Cost
-from glrt.view.panels import background, lights, panel, sun, widgets
-from glrt.view.state.controls import Control
+from glrt.view.controls import Control
+from glrt.view.panels import background, lights, panel, sun
+from glrt.view.widgets import fields
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import move
 from tests.window.hand import Hand, check
@@ -85,14 +86,14 @@ def every_control_costs_what_it_says(hand: Hand) -> None:
 def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
     """So that one that is added is added to the checks, too."""
     drawn: set[str] = set()
-    inner = widgets.edited
+    inner = fields.edited
 
     def seen(control: Control, value: Any, name: str = "") -> Any:
         drawn.add(f"{control.label}##{name}" if name else control.label)
         return inner(control, value, name)
 
     hand.ctx.set_ref("Controls")
-    drawing: list[Any] = [widgets, panel, lights, background, sun]
+    drawing: list[Any] = [fields, panel, lights, background, sun]
     for module in drawing:
         module.edited = seen
     for section in SECTIONS:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.error.estimate import DARK
-from glrt.rendering.false_colors import ERROR
+from glrt.rendering.screen.false_colors import ERROR
 from glrt.settings import settings_for
 from tests.window.check_views import views
 from tests.window.hand import Hand, check

@@ -17,10 +17,10 @@ from imgui_bundle import imgui
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
 from glrt.view.panels.gizmo import is_held
-from glrt.view.state import grain
+from glrt.view.state import preview_noise
 from glrt.view.state.frame_budget import FrameBudget
-from glrt.view.state.grain import FirstSurface
 from glrt.view.state.preferences import Preferences
+from glrt.view.state.preview_noise import FirstSurface
 from tests.window.gestures import ball, place_of
 from tests.window.hand import Hand, check
 
@@ -56,7 +56,7 @@ def slowly(hand: Hand, grain_read: float = math.inf) -> Iterator[None]:
     hand.there(begin)
     hand.settle()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(grain, "MOST", grain_read)
+        patch.setattr(preview_noise, "MOST", grain_read)
         patch.setattr(app, "pace", NoTime(10))
         yield
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import glfw
 
-from glrt.scene.toml import read_scene
+from glrt.scene.scenefile.toml import read_scene
 from tests.window.gestures import answer, reopen
 from tests.window.hand import Hand, check
 

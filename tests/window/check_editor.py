@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from glrt.view.edits.new_objects import ADDED
 from glrt.view.panels.viewport import _OUTLINE
-from glrt.view.state.new_objects import ADDED
 from tests.support.gltf_files import textured_square
 from tests.window.gestures import (
     add,

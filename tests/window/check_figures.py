@@ -3,10 +3,10 @@
 import pytest
 from imgui_bundle import imgui
 
+from glrt.rendering.history.temporal import Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Way
+from glrt.view.controls import replaced
 from glrt.view.panels.plots import figures
-from glrt.view.state.controls import replaced
 from tests.window.gestures import lines_told, replaced_fov
 from tests.window.hand import Hand, check
 

@@ -10,7 +10,7 @@ import glfw  # isort: skip
 
 from glrt.image.image import read_recipe
 from glrt.image.sources import load
-from glrt.scene.toml import read_scene
+from glrt.scene.scenefile.toml import read_scene
 from glrt.view import file_dialogs
 from glrt.view.state.recent import load_recent
 from tests.window.gestures import answer, press, reopen, replaced_fov

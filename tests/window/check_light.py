@@ -7,8 +7,9 @@ import pytest
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
-from glrt.view.panels import lights, panel, widgets
-from glrt.view.state.controls import Control
+from glrt.view.controls import Control
+from glrt.view.panels import lights, panel
+from glrt.view.widgets import fields
 from tests.window.gestures import move, reopen
 from tests.window.hand import SMALL, Hand, check
 
@@ -101,7 +102,7 @@ def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
 @check
 def a_row_of_the_panel_tells_its_lamp(hand: Hand) -> None:
     labels: list[str] = []
-    inner = widgets.edited
+    inner = fields.edited
 
     def seen(control: Control, value: Any, name: str = "") -> Any:
         labels.append(control.label)

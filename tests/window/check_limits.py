@@ -12,8 +12,8 @@ from imgui_bundle.imguizmo import im_guizmo
 
 from glrt.scene.scene import Scene, with_lights
 from glrt.scene.values import LARGEST, SMALLEST
-from glrt.view.state.controls import replaced
-from glrt.view.state.scene_edits import with_object
+from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport import orbit
 from tests.support.builders import lamp, plane, scene_of
 from tests.window.gestures import ball, drag, reopen

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from glrt.scene.conductors import PRESETS
+from glrt.scene.materials.conductors import PRESETS
 from glrt.scene.scene import Scene
 from glrt.settings import Cost
 from tests.support.builders import scene_of, sphere

@@ -8,10 +8,11 @@ import pytest
 from imgui_bundle import ImVec2, imgui
 
 from glrt.view import file_dialogs
-from glrt.view.panels import viewport, widgets
+from glrt.view.controls import replaced
+from glrt.view.panels import viewport
 from glrt.view.panels.pair_images import draw_notice
 from glrt.view.panels.path_overlay import place_of_outside
-from glrt.view.state.controls import replaced
+from glrt.view.widgets import fields
 from tests.window.check_layout import resized
 from tests.window.gestures import add, ball, click, lines_told, press
 from tests.window.hand import Hand, check
@@ -120,7 +121,7 @@ def a_list_tells_what_its_words_mean(hand: Hand) -> None:
         written(text)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(widgets.imgui, "text_disabled", heard)  # type: ignore[attr-defined]
+        patch.setattr(fields.imgui, "text_disabled", heard)  # type: ignore[attr-defined]
         hand.ctx.item_click(f"//Controls/type##material {shape.material}")
         hand.ctx.yield_(3)
         assert {"matte", "glass, water", "a lamp"} <= set(told)

@@ -7,17 +7,18 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from glrt.methods.explanation import explain
-from glrt.scene.cone import Cone
-from glrt.scene.materials import Opaque
-from glrt.scene.objects import Object
+from glrt.plan.explanation import explain
+from glrt.scene.lights.cone import Cone
+from glrt.scene.materials.base import Opaque
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.base import Object
+from glrt.scene.shapes.kinds import Shape
 from glrt.settings import Cost
-from glrt.view.panels import materials, objects, plots, widgets
+from glrt.view.controls import Control
+from glrt.view.panels import materials, objects, plots
 from glrt.view.panels.gizmo import is_held
-from glrt.view.state.controls import Control
 from glrt.view.viewport.orbit import axes
+from glrt.view.widgets import fields
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
 from tests.window.gestures import ball, click, double_click, place_of, reopen
 from tests.window.hand import SMALL, Hand, check
@@ -147,7 +148,7 @@ def what_edits_of_an_object_cost_stands_beside_them(hand: Hand) -> None:
     number, _ = ball(hand)
     costs: dict[str, Cost] = {}
     handles: list[Cost] = []
-    inner = widgets.edited
+    inner = fields.edited
 
     def seen(control: Control, value: Any, name: str = "") -> Any:
         costs[control.label] = control.cost

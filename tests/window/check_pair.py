@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from glrt.errors import RenderError
-from glrt.view.pair import Pair, Slot
+from glrt.core.errors import RenderError
+from glrt.view.compared_picture import Pair, Slot
 from glrt.view.state.session import Session
 from tests.window.gestures import move
 from tests.window.hand import Hand, check

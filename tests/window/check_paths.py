@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from glrt.rendering.path_file import paths_from_json
-from glrt.rendering.path_replay import path_replay, pixel_paths
-from glrt.rendering.path_values import PixelPaths
+from glrt.rendering.paths.file import paths_from_json
+from glrt.rendering.paths.replay import path_replay, pixel_paths
+from glrt.rendering.paths.values import PixelPaths
 from glrt.settings import settings_for
 from glrt.view.state.path_explorer import FOLLOWED
 from tests.window.gestures import ball, click, lines_told, press

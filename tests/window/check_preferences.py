@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from imgui_bundle import imgui
 
+from glrt.view.controls import replaced
 from glrt.view.panels.plots import figures
-from glrt.view.state.controls import replaced
 from glrt.view.viewport import orbit
 from tests.window.gestures import drag, far_apart, move
 from tests.window.hand import Hand, check

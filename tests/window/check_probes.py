@@ -1,6 +1,6 @@
 """Methods with probes in the window: their control, and what an edit of a lamp costs there."""
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost
 from glrt.view.state.session import Session

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from glrt.scene.clear_sky import ClearSky
+from glrt.scene.lights.clear_sky import ClearSky
 from glrt.settings import Cost
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from tests.support.builders import plane
 from tests.support.sky_images import random_sky, under
 from tests.window.gestures import move

@@ -3,11 +3,11 @@
 import pytest
 from imgui_bundle import ImVec2, imgui
 
+from glrt.view.controls import replaced
 from glrt.view.panels import viewport
 from glrt.view.panels.navigation import NOTICE
 from glrt.view.panels.pair_images import draw_notice
 from glrt.view.panels.tour import STEPS
-from glrt.view.state.controls import replaced
 from tests.window.gestures import ball, click, press
 from tests.window.hand import Hand, check
 

@@ -8,11 +8,11 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.gpu import driver_checks
-from glrt.rendering.false_colors import ERROR, HISTORY, MASK, WEIGHT
+from glrt.rendering.screen.false_colors import ERROR, HISTORY, MASK, WEIGHT
 from glrt.settings import Aov, Cost
+from glrt.view.controls import replaced
 from glrt.view.panels import legend
 from glrt.view.panels.inspector import told_pixel
-from glrt.view.state.controls import replaced
 from tests.window.gestures import lines_told, press
 from tests.window.hand import Hand, check
 

@@ -4,7 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from glrt.resources import folder
+from glrt.core.resources import folder
 from tests.window.gestures import reopen
 from tests.window.hand import Hand, check
 

@@ -15,9 +15,9 @@ import glfw  # isort: skip
 
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
+from glrt.view.controls import replaced
 from glrt.view.panels import viewport
 from glrt.view.panels.pair_images import draw_notice
-from glrt.view.state.controls import replaced
 from glrt.view.viewport.orbit import axes
 from tests.window.hand import SMALL, WAIT, Hand
 

@@ -14,13 +14,13 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
-from glrt.view.panels.anchor import ANCHOR
+from glrt.view.controls import replaced
 from glrt.view.panels.navigation import navigate
-from glrt.view.state.controls import replaced
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT
 from glrt.view.viewport.picture import Picture
+from glrt.view.widgets.steady_widget import ANCHOR
 from glrt.view.window import Window
 
 Result = TypeVar("Result")

@@ -17,11 +17,11 @@ from typing import Any
 from imgui_bundle import imgui
 
 import glfw  # isort: skip
-from glrt import files
 from glrt.cli.main import main
+from glrt.core import files
 from glrt.rendering import kernel_switch
 from glrt.view import event_wait
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from glrt.view.window import Window
 
 FRAMES = 12  # after which the picture has samples, and what the moment needs begins

@@ -12,7 +12,7 @@ from typing import Any
 
 from glrt.analysis.chart.curves import LEVELS, Curve, front
 from glrt.analysis.chart.experiment import Experiment
-from glrt.analysis.chart.words import ending, percent, speed_up
+from glrt.analysis.chart.page import ending, percent, speed_up
 from glrt.analysis.plot import FORMATS, open_figure, save_figure
 
 MARKERS = "os^Dv<>ph*XPd1+28H34"

@@ -8,15 +8,15 @@ from pathlib import Path
 from glrt.analysis.chart.curves import Curve, curves_of
 from glrt.analysis.chart.measure import Bench, Round
 from glrt.analysis.chart.rays import Rays, rays_of
-from glrt.analysis.chart.rounds import key_of, load_rounds, save_rounds
+from glrt.analysis.chart.saved_rounds import key_of, load_rounds, save_rounds
 from glrt.analysis.reference import Reference, reference_for
 from glrt.analysis.variants import Variant, variants_of
+from glrt.core.version import VERSION
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.rendering.schedule import iterations_per_sample
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
-from glrt.version import VERSION
 
 SAMPLER = "independent"  # of all variants whose names do not contain another one
 REFERENCE_ERROR = 0.005  # relative RMS

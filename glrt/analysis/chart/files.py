@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from glrt import files
 from glrt.analysis.chart.curves import LEVELS, Curve, front
 from glrt.analysis.chart.drawing import save_plots
 from glrt.analysis.chart.experiment import Experiment
-from glrt.analysis.chart.words import page
+from glrt.analysis.chart.page import page
+from glrt.core import files
 
 
 def save_chart(experiment: Experiment, folder: Path) -> None:

@@ -9,15 +9,15 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import NamedTuple
 
-from glrt.analysis.chart.words import number, percent
+from glrt.analysis.chart.page import number, percent
 from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.denoised import DenoisedChoice, denoised_choice
 from glrt.analysis.method_choice.search import TIE, WITHOUT_PROBES, Verdict, what_suffices
 from glrt.analysis.method_choice.trial import LEADER, OutOfTimeError, Tell
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.gpu.context import open_context
-from glrt.methods.omissions import omissions
-from glrt.methods.table import BIASED, METHODS
+from glrt.plan.methods import BIASED, METHODS
+from glrt.plan.omissions import omissions
 from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for

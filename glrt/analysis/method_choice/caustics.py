@@ -16,7 +16,7 @@ from glrt.analysis.variants import LINKED
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
-from glrt.methods.particles import (
+from glrt.plan.particles import (
     link_bits,
     makes_caustics,
     particles_a_sample,

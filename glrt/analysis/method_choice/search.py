@@ -11,7 +11,7 @@ from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sam
 from glrt.analysis.reference import Reference, reference_for, unlimited
 from glrt.analysis.variants import variants_of
 from glrt.gpu.context import Context
-from glrt.methods.table import BIASED, METHODS
+from glrt.plan.methods import BIASED, METHODS
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for

@@ -21,7 +21,7 @@ from glrt.analysis.method_choice.work import busy_pixels, counting, work_of_prob
 from glrt.analysis.reference import Floats, Reference
 from glrt.analysis.variants import Variant
 from glrt.gpu.context import Context
-from glrt.methods.table import BIASED
+from glrt.plan.methods import BIASED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for

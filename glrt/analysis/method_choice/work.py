@@ -12,10 +12,10 @@ from contextlib import contextmanager
 from glrt.analysis.chart.rays import SAMPLES, counting_variant
 from glrt.gpu.context import Context
 from glrt.gpu.program import TILE, tile_count
-from glrt.methods.contents import contents_of
-from glrt.methods.features import needs_of
-from glrt.methods.table import METHODS, reuses_points
-from glrt.rendering.kernel_structs import CONSTANTS
+from glrt.packing.kernel_structs import CONSTANTS
+from glrt.plan.facts import contents_of
+from glrt.plan.features import needs_of
+from glrt.plan.methods import METHODS, reuses_points
 from glrt.rendering.probe_tracer import LOOKS, RAYS, UPDATES
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import rounds_of_search

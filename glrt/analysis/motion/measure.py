@@ -13,8 +13,8 @@ from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import light_step, orbit
 from glrt.analysis.reference import Reference, reference_for
 from glrt.gpu.context import Context
+from glrt.rendering.history.temporal import Way
 from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
-from glrt.rendering.temporal import Way
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 

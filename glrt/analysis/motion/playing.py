@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from glrt.analysis.motion.sequences import Sequence
 from glrt.gpu.context import Context, Pipeline
+from glrt.rendering.history.temporal import Temporal, Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import Temporal, Way
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 

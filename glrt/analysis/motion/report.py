@@ -5,9 +5,9 @@ import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from glrt import files
 from glrt.analysis.motion.measure import BEFORE, DEGREES, FACTOR, FRAMES, Track
 from glrt.analysis.plot import FORMATS, Chart, Curve, save_sheet
+from glrt.core import files
 
 PAGE = "temporal.md"
 HEADINGS = ("scene", "sequence", "mode", "frame", "rays", "error")

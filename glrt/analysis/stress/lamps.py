@@ -11,7 +11,7 @@ from glrt.analysis.stress.scenes import matte, plane, quad, scene_of
 from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Quad
+from glrt.scene.shapes.quad import Quad
 from glrt.settings import Method
 
 # Points on quads uniform in area; `nee` otherwise samples quads by solid angle.

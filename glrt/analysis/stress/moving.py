@@ -13,7 +13,7 @@ from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import with_camera
 from glrt.analysis.stress.scenes import glass, lamp, matte, plane, quad, scene_of, sphere
 from glrt.analysis.stress.sweep import Lab, Sweep
-from glrt.rendering.temporal import WAYS, Way
+from glrt.rendering.history.temporal import WAYS, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 

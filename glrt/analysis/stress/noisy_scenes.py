@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from glrt import files
 from glrt.analysis.plot import save_chart, save_sheet
 from glrt.analysis.stress.sweep import Finding
-from glrt.version import VERSION
+from glrt.core import files
+from glrt.core.version import VERSION
 
 TABLE, FIGURES, OVERVIEW = "stress.md", "stress.csv", "overview.png"
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 from glrt.scene.scene import Scene
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 
 Table = dict[str, Any]
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from glrt.analysis.stress.scenes import matte, plane, scene_of
 from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
-from glrt.scene.named_images import ImageFile, Pixels
+from glrt.scene.files.named_images import ImageFile, Pixels
 from glrt.scene.scene import Scene
 
 WIDTH, HEIGHT = 64, 32

@@ -10,10 +10,10 @@ import numpy as np
 from glrt.analysis.plot import Chart, Curve
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.rendering.evaluation import evaluate
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
-from glrt.scene.own_trees import Apart
+from glrt.rendering.shader_functions import evaluate
+from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]

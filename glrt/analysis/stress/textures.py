@@ -9,7 +9,7 @@ from glrt.analysis.stress.scenes import lamp, plane, quad, scene_of
 from glrt.analysis.stress.sweep import SIGMAS, Lab, Sweep, mean_of
 from glrt.gpu.glsl import read
 from glrt.rendering.pipelines import Variant
-from glrt.scene.materials import Opaque
+from glrt.scene.materials.base import Opaque
 from glrt.scene.scene import Scene
 
 _NUMBERS = "sampling/hole_numbers.glsl"

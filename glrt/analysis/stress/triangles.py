@@ -4,7 +4,7 @@ import numpy as np
 
 from glrt.analysis.stress.scenes import Table, matte, scene_of
 from glrt.analysis.stress.sweep import Array, Lab, Sweep
-from glrt.scene.named_meshes import MeshFile, mesh_of_arrays
+from glrt.scene.files.named_meshes import MeshFile, mesh_of_arrays
 from glrt.scene.scene import Scene
 
 # Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle Intersection" (1997).

@@ -5,16 +5,16 @@ from typing import Any
 
 from imgui_bundle import imgui
 
-from glrt.scene.background import Background
-from glrt.scene.clear_sky import ClearSky
+from glrt.scene.lights.background import Background
+from glrt.scene.lights.clear_sky import ClearSky
+from glrt.scene.lights.sun import Sun
 from glrt.scene.scene import SKY_GROUP, Scene
-from glrt.scene.sun import Sun
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.panels.widgets import edited, edited_fields
-from glrt.view.state.controls import controls_of, replaced, switch
+from glrt.view.controls import controls_of, replaced, switch
 from glrt.view.state.costs import cost_of_light
+from glrt.view.widgets.fields import edited, edited_fields
 
 BACKGROUND = {c.name: c for c in controls_of(Background)}
 SKY = {c.name: c for c in controls_of(ClearSky)}

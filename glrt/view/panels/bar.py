@@ -6,9 +6,9 @@ from contextlib import contextmanager
 from imgui_bundle import ImVec2, imgui
 
 from glrt.view.app import App
-from glrt.view.panels.anchor import ANCHOR
-from glrt.view.panels.widgets import beside, button, tip
 from glrt.view.state.keys import Action, label
+from glrt.view.widgets.fields import beside, button, tip
+from glrt.view.widgets.steady_widget import ANCHOR
 
 _MOST = 0.3  # of the panel's height, that is told at once of what went wrong
 _RED = (0.95, 0.35, 0.35, 1.0)

@@ -6,11 +6,11 @@ from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.pair import Pairing
-from glrt.view.panels.anchor import ANCHOR
-from glrt.view.panels.widgets import beside, button, edited, room_for, tip
-from glrt.view.state.controls import Control, choice, switch
+from glrt.view.compared_picture import Pairing
+from glrt.view.controls import Control, choice, switch
 from glrt.view.viewport.views import HELP, VIEWS
+from glrt.view.widgets.fields import beside, button, edited, room_for, tip
+from glrt.view.widgets.steady_widget import ANCHOR
 
 VIEW = choice("view", HELP, Cost.FREE, VIEWS)
 _MOST = "the difference, relative to the kept picture, that is shown in the strongest colour"

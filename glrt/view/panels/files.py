@@ -4,11 +4,11 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
-from glrt.scene.catalog import scene_names
-from glrt.text import escaped
+from glrt.core.text import escaped
+from glrt.scene.scenefile.catalog import scene_names
 from glrt.view.app import App
 from glrt.view.files import Files
-from glrt.view.panels.widgets import beside, button, room_for, tip
+from glrt.view.widgets.fields import beside, button, room_for, tip
 
 
 def draw_files(app: App) -> None:

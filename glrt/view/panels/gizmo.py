@@ -4,13 +4,8 @@ from imgui_bundle import imgui
 from imgui_bundle.imguizmo import im_guizmo
 
 from glrt.view.app import App
-from glrt.view.state.scene_edits import with_object
-from glrt.view.viewport.transform import (
-    moved_to,
-    object_matrix,
-    projection_matrix,
-    view_matrix,
-)
+from glrt.view.edits.scene_edits import with_object
+from glrt.view.viewport.transform import moved_to, object_matrix, projection_matrix, view_matrix
 
 
 def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -> None:

@@ -5,18 +5,18 @@ import math
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
+from glrt.core.text import counted
 from glrt.image.tonemap import expose_and_encode
+from glrt.rendering.layer_weights import Reading
 from glrt.rendering.pass_film import Array
-from glrt.rendering.weighting import Reading
 from glrt.settings import Cost
-from glrt.text import counted
 from glrt.view.app import App
-from glrt.view.panels.widgets import beside, button, edited, tip
-from glrt.view.state.controls import switch
+from glrt.view.controls import switch
 from glrt.view.state.costs import limit_beyond
 from glrt.view.state.histogram import Histogram
 from glrt.view.state.zoom import FIT
 from glrt.view.viewport.views import told_limit
+from glrt.view.widgets.fields import beside, button, edited, tip
 
 SCALES = {"1:1": 1.0, "4:1": 4.0, "16:1": 16.0}
 PIXEL = switch(

@@ -2,12 +2,12 @@
 
 from imgui_bundle import hello_imgui, imgui
 
-from glrt.errors import GlrtError
+from glrt.core.errors import GlrtError
 from glrt.view.app import App
-from glrt.view.panels.widgets import beside, button, tip
+from glrt.view.controls import replaced
 from glrt.view.state import keys
-from glrt.view.state.controls import replaced
 from glrt.view.state.keys import Action
+from glrt.view.widgets.fields import beside, button, tip
 
 _MOUSE = {  # in the picture
     "left drag": "turn about the pivot; in fly mode: look around",

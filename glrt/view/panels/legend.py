@@ -2,7 +2,7 @@
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
-from glrt.rendering.false_colors import Color, Scale
+from glrt.rendering.screen.false_colors import Color, Scale
 from glrt.view.state.costs import limit_beyond
 from glrt.view.state.error_history import Look
 from glrt.view.state.session import Session

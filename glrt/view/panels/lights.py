@@ -4,14 +4,15 @@ from functools import partial
 
 from imgui_bundle import imgui
 
-from glrt.memo import kept_for_the_same
-from glrt.scene.materials import Light, Opaque
+from glrt.core.memo import kept_for_the_same
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.light import Light
 from glrt.scene.scene import SKY_GROUP, Scene, with_lights
 from glrt.view.app import App
-from glrt.view.panels.widgets import edited
-from glrt.view.state.controls import control_of_items, controls_of
+from glrt.view.controls import control_of_items, controls_of
+from glrt.view.edits.scene_edits import with_material
 from glrt.view.state.costs import cost_of_light, cost_of_tint
-from glrt.view.state.scene_edits import with_material
+from glrt.view.widgets.fields import edited
 
 INTENSITY = control_of_items(Scene, "lights")
 EMISSION = next(c for c in controls_of(Light) if c.name == "emission")

@@ -7,17 +7,19 @@ from typing import Any
 
 from imgui_bundle import imgui
 
-from glrt.memo import kept_for_the_same
-from glrt.scene.conductors import PRESETS
-from glrt.scene.cone import Cone
-from glrt.scene.materials import TYPES, Light, Material, Metal, Opaque, Principled
-from glrt.scene.shapes import Shape
+from glrt.core.memo import kept_for_the_same
+from glrt.scene.lights.cone import Cone
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.conductors import PRESETS
+from glrt.scene.materials.kinds import TYPES, Material
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
+from glrt.scene.shapes.kinds import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.panels.lights import draw_lamp
-from glrt.view.panels.widgets import beside, button, edited, edited_fields, named, tip
-from glrt.view.state.controls import Control, choice, controls_of, switch
-from glrt.view.state.scene_edits import (
+from glrt.view.controls import Control, choice, controls_of, switch
+from glrt.view.edits.scene_edits import (
     unused_materials,
     with_cone,
     with_material,
@@ -29,6 +31,8 @@ from glrt.view.state.scene_edits import (
     with_texture,
     without_unused_materials,
 )
+from glrt.view.panels.lights import draw_lamp
+from glrt.view.widgets.fields import beside, button, edited, edited_fields, named, tip
 
 _OF_TEXTURE = ("rotation", "filter", "strength")  # what a widget edits of a texture
 _MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"

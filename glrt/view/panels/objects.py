@@ -6,19 +6,19 @@ from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 
-from glrt.memo import kept_for_the_same
+from glrt.core.memo import kept_for_the_same
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.kinds import Shape
 from glrt.settings import Cost
 from glrt.view import file_dialogs
 from glrt.view.app import App
-from glrt.view.panels.anchor import ANCHOR
+from glrt.view.controls import controls_of, replaced
+from glrt.view.edits.new_objects import ADDED
+from glrt.view.edits.scene_edits import with_object, with_own_group
 from glrt.view.panels.materials import draw_material
-from glrt.view.panels.tags import tag
-from glrt.view.panels.widgets import beside, button, edited_fields, named, room_for, tip
-from glrt.view.state.controls import controls_of, replaced
-from glrt.view.state.new_objects import ADDED
-from glrt.view.state.scene_edits import with_object, with_own_group
+from glrt.view.widgets.cost_badges import tag
+from glrt.view.widgets.fields import beside, button, edited_fields, named, room_for, tip
+from glrt.view.widgets.steady_widget import ANCHOR
 
 _NONE = "nothing"
 

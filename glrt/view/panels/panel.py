@@ -6,15 +6,15 @@ from typing import Any, Literal
 
 from imgui_bundle import imgui
 
-from glrt.memo import kept_for_the_same
-from glrt.methods.light_layers import MOST_LAYERS
-from glrt.methods.table import METHODS
+from glrt.core.memo import kept_for_the_same
+from glrt.plan.methods import METHODS
+from glrt.plan.plan import MOST_LAYERS
 from glrt.scene.camera import Camera
-from glrt.scene.limits import cautions
 from glrt.scene.scene import Scene
+from glrt.scene.warnings import cautions
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
-from glrt.view.panels.anchor import ANCHOR
+from glrt.view.controls import Control, controls_of, replaced, switch
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.bar import bar_end, below_bar
 from glrt.view.panels.compare import draw_compare, draw_view
@@ -25,12 +25,12 @@ from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
 from glrt.view.panels.pixel_paths import draw_pixel_paths
 from glrt.view.panels.sun import draw_sun
-from glrt.view.panels.tags import COLORS, legend, tag
-from glrt.view.panels.widgets import button, edited, edited_fields, tip
-from glrt.view.state.controls import Control, controls_of, replaced, switch
 from glrt.view.state.costs import reach_of_bounces, reach_of_size
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
+from glrt.view.widgets.cost_badges import COLORS, legend, tag
+from glrt.view.widgets.fields import button, edited, edited_fields, tip
+from glrt.view.widgets.steady_widget import ANCHOR
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from glrt.memo import kept_for_the_same
-from glrt.rendering.path_values import Path
+from glrt.core.memo import kept_for_the_same
+from glrt.rendering.paths.values import Path
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.view.app import App

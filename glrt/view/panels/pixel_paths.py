@@ -3,15 +3,15 @@
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.analysis.path_report import explanation, light_rows, percent, triple, vertex_rows
-from glrt.rendering.path_values import Path, PixelPaths
+from glrt.core.text import counted
+from glrt.rendering.paths.values import Path, PixelPaths
 from glrt.settings import Cost
-from glrt.text import counted
 from glrt.view.app import App
-from glrt.view.panels.anchor import ANCHOR
+from glrt.view.controls import Control, switch
 from glrt.view.panels.path_overlay import COLORS
-from glrt.view.panels.widgets import beside, button, edited, tip
-from glrt.view.state.controls import Control, switch
 from glrt.view.viewport.path_lines import Kind
+from glrt.view.widgets.fields import beside, button, edited, tip
+from glrt.view.widgets.steady_widget import ANCHOR
 
 CHOOSING = switch(
     "choose_a_pixel",

@@ -5,15 +5,15 @@ import math
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 
-from glrt.memo import kept_for_the_same
-from glrt.methods.explanation import explain
-from glrt.methods.light_layers import Plan
+from glrt.core.memo import kept_for_the_same
+from glrt.plan.explanation import explain
+from glrt.plan.plan import Plan
 from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
-from glrt.view.pair import Slot
-from glrt.view.panels.widgets import tip
+from glrt.view.compared_picture import Slot
 from glrt.view.state.error_history import Look, Progress
 from glrt.view.state.session import Session
+from glrt.view.widgets.fields import tip
 
 _MOST_TICKS = 5  # of an axis: more run into each other
 _BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them

@@ -4,12 +4,12 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from glrt.scene.lights.sun import Sun
 from glrt.scene.scene import Scene
-from glrt.scene.sun import Sun
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.panels.widgets import edited, edited_fields
-from glrt.view.state.controls import controls_of, replaced, switch
+from glrt.view.controls import controls_of, replaced, switch
+from glrt.view.widgets.fields import edited, edited_fields
 
 SUN = {c.name: c for c in controls_of(Sun)}
 SHINES = switch("sun", "a disc at infinity, which is sampled", Cost.RECOMPILE)

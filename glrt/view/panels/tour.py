@@ -3,9 +3,9 @@
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.view.app import App
-from glrt.view.panels.widgets import button, tip
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from glrt.view.state.zoom import Rectangle
+from glrt.view.widgets.fields import button, tip
 
 STEPS = (
     (

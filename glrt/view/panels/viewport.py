@@ -5,7 +5,7 @@ import time
 
 from imgui_bundle import ImVec2, imgui
 
-from glrt.memo import kept_for_the_same
+from glrt.core.memo import kept_for_the_same
 from glrt.view.app import App
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import told_pixel

@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-from glrt.memo import kept_for_the_same
-from glrt.methods.light_layers import MOST_LAYERS, emitters, layer_of_group
+from glrt.core.memo import kept_for_the_same
+from glrt.plan.plan import MOST_LAYERS, emitters, layer_of_group
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost

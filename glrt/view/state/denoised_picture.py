@@ -13,14 +13,14 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 
+from glrt.core.text import counted
 from glrt.denoise.filters import least_samples, with_filter
 from glrt.error.estimate import DARK
 from glrt.image.image import Image
-from glrt.methods.light_layers import Weights
-from glrt.rendering.halver import Halver
+from glrt.plan.plan import Weights
+from glrt.rendering.first_half import Halver
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Denoise, Settings, settings_for
-from glrt.text import counted
 from glrt.view.state.denoise_process import DenoiseProcess
 from glrt.view.state.session import Session
 

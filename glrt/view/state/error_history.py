@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.error.estimate import Band, error_band
-from glrt.error.judgement import judged
-from glrt.methods.light_layers import Weights, are_trivial
+from glrt.error.reliability_of_scene import judged
+from glrt.plan.plan import Weights, are_trivial
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.histogram import DARK, Histogram, histogram
 from glrt.view.state.session import Session

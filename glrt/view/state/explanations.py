@@ -3,7 +3,7 @@
 L is radiance, f the reflectance of a surface (its BSDF), p a density, c the cosine at a surface.
 """
 
-from glrt.view.state.controls import Control
+from glrt.view.controls import Control
 
 EXPLANATIONS: dict[str, str] = {
     "method": (

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from glrt.files import reason
+from glrt.core.files import reason
 
 
 @dataclass(frozen=True)

@@ -13,15 +13,15 @@ from contextlib import contextmanager
 from tempfile import TemporaryFile
 from typing import NamedTuple, get_args
 
-from glrt.errors import ContextError
+from glrt.core.errors import ContextError
+from glrt.core.version import VERSION
 from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.recipe import Recipe
-from glrt.methods.light_layers import Layering
+from glrt.plan.plan import Layering
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
-from glrt.scene.loading import with_stand_ins
+from glrt.scene.loading.loading import with_stand_ins
 from glrt.settings import Settings, settings_for
-from glrt.version import VERSION
 
 _ROUTES: tuple[Choice, ...] = ("egl", "window")
 TIMES = 3  # that compiling from the cache is timed: the least counts, whatever else runs

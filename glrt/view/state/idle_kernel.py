@@ -7,8 +7,8 @@ stands still for no more than a frame, and that the picture stays the same to th
 import time
 from collections.abc import Callable
 
-from glrt.errors import RenderError
-from glrt.methods.contents import contents_of
+from glrt.core.errors import RenderError
+from glrt.plan.facts import contents_of
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.idle_compile import TrialCompile

@@ -1,7 +1,7 @@
 """Whether a driver has room for the layers of a film, which lie side by side in one texture."""
 
-from glrt.methods.light_layers import Layering, Plan
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
+from glrt.plan.plan import Layering, Plan
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 

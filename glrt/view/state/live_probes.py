@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from glrt.methods.table import METHODS
+from glrt.plan.methods import METHODS
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.settings import Settings
 

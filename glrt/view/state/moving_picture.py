@@ -1,4 +1,4 @@
-"""What the screen shows beside the film while the camera moves: see glrt/rendering/temporal.py."""
+"""The picture on the screen while the camera moves: see glrt/rendering/history/temporal.py."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import moderngl
 
-from glrt.errors import RenderError
-from glrt.methods.light_layers import Weights
-from glrt.rendering.false_colors import Number, Told
+from glrt.core.errors import RenderError
+from glrt.plan.plan import Weights
+from glrt.rendering.history.temporal import END, Mode, Temporal, Way
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.temporal import END, Mode, Temporal, Way
+from glrt.rendering.screen.false_colors import Number, Told
 from glrt.settings import Cost, Settings, settings_for
-from glrt.view.state.edited import State
+from glrt.view.edits.edited_state import State
 
 OWN_NUMBERS: dict[Number, Mode] = {"weight": "wrls", "mask": "ataa"}
 MOST_SEED = 0xFFFFFFFF

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from glrt.gpu.context import Context
 from glrt.image.recipe import Recipe
-from glrt.rendering.path_replay import Array, PathReplay, arrived, path_replay
-from glrt.rendering.path_values import Path, PixelPaths
-from glrt.scene.names import less_names
+from glrt.rendering.paths.replay import Array, PathReplay, arrived, path_replay
+from glrt.rendering.paths.values import Path, PixelPaths
+from glrt.scene.nameless import less_names
 from glrt.scene.scene import Scene
 from glrt.settings import Caustics, Settings, settings_for
 

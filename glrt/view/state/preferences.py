@@ -8,12 +8,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError, field_validator
 
-from glrt.errors import RenderError
-from glrt.files import reason, write_text
-from glrt.rendering.ataa import CHOICES, SAMPLES
+from glrt.core.errors import RenderError
+from glrt.core.files import reason, write_text
+from glrt.rendering.history.ataa import CHOICES, SAMPLES
+from glrt.rendering.history.temporal import Mode as Temporal
+from glrt.rendering.history.wrls import Predictor
 from glrt.rendering.probe_supply import HYSTERESIS
-from glrt.rendering.temporal import Mode as Temporal
-from glrt.rendering.wrls import Predictor
 from glrt.settings import Cost, Editable, Frozen
 from glrt.view.state import keys
 from glrt.view.state.keys import DEFAULTS, Bindings

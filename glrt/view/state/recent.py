@@ -3,8 +3,8 @@
 import json
 from pathlib import Path
 
-from glrt.errors import RenderError
-from glrt.files import write_text
+from glrt.core.errors import RenderError
+from glrt.core.files import write_text
 
 MOST = 10
 

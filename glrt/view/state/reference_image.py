@@ -7,11 +7,11 @@ difference is zero, and elsewhere it is that of the change.
 import moderngl
 
 from glrt.gpu.context import Context
-from glrt.methods.light_layers import Plan, Weights, are_trivial
+from glrt.plan.plan import Plan, Weights, are_trivial
+from glrt.rendering.layer_weights import Mixer
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.weighting import Mixer
 from glrt.settings import Settings, settings_for
-from glrt.view.state.edited import State
+from glrt.view.edits.edited_state import State
 from glrt.view.state.session import ANNOUNCED
 
 

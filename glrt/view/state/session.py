@@ -7,22 +7,22 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from glrt.errors import GlrtError, RenderError, UsageError
+from glrt.core.errors import GlrtError, RenderError, UsageError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
-from glrt.methods.light_layers import Layering, Weights
+from glrt.plan.plan import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.surface_view import NEEDED
+from glrt.rendering.screen.surface_view import NEEDED
 from glrt.scene.scene import Scene
 from glrt.settings import OF_PATHS, Aov, Cost, Settings, settings_for
-from glrt.view.state.edited import State
-from glrt.view.state.editing import Editing
-from glrt.view.state.grain import FirstSurface
+from glrt.view.edits.edited_state import State
+from glrt.view.edits.editing import Editing
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
 from glrt.view.state.live_probes import LiveProbes
 from glrt.view.state.moving_picture import MovingPicture
+from glrt.view.state.preview_noise import FirstSurface
 from glrt.view.state.preview_size import Preview
 
 ANNOUNCED = 2  # frames that say what is about to stop them

@@ -6,7 +6,7 @@ import numpy as np
 
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
-from glrt.view.state.changes import name_of
+from glrt.view.edits.state_differences import name_of
 from glrt.view.state.session import Session
 from glrt.view.viewport.orbit import axes
 from glrt.view.viewport.pick import first_along

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import moderngl
 import numpy as np
 
+from glrt.core.text import counted
 from glrt.error.estimate import relative_error
 from glrt.rendering.pass_film import Array
-from glrt.text import counted
 
 GROWTH = 1.25  # of samples, after which it is worth to look again
 

@@ -12,10 +12,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.scene.camera import Camera
 from glrt.scene.values import LARGEST, SMALLEST, Vector
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 
 Array = NDArray[np.float64]
 

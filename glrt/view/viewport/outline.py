@@ -11,13 +11,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.memo import kept_for_the_same
-from glrt.rendering.pack import pack_camera
+from glrt.core.memo import kept_for_the_same
+from glrt.packing.scene_arrays import pack_camera
 from glrt.scene.camera import Camera
-from glrt.scene.cylinder import Cylinder
-from glrt.scene.meshes import Mesh
-from glrt.scene.shapes import Disk, Plane, Quad, Shape, Sphere
-from glrt.scene.solids import Box
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
 
 Array = NDArray[np.float64]
 Segments = NDArray[np.float64]  # (n, 2, 2): ends in shares of the picture, (0, 0) upper left

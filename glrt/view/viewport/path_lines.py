@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.rendering.path_values import Path
+from glrt.rendering.paths.values import Path
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.values import Vector

@@ -6,13 +6,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.memo import kept_for_the_same
-from glrt.rendering.pack import pack_camera
+from glrt.core.memo import kept_for_the_same
+from glrt.packing.scene_arrays import pack_camera
 from glrt.scene.camera import Camera
-from glrt.scene.meshes import Mesh
-from glrt.scene.objects import Object
 from glrt.scene.scene import Scene
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.base import Object
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Vector
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.gpu.canvas import Canvas
-from glrt.rendering.display import Display
-from glrt.rendering.magnifier import Magnifier
+from glrt.rendering.screen.display import Display
+from glrt.rendering.screen.magnifier import Magnifier
 from glrt.settings import Settings
 
 Part = tuple[float, float, float, float]  # left, top, width, height, in pixels from the upper left

@@ -4,12 +4,12 @@ from dataclasses import dataclass, field
 
 import moderngl
 
-from glrt.rendering.aov_view import AovView
-from glrt.rendering.false_colors import FalseColors, Scale, Told
 from glrt.rendering.film import Film
-from glrt.rendering.probe_balls import ProbeBalls, farthest
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.surface_view import NEEDED, SurfaceView
+from glrt.rendering.screen.aov_view import AovView
+from glrt.rendering.screen.false_colors import FalseColors, Scale, Told
+from glrt.rendering.screen.probe_balls import ProbeBalls, farthest
+from glrt.rendering.screen.surface_view import NEEDED, SurfaceView
 from glrt.view.state.costs import traced_bounces
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.reference_image import ReferenceImage

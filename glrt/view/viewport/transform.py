@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.camera import Camera
-from glrt.scene.shapes import Shape
+from glrt.scene.shapes.kinds import Shape
 from glrt.scene.values import Vector
-from glrt.view.state.controls import replaced
+from glrt.view.controls import replaced
 from glrt.view.viewport.orbit import axes
 
 Matrix = list[float]

@@ -2,8 +2,8 @@
 
 from typing import Literal, get_args
 
-from glrt.rendering.aov_view import MOST_BOUNCES, cell_of, scale_of_bounces
-from glrt.rendering.false_colors import (
+from glrt.rendering.screen.aov_view import MOST_BOUNCES, cell_of, scale_of_bounces
+from glrt.rendering.screen.false_colors import (
     DIFFERENCE,
     DROPPED,
     ERROR,

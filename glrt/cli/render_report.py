@@ -1,0 +1,118 @@
+"""What `glrt render` tells of a render that has ended: a line of JSON, or of prose."""
+
+import argparse
+import sys
+from typing import Any, NamedTuple
+
+from glrt.cli.warnings import clipped, doubt, too_dark
+from glrt.core.text import counted
+from glrt.denoise.filters import least_samples
+from glrt.image.image import Image
+from glrt.plan.facts import contents_of
+from glrt.plan.omissions import left_out, omissions
+from glrt.process.command import file_names, peak_bytes, print_figures
+from glrt.rendering.renderer import Renderer
+from glrt.scene.loading.loading import sources_of
+
+
+class Done(NamedTuple):
+    """A render that has ended."""
+
+    renderer: Renderer
+    image: Image
+    begun: int  # samples that each pixel had at the start
+    seconds: dict[str, float]
+
+    @property
+    def new(self) -> int:
+        """Samples of each pixel that were rendered."""
+        return self.image.samples - self.begun
+
+    @property
+    def rate(self) -> float:
+        """Samples of pixels a second."""
+        width, height = self.renderer.size
+        return self.new * width * height / max(self.seconds["render"], 1e-9)
+
+    @property
+    def dropped(self) -> int:
+        """Samples that were not finite."""
+        state = self.image.film_state
+        if state is None:
+            return self.renderer.nonfinite()
+        return int(state.dropped.sum(dtype=float)) + self.renderer.lost_particles.refused
+
+
+def tell(arguments: argparse.Namespace, done: Done) -> None:
+    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    renderer, begun, new = done.renderer, done.begun, done.new
+    width, height = renderer.size
+    if arguments.json:
+        print_figures(_figures(arguments, done), arguments.outputs)
+    elif not arguments.quiet:
+        more = f" ({new} of them new)" if begun else ""
+        print(
+            f"Wrote {file_names(arguments.outputs)}: {width} x {height}, "
+            f"{counted(done.image.samples, 'sample')}{more} in {done.seconds['render']:.1f} s "
+            f"({done.rate / 1e6:.2f} million samples/s){_errors(done.image)}.",
+            file=sys.stderr,
+        )
+        if dropped := done.dropped:
+            print(
+                f"{dropped:,} samples were dropped: they were not finite, or exceeded the driver's "
+                "loop limit. If there are many, the picture is biased: use fewer bounces.",
+                file=sys.stderr,
+            )
+    doubts = [
+        clipped(renderer.lost_particles.clipped),
+        doubt(done.image),
+        _noisy(done.image),
+        too_dark(done.image, arguments.outputs),
+    ]
+    for text in filter(None, [] if arguments.quiet else doubts):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
+        print(left_out(renderer.settings, missing), file=sys.stderr)
+
+
+def _errors(image: Image) -> str:
+    """What is known of the error, as the end of a sentence."""
+    plain = "" if image.error is None else f", estimated error {100 * image.error:.2g} %"
+    denoised = image.denoising
+    return plain if denoised is None else f"{plain}, denoised {100 * denoised.error:.2g} %"
+
+
+def _noisy(image: Image) -> str | None:
+    """What to say of a picture that ended before it could be denoised."""
+    settings = image.recipe.settings if image.recipe else None
+    if settings is None or settings.denoise == "none" or image.denoising:
+        return None
+    least = least_samples(settings.block)
+    return f"the picture is not denoised: that takes {counted(least, 'sample')} at least."
+
+
+def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
+    renderer, settings, denoised = done.renderer, done.renderer.settings, done.image.denoising
+    return {
+        "scene": arguments.scene or arguments.resume,
+        "width": settings.width,
+        "height": settings.height,
+        "samples": done.image.samples,
+        "bounces": settings.bounces,
+        "method": settings.method,
+        "caustics": settings.caustics,
+        "seed": settings.seed,
+        "pipeline": renderer.pipeline,
+        "context": renderer.context.route,
+        "renderer": renderer.context.renderer,
+        "seconds": {name: round(value, 6) for name, value in done.seconds.items()},
+        "samples_per_second": round(done.rate, 1),
+        "error": done.image.error,
+        "error_doubtful": done.image.error_doubtful,
+        "denoised_error": denoised.error if denoised else None,
+        "denoised_error_high": denoised.error_high if denoised else None,
+        "nonfinite": done.dropped,
+        "peak_bytes": peak_bytes(),
+        "triangles": contents_of(renderer.scene).triangles,
+        "assets": sources_of(renderer.scene),
+    }

@@ -1,0 +1,66 @@
+"""What the commands say of a picture that is not to be believed."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from glrt.core.text import counted
+from glrt.image.image import Image
+from glrt.image.tonemap import expose_and_encode
+from glrt.scene.warnings import is_dark
+
+_BLACK = 3  # 8-bit codes below it look black on a screen
+_MOSTLY = 0.99  # share of the pixels
+_SHOWN = 0.5  # radiance that is bright and not clipped at exposure 0
+_LESS_SURE = {"naive", "nee"}  # methods by which more light is found by luck than by `mis`
+
+
+def doubt(image: Image) -> str:
+    """A paragraph where the estimated error of a picture is not to be believed; else ""."""
+    if not image.error_doubtful:
+        return ""
+    assert image.error is not None
+    assert image.recipe
+    is_less_sure = image.recipe.settings.method in _LESS_SURE
+    other = " or --method mis, which finds more of it" if is_less_sure else ""
+    return (
+        f"the estimated error, {100 * image.error:.2g} %, is not to be believed: much of it stands "
+        "in pixels that one or two bright samples have lit, and the true error may be several "
+        f"times as large. Use more --samples{other}."
+    )
+
+
+def clipped(particles: int) -> str:
+    """A paragraph where particles brought more light than was kept; else ""."""
+    if not particles:
+        return ""
+    return (
+        f"{counted(particles, 'particle')} brought more light than a pixel takes at once: it is "
+        "too dark there. Use --caustics off."
+    )
+
+
+def too_dark(image: Image, outputs: Sequence[str]) -> str:
+    """A paragraph where a PNG file looks black though its scene has light; else ""."""
+    if not image.recipe or not any(Path(name).suffix.lower() == ".png" for name in outputs):
+        return ""
+    settings = image.recipe.settings
+    codes = expose_and_encode(image.shown, settings.exposure, settings.tonemap)
+    is_black = codes.max(axis=2) < _BLACK
+    if is_black.mean() < _MOSTLY or is_dark(image.recipe.scene):
+        return ""
+    share = f"{100 * math.floor(1000 * is_black.mean()) / 1000:g} % of the picture is black"
+    brightest = image.shown.max(axis=2)
+    seen = brightest[is_black & (brightest > 0)].astype(np.float64)
+    if seen.size < (1 - _MOSTLY) * is_black.size:
+        return (
+            f"{share} at every exposure: no light reaches what is in view there. Move the camera, "
+            "or add a light."
+        )
+    exposure = min(round(math.log2(_SHOWN / np.quantile(seen, 0.9))), 50)
+    return (
+        f"{share}: its light is too dim for exposure {settings.exposure:g}. Use --exposure "
+        f"{exposure}, or brighter lights."
+    )

@@ -1,0 +1,11 @@
+"""Small tools that every other package uses.
+
+Modules, each importing only what stands above it:
+
+- version: version of glrt
+- text: words and numbers in messages
+- errors: error classes, with their exit codes
+- resources: folders of shaders, scenes and caches
+- files: atomic writes: a file is complete or absent
+- memo: cache of results by the identity of the arguments
+"""

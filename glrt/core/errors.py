@@ -1,0 +1,36 @@
+"""The errors of glrt, by who can correct them; each class has the exit code of the commands."""
+
+from glrt.core.text import escaped
+
+
+class GlrtError(Exception):
+    r"""An error with one paragraph for the user: what is wrong, where, and what to do.
+
+    It is one line of printable text: a line break in a name of a file is shown as `\n`.
+    """
+
+    exit_code = 4
+
+    def __init__(self, paragraph: str) -> None:
+        """Escape what cannot be printed; what it quotes may come from a damaged file."""
+        super().__init__(escaped(paragraph))
+
+
+class UsageError(GlrtError):
+    """A command line, a setting or a file name that cannot be used."""
+
+    exit_code = 2
+
+
+class SceneError(UsageError):
+    """A scene that cannot be rendered: names the file and the key."""
+
+
+class ContextError(GlrtError):
+    """No usable OpenGL."""
+
+    exit_code = 3
+
+
+class RenderError(GlrtError):
+    """The render failed: driver, memory or disk."""

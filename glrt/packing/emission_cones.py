@@ -1,0 +1,76 @@
+"""Where lamps can be seen from: cones around the directions in which they emit.
+
+A lamp with a cone, or flat and bright on one side, is not chosen at points that it does not light.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.scene.lights.cone import Cone
+from glrt.scene.materials.base import Opaque
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.base import Object
+
+Array = np.ndarray[Any, Any]
+
+STEEPEST = 1e30  # slope of an edge without a width
+
+
+class Aims(NamedTuple):
+    """Of n lamps, or groups of them: as the structs Emitter and Aim have it."""
+
+    axis: Array  # (n, 3), unit; 0 where light goes everywhere
+    outer: Array  # (n,)
+    slope: Array  # (n,)
+
+    def of(self, members: Any) -> "Aims":
+        """Those of some of them."""
+        return Aims(*(column[members] for column in self))
+
+
+def everywhere(count: int) -> Aims:
+    """Those of so many lamps that emit to all sides: 1 - cos ends at 2."""
+    return Aims(np.zeros((count, 3)), np.full(count, 4.0), np.ones(count))
+
+
+def cone_fields(cone: Cone) -> tuple[float, float]:
+    """The fields outer and slope of the structs Emitter and Aim."""
+    inner, outer = cone.versines
+    return outer, min(1 / (outer - inner), STEEPEST) if outer > inner else STEEPEST
+
+
+def aims_of(scene: Scene, lamps: Sequence[Object], normals: Array) -> Aims:
+    """Those of lamps with these normals, (n, 3) of any length."""
+    found = everywhere(len(lamps))
+    lengths = np.linalg.norm(normals, axis=1)
+    units = normals / np.where(lengths > 0, lengths, 1)[:, None]
+    for number, lamp in enumerate(lamps):
+        material = scene.materials[lamp.material]
+        if isinstance(material, Opaque) and material.cone:
+            found.axis[number] = material.cone.unit_axis
+            found.outer[number], found.slope[number] = cone_fields(material.cone)
+        elif lamp.is_one_sided:
+            found.axis[number] = units[number]
+            found.outer[number], found.slope[number] = 1.0, STEEPEST
+    return found
+
+
+def around_all(aims: Aims) -> Aims:
+    """One that lights all that some of them light: theirs if they are one, else a cone."""
+    if all((column == column[0]).all() for column in aims):
+        return aims.of(slice(0, 1))
+    axis = aims.axis.mean(axis=0)
+    if not axis.any() or not aims.axis.any(axis=1).all():
+        return everywhere(1)
+    axis /= np.linalg.norm(axis)
+    apart = np.arccos(np.clip(aims.axis @ axis, -1, 1))
+    reach = float((apart + np.arccos(np.clip(1 - aims.outer, -1, 1))).max()) + _MARGIN
+    if reach >= math.pi:
+        return everywhere(1)
+    return Aims(axis[None], np.array([1 - math.cos(reach)]), np.array([STEEPEST]))
+
+
+_MARGIN = 1e-6  # radians, for the rounding of an arc cosine near 1

@@ -1,0 +1,176 @@
+"""What some materials have beyond the struct Material: a row for each such material.
+
+shaders_glsl/structs/details.glsl declares the rows.
+"""
+
+import hashlib
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
+from glrt.packing.tree_cache import kept
+from glrt.scene.glasses import glasses_of
+from glrt.scene.materials import facets, gloss
+from glrt.scene.materials.conductors import Conductor
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.facets import STEPS, facet_loss
+from glrt.scene.materials.gloss import ROUGHNESS_STEPS, FacetShares, facet_shares, shares_by_step
+from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
+from glrt.scene.scene import Finish, Scene
+
+Array = np.ndarray[Any, Any]
+ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
+
+
+def conductor_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
+    """The rows of the materials that have one in the array of the struct Conductor."""
+    return {metal: row for row, metal in enumerate(_metals(scene, finishes))}
+
+
+def _metals(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Conductor]:
+    names = dict.fromkeys(finish.material for finish in finishes)
+    materials = {name: scene.materials[name] for name in names}
+    return {
+        name: metal.conductor
+        for name, metal in materials.items()
+        if isinstance(metal, Metal) and metal.conductor
+    }
+
+
+def pack_conductors(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the struct Conductor."""
+    metals = _metals(scene, finishes)
+    rows = np.zeros(len(metals), STRUCTS["Conductor"])
+    if metals:
+        rows["n"], rows["k"] = zip(*metals.values(), strict=True)
+    return rows
+
+
+def glass_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
+    """The rows of the materials that have one in the array of the struct Glass.
+
+    Those with a priority come first, the highest before the others.
+    """
+    return {glass: row for row, glass in enumerate(glasses_of(scene, finishes))}
+
+
+def pack_facets(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
+    """Rows of the structs Glass, Gloss and Albedo."""
+    albedos: Albedos = []
+    glasses = _pack_glasses(scene, finishes, albedos)
+    gloss = _pack_gloss(scene, finishes, albedos)
+    return {"Glass": glasses, "Gloss": gloss, "Albedo": _rows_of(albedos)}
+
+
+Albedos = list[tuple[Array, Array]]  # two numbers at each step
+
+
+def _pack_glasses(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
+    """Rows of the struct Glass; what their facets reflect is appended to `albedos`."""
+    glasses = glasses_of(scene, finishes).values()
+    rows = np.zeros(len(glasses), STRUCTS["Glass"])
+    for row, glass in zip(rows, glasses, strict=True):
+        row["absorption"], row["ior"] = glass.absorption, glass.ior
+        row["first_albedo"] = CONSTANTS["NO_DETAILS"]
+        if loss := facet_loss(glass.alpha, glass.ior) if glass.alpha else None:
+            row["first_albedo"] = ALBEDOS * len(albedos)
+            row["mean_outer"], row["mean_inner"] = loss.means
+            row["crossing_outer"], row["crossing_inner"] = loss.crossing
+            albedos.append(loss.albedos)
+    return rows
+
+
+def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
+    """The first rows of the materials that have some in the array of the struct Gloss."""
+    found, first = dict[str, int](), 0
+    for name, material in _principled(scene, finishes).items():
+        found[name] = first
+        first += 1 if material.roughness_map is None else ROUGHNESS_STEPS + 1
+    return found
+
+
+def _facets(material: Principled) -> list[FacetShares]:
+    """Of each row: one, or where roughness is an image one for each step of it."""
+    if material.roughness_map is None:
+        return [facet_shares(material.facet_alpha)]
+    return _by_step()
+
+
+@cache
+def _by_step() -> list[FacetShares]:
+    """Those of each step of roughness, which take two seconds: they are kept on the disk."""
+    texts = [Path(module.__file__ or "").read_bytes() for module in (facets, gloss)]
+    known_as = f"gloss-{hashlib.blake2b(b''.join(texts), digest_size=16).hexdigest()}"
+    rows = kept(known_as, shares_by_step)
+    return [FacetShares.of(*row) for row in zip(rows["head_on"], rows["grazing"], strict=True)]
+
+
+def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Dielectric]:
+    """The glass that principled materials are in part.
+
+    They are rows of the struct Material after those of the finishes.
+    """
+    materials = _principled(scene, finishes).items()
+    return {name: material.glass for name, material in materials if material.glass}
+
+
+def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principled]:
+    named = ((finish.material, scene.materials[finish.material]) for finish in finishes)
+    return {name: material for name, material in named if isinstance(material, Principled)}
+
+
+def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
+    """Rows of the struct Gloss; what their facets reflect is appended to `albedos`."""
+    found = _principled(scene, finishes)
+    of_all = [(name, it, shares) for name, it in found.items() for shares in _facets(it)]
+    rows = np.zeros(len(of_all), STRUCTS["Gloss"])
+    first: dict[int, int] = {}  # of the albedos
+
+    def place(shares: FacetShares) -> int:
+        if id(shares) not in first:
+            first[id(shares)] = ALBEDOS * len(albedos)
+            albedos.append((shares.head_on, shares.grazing))
+        return first[id(shares)]
+
+    parts = {part: len(finishes) + k for k, part in enumerate(glass_parts(scene, finishes))}
+    for row, (name, it, shares) in zip(rows, of_all, strict=True):
+        row["f0"], row["f90"] = it.head_on, it.specular
+        row["transmission"], row["glass"] = it.glass_share, parts.get(name, 0)
+        row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
+        row["first"] = row["first_coat"] = place(shares)
+        if it.clearcoat:
+            row["first_coat"] = place(facet_shares(it.coat_alpha))
+        row["kept"], row["brightest"] = shares.kept, max(it.head_on)
+        row["spread"] = 1 / (1 - shares.kept) if shares.kept < 1 else 0.0
+        row["again"] = again = _again(max(it.head_on), it.specular, shares.kept)
+        left = 1 - _taken(max(it.head_on), it.specular, again, shares)
+        row["even_base"] = 1 / left if left > 0 else 0.0
+    return rows
+
+
+def _again(f0: float, f90: float, kept: float) -> float:
+    """Share of light that returns after several facets: F^2 E / (1 - F (1 - E)), means over angles.
+
+    Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (2017).
+    """
+    mean = f0 + (f90 - f0) / 21
+    return mean**2 * kept / (1 - mean * (1 - kept))
+
+
+def _taken(f0: float, f90: float, again: float, shares: FacetShares) -> float:
+    """Share of even light that dielectric facets reflect."""
+    lost = 1 - shares.mean_head_on - shares.mean_grazing
+    return f0 * shares.mean_head_on + f90 * shares.mean_grazing + again * lost
+
+
+def _rows_of(albedos: Albedos) -> Array:
+    rows = np.zeros((len(albedos), ALBEDOS), STRUCTS["Albedo"])
+    for part, both in zip(rows, albedos, strict=True):
+        for name, albedo in zip(("one", "other"), both, strict=True):
+            part[name], part[f"{name}_end"] = albedo[:-1], albedo[1:]
+    return rows.reshape(-1)

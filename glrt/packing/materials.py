@@ -1,0 +1,128 @@
+"""Materials as rows of the kernel's array: a packer for each type.
+
+docs/extending.md says how a type is added.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from glrt.packing.emission_cones import cone_fields, everywhere
+from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
+from glrt.packing.material_details import conductor_rows, glass_parts, glass_rows, gloss_rows
+from glrt.plan.plan import layer_of_group
+from glrt.scene.lights.cone import Cone
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import TYPES
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.light import Light
+from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
+from glrt.scene.scene import Finish, Scene
+
+Array = np.ndarray[Any, Any]
+
+
+def pack_lambertian(row: Any, material: Lambertian) -> None:
+    """Albedo."""
+    row["kind"], row["color"] = CONSTANTS["MATTE"], material.color
+
+
+def pack_metal(row: Any, material: Metal) -> None:
+    """Reflectance, or 1 for what a conductor reflects, and the alpha of GGX."""
+    color = (1.0, 1.0, 1.0) if material.color is None else material.color
+    row["kind"], row["color"], row["alpha"] = CONSTANTS["METAL"], color, material.alpha
+
+
+def pack_dielectric(row: Any, material: Dielectric) -> None:
+    """Index of refraction, and the alpha of GGX."""
+    row["kind"] = CONSTANTS["PANE" if material.thin else "DIELECTRIC"]
+    row["color"] = 1.0
+    row["ior"], row["alpha"] = material.ior, material.alpha
+
+
+def pack_light(row: Any, material: Light) -> None:
+    """A lamp scatters as matte surfaces do; its emission follows from the scene."""
+    row["kind"], row["color"] = CONSTANTS["MATTE"], material.color
+
+
+def pack_principled(row: Any, material: Principled) -> None:
+    """Base colour and what images may vary; the rest stands in the struct Gloss."""
+    rest = 1 - material.glass_share
+    row["kind"], row["color"] = CONSTANTS["PRINCIPLED"], material.color
+    row["alpha"], row["roughness"] = material.facet_alpha, material.roughness
+    row["metallic"] = material.metallic / rest if rest > 0 else 0.0
+    row["coverage"], row["crossed"] = material.coverage, 1.0
+
+
+PACKERS: dict[type, Callable[[Any, Any], None]] = {
+    Lambertian: pack_lambertian,
+    Metal: pack_metal,
+    Dielectric: pack_dielectric,
+    Principled: pack_principled,
+    Light: pack_light,
+}
+
+if set(PACKERS) != set(TYPES.values()):
+    raise TypeError(f"materials have packers {list(PACKERS)}, and models {list(TYPES.values())}")
+
+
+def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the struct Material, one for each finish."""
+    layers = layer_of_group(scene)
+    rows = np.zeros(len(finishes), STRUCTS["Material"])
+    rows["ior"], rows["details"] = 1.0, CONSTANTS["NO_DETAILS"]
+    for row, finish in zip(rows, finishes, strict=True):
+        material = scene.materials[finish.material]
+        PACKERS[type(material)](row, material)
+        row["layer"] = layers.get(finish.group, 0)
+        row["emission"] = scene.emission(finish)
+    shapes = _emitters(scene, finishes)
+    places = {emitter: place for place, emitter in enumerate(shapes)}
+    for rows_of in (conductor_rows, glass_rows, gloss_rows):
+        number_of = rows_of(scene, finishes)
+        for row, finish in zip(rows, finishes, strict=True):
+            row["details"] = number_of.get(finish.material, row["details"])
+    rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]
+    return np.concatenate([rows, _glass_parts(scene, finishes)])
+
+
+def _glass_parts(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the glass that some materials are in part, in the order of `glass_parts`."""
+    parts, number_of = glass_parts(scene, finishes), glass_rows(scene, finishes)
+    rows = np.zeros(len(parts), STRUCTS["Material"])
+    for row, (name, glass) in zip(rows, parts.items(), strict=True):
+        pack_dielectric(row, glass)
+        row["details"] = CONSTANTS["NO_DETAILS"] if glass.thin else number_of.get(name, -1)
+    return rows
+
+
+def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:
+    """Rows of the struct Emitter: none where all lamps emit evenly to both sides."""
+    found = _emitters(scene, finishes)
+    rows = np.zeros(len(found), STRUCTS["Emitter"])
+    rows["outer"], rows["slope"] = everywhere(len(found))[1:]
+    for row, (cone, is_one_sided) in zip(rows, found, strict=True):
+        row["is_one_sided"] = is_one_sided
+        if cone:
+            row["axis"] = cone.unit_axis
+            row["outer"], row["slope"] = cone_fields(cone)
+    return rows
+
+
+Emission = tuple[Cone | None, bool]  # whether it is from the front alone
+
+
+def _emitters(scene: Scene, finishes: Sequence[Finish]) -> list[Emission]:
+    """The ways in which lamps emit, that to all sides first; none where it is the only one."""
+    evenly: Emission = (None, False)
+    found = dict.fromkeys([evenly, *(_emitter(scene, finish) for finish in finishes)])
+    return list(found) if len(found) > 1 else []
+
+
+def _emitter(scene: Scene, finish: Finish) -> Emission:
+    material = scene.materials[finish.material]
+    cone = material.cone if finish.group and isinstance(material, Opaque) else None
+    return (cone, finish.is_one_sided)

@@ -1,0 +1,159 @@
+"""Scene -> the arrays of the kernel, keyed by the name of their struct, and the frame."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from glrt.accel.sphere_nodes import pack_nodes
+from glrt.gpu.struct_arrays import COUNTED
+from glrt.gpu.structs import record
+from glrt.packing.kernel_structs import STRUCTS
+from glrt.packing.lights import lamps_of, pack_aims, pack_clusters, pack_lights
+from glrt.packing.material_details import pack_conductors, pack_facets
+from glrt.packing.materials import pack_emitters, pack_materials
+from glrt.packing.particles import particle_fields
+from glrt.packing.probes import probe_fields
+from glrt.packing.scene_tree import SceneTree, frame_fields, pack_tree, tree_of
+from glrt.packing.shapes import NUMBERED, Placing, in_order, pack_shapes, unit
+from glrt.packing.texture_maps import pack_coordinates, pack_maps
+from glrt.packing.triangles import pack_tints
+from glrt.plan.facts import Contents, contents_of
+from glrt.plan.particles import Ball
+from glrt.plan.probe_grid import Grid
+from glrt.scene.camera import Camera
+from glrt.scene.coincidence import coincidence_of
+from glrt.scene.glasses import AIR, Around
+from glrt.scene.scene import Scene
+from glrt.scene.values import BLACK
+from glrt.settings import Settings
+
+Array = np.ndarray[Any, Any]
+
+
+def pack_scene(
+    scene: Scene,
+    contents: Contents | None = None,
+    known: Array | None = None,
+    tree: SceneTree | None = None,
+) -> dict[str, Array]:
+    """Arrays for the kernel, keyed by the name of their struct.
+
+    `contents` and `tree` are those of the scene, if they are there already. `known` are the nodes
+    of a scene with the same objects: their tree is not built again.
+    """
+    found = contents or contents_of(scene)
+    shapes = in_order(scene)
+    eye = np.array(scene.camera.position, np.float64)
+    tree = tree or tree_of(scene, found)
+    lamps = lamps_of(scene, shapes, found, tree)
+    rows = {finish: row for row, finish in enumerate(found.finishes)}
+    lights = {number: row for row, number in enumerate(lamps.shapes)}
+    arrays = pack_shapes(shapes, Placing(eye, scene, rows, lights))
+    spheres = arrays["Sphere"][: None if found.has_sphere_tree else 0]
+    return {
+        **arrays,
+        "Node": pack_nodes(spheres, STRUCTS["Node"], known),
+        **pack_tree(tree, arrays),
+        **({"Triangle": tree.lit_by(lights, len(shapes))} if tree else {}),
+        "Tint": pack_tints(scene, found),
+        **pack_coordinates(scene, shapes, found, eye),
+        **pack_maps(scene, found.finishes),
+        "Material": pack_materials(scene, found.finishes),
+        "Conductor": pack_conductors(scene, found.finishes),
+        **pack_facets(scene, found.finishes),
+        "Emitter": pack_emitters(scene, found.finishes),
+        "Light": pack_lights(lamps, STRUCTS["Light"]),
+        "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
+        "Aim": pack_aims(lamps, eye, STRUCTS["Aim"]),
+        "Target": np.zeros(0, STRUCTS["Target"]),  # with_particles has them
+        "Sides": np.zeros(0, STRUCTS["Sides"]),
+    }
+
+
+def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
+    """The fields of the struct Camera; `aspect` is width over height of the full frame."""
+    forward = unit(np.subtract(camera.look_at, camera.position))
+    right = unit(np.cross(forward, camera.up))
+    tan_y = math.tan(math.radians(camera.fov) / 2)
+    tan_lens = math.tan(math.radians(camera.defocus_angle) / 2)
+    return {
+        "right": right,
+        "tan_x": tan_y * aspect,
+        "up": np.cross(right, forward),
+        "tan_y": tan_y,
+        "forward": forward,
+        "lens_radius": tan_lens * camera.resolved_focus_distance,
+        "tan_lens": tan_lens,
+    }
+
+
+def screen_axes(camera: Camera, aspect: float) -> dict[str, tuple[float, ...]]:
+    """The camera as passes over a picture name it, (3,) each.
+
+    `right` and `up` are half the width and height of the full frame at distance 1, `forward` unit.
+    """
+    view: dict[str, Any] = pack_camera(camera, aspect)
+    right, up = view["right"] * view["tan_x"], view["up"] * view["tan_y"]
+    axes = {"right": right, "up": up, "forward": view["forward"]}
+    return {name: tuple(axis.tolist()) for name, axis in axes.items()}
+
+
+def pack_frame(
+    scene: Scene,
+    settings: Settings,
+    counts: Mapping[str, int],
+    first_sample: int,
+    samples: int,
+    first_tile: int = 0,
+    tile_stride: int = 1,
+    is_empty: bool = True,
+    tree: SceneTree | None = None,
+    glass: Around = AIR,
+    sky_density: float = 0.0,
+    bounds: Ball | None = None,
+    grid: Grid | None = None,
+) -> bytes:
+    """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
+
+    `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
+    film is not read. `glass` is around the camera; `sky_density` is that of samples of the sky, as
+    sky_table.py has it; `bounds` are those that particles from afar fill; `grid` is that of probes.
+    """
+    bottom, *horizon, top = scene.background_colors
+    frame = {
+        "camera": pack_camera(scene.camera, settings.width / settings.height),
+        "background_bottom": bottom,
+        "bounces": settings.bounces,
+        "background_horizon": horizon[0] if horizon else BLACK,
+        "background_top": top,
+        "sun_direction": scene.sun.towards if scene.sun else (0.0, 1.0, 0.0),
+        "sun_versine": scene.sun.versine if scene.sun else 0.0,
+        "sun_radiance": scene.sun_radiance,
+        **particle_fields(scene, settings, bounds),
+        **probe_fields(grid, scene.camera),
+        "camera_absorption": glass.absorption,
+        "camera_counts": glass.counts,
+        "sky_density": sky_density,
+        "background_turn": (scene.background.rotation or 0.0) / 360 % 1.0,
+        "seed": settings.seed,
+        "size": (settings.width, settings.height),
+        "origin": settings.crop[:2] if settings.crop else (0, 0),
+        "first_sample": first_sample,
+        "sample_count": samples,
+        **{f"{struct.lower()}_count": counts[struct] for struct in (*NUMBERED, *COUNTED)},
+        "first_tile": first_tile,
+        "tile_stride": tile_stride,
+        "is_empty": int(is_empty),
+        "coincident_reach": _coincident_reach(scene),
+        **frame_fields(tree, np.array(scene.camera.position, np.float64)),
+    }
+    return record(STRUCTS["Frame"], frame).tobytes()
+
+
+def _coincident_reach(scene: Scene) -> float:
+    """The largest coordinate of surfaces that share a place, relative to the camera; 0 without."""
+    shared = coincidence_of(scene)
+    corners = np.array([shared.low, shared.high])
+    return float(np.abs(corners - np.array(scene.camera.position)).max()) if shared.pairs else 0.0

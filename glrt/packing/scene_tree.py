@@ -1,0 +1,205 @@
+"""The tree over the bounded shapes of a scene: how each kind is packed into its leaves.
+
+docs/extending.md says how a kind is added.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.accel.shape_tree import MOST_HEIGHT, Boxes, Family, ShapeTree, build, slots_of
+from glrt.accel.wide_tree import Grid, WideTree, grid_of
+from glrt.packing import tree_cache
+from glrt.packing.instances import (
+    Bases,
+    OwnTrees,
+    after,
+    check_numbers,
+    instances_of,
+    own_trees,
+    place,
+)
+from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
+from glrt.packing.shapes import in_order
+from glrt.packing.triangles import Triangles, pack_triangles, triangles_of
+from glrt.plan.facts import ENDLESS, MESH, Contents
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.kinds import KINDS
+
+Array = np.ndarray[Any, Any]
+
+SLOTS_OF_SHAPE, SLOTS_OF_TRIANGLE = 1.5, 0.8  # in a tree over many
+FEW = 2048  # slots: nodes of small trees are less full
+
+# By the name of the struct; those that are not here have no bounds, and stay outside.
+FAMILIES = {
+    "Sphere": Family(CONSTANTS["SPHERE"], ("center", "radius")),
+    "Quad": Family(CONSTANTS["QUAD"], ("corner", "normal", "dual_u", "dual_v")),
+    "Disk": Family(CONSTANTS["DISK"], ("center", "normal", "radius")),
+    "Box": Family(
+        CONSTANTS["BOX"], ("center", "axis_x", "half_x", "axis_y", "half_y", "axis_z", "half_z")
+    ),
+    "Cylinder": Family(
+        CONSTANTS["CYLINDER"], ("center", "axis", "radius", "half_height", "is_capped")
+    ),
+}
+
+
+if {kind.lower() for kind in FAMILIES} != {*KINDS} - {*ENDLESS, MESH}:
+    raise TypeError(f"leaves hold {list(FAMILIES)}; kinds of shapes are {list(KINDS)}")
+
+
+class SceneTree(NamedTuple):
+    """The tree that rays find shapes by, and the triangles in it."""
+
+    shapes: ShapeTree
+    corners: Array  # rows of the struct Corner
+    triangles: Array  # rows of the struct Triangle: those of the tree first
+    shared: int  # how many those are; the others are of own trees
+    own: OwnTrees
+    instances: Array  # rows of the struct Instance
+
+    @property
+    def stack(self) -> int:
+        """Entries that the kernel needs room for."""
+        return self.shapes.stack_with(self.own.height)
+
+    @property
+    def grid(self) -> Grid:
+        """Where it lies."""
+        return self.shapes.grid
+
+    def corner_positions(self, triangles: Array) -> Array:
+        """(n, 3, 3): of triangles by number, in scene units."""
+        corners = self.triangles["corners"][triangles]
+        positions: Array = self.corners["position"][corners] + self.grid.center
+        return positions
+
+    def lit_by(self, lights: Mapping[int, int], first: int) -> Array:
+        """The triangles with their lights, by their number from `first` on."""
+        if not lights or max(lights) < first:
+            return self.triangles
+        rows = self.triangles.copy()
+        bright = [number for number in lights if number >= first]
+        light = np.array([lights[number] for number in bright], np.uint32)
+        rows["owner"][np.array(bright) - first] |= (light + 1) << 16
+        return rows
+
+
+def tree_of(scene: Scene, contents: Contents, before: SceneTree | None = None) -> SceneTree | None:
+    """The tree that rays find shapes by; None where they are compared one by one.
+
+    Own trees that stand in the tree from `before` are not built again.
+    """
+    boxes = list(_boxes(scene, contents))
+    if not boxes and not contents.shapes[MESH]:
+        return None
+    meshes = scene.meshes
+    joined = [mesh for number, mesh in enumerate(meshes) if number not in contents.instances]
+    placed = [meshes[number] for number in contents.instances]
+    own = own_trees(placed, before.own if before else None)
+    check_numbers(len(placed), contents.instance_bits, len(scene.objects))
+    instances = instances_of(meshes, contents.instances, own)
+    fixed = [instances.boxes] if placed else []
+    corners = [(some.lower, some.upper) for some in (*boxes, *fixed)]
+    corners += [(points, points) for points in (mesh.world_vertices for mesh in joined)]
+    grid = grid_of(
+        np.min([low.min(axis=0) for low, _ in corners], axis=0),
+        np.max([high.max(axis=0) for _, high in corners], axis=0),
+    )
+    del corners
+    count = sum(len(mesh.triangles.faces) for mesh in joined)
+    found = partial(triangles_of, meshes, contents.instances)
+    parts = _built((*boxes, *fixed), found, count, grid, MOST_HEIGHT - own.height)
+    slots = parts["slots"]
+    bases = Bases(len(slots), len(parts["corners"]), len(parts["triangles"]))
+    own = after(own, bases)
+    rows = place(slots, instances, own, grid.center)
+    wide = WideTree(slots, int(parts["height"]))
+    shapes = ShapeTree(wide, grid, tuple(boxes), parts["place"])
+    joint = _joined(parts["corners"], own.corners), _joined(parts["triangles"], own.triangles)
+    return SceneTree(shapes, *joint, len(parts["triangles"]), own, rows)
+
+
+def _joined(first: Array, rest: Array) -> Array:
+    """One after the other; of one alone the same array again, which is known by its place."""
+    if not len(first) or not len(rest):
+        return rest if len(rest) else first
+    return np.concatenate([first, rest])
+
+
+def _built(
+    boxes: Sequence[Boxes],
+    found: Callable[[], Triangles],
+    count: int,
+    grid: Grid,
+    most_height: int,
+) -> Mapping[str, Array]:
+    """The tree over boxes and triangles, with the latter; of many of them from the cache.
+
+    `found` makes those `count` triangles anew when it is asked: they are not held while the tree is
+    built.
+    """
+    others = sum(len(some.lower) for some in boxes)
+
+    def built() -> dict[str, Array]:
+        packed = pack_triangles(found(), grid) if count else None
+        leaves = (*boxes, *([packed.boxes] if packed else []))
+        tree = build(leaves, grid, _room_for(others, count), most_height)
+        return {
+            "slots": tree.wide.slots,
+            "place": tree.place,
+            "height": np.array(tree.wide.height),
+            "corners": packed.corners if packed else np.zeros(0, STRUCTS["Corner"]),
+            "triangles": packed.triangles if packed else np.zeros(0, STRUCTS["Triangle"]),
+        }
+
+    if count < tree_cache.LEAST:
+        return built()
+    edges = [edge for some in boxes for edge in (some.lower, some.upper)]
+    words = [some.words() for some in boxes if some.words is not None]
+    return tree_cache.kept(tree_cache.key([*found(), *edges, *words]), built)
+
+
+def _room_for(shapes: int, triangles: int) -> int:
+    """Slots of a tree over so many: rarely more are needed, wherever they lie.
+
+    So a kernel does for the tree after shapes are moved.
+    """
+    few = min((shapes + triangles) / 2, FEW)
+    return math.ceil(SLOTS_OF_SHAPE * shapes + SLOTS_OF_TRIANGLE * triangles + few)
+
+
+def _boxes(scene: Scene, contents: Contents) -> Iterator[Boxes]:
+    """Of the shapes that are not compared one by one, a kind at a time."""
+    shapes, first = in_order(scene) if contents.tree_kinds else [], 0
+    for kind in KINDS.values():
+        some = [shape for shape in shapes if type(shape) is kind]
+        if some and some[0].shape in contents.tree_kinds:
+            rows = np.array([shape.row for shape in some], np.float64)
+            yield Boxes(kind.__name__, first, *kind.bounds(rows))
+        first += len(some)
+
+
+def pack_tree(tree: SceneTree | None, arrays: Mapping[str, Array]) -> dict[str, Array]:
+    """Rows of the structs Slot, Corner, Triangle and Instance, over shapes that are packed."""
+    if tree is None:
+        names = ("Slot", "Corner", "Triangle", "Instance")
+        return {name: np.zeros(0, STRUCTS[name]) for name in names}
+    slots = _joined(slots_of(tree.shapes, arrays, FAMILIES), tree.own.slots)
+    return {
+        "Slot": slots.view(STRUCTS["Slot"])[:, 0],
+        "Corner": tree.corners,
+        "Triangle": tree.triangles,
+        "Instance": tree.instances,
+    }
+
+
+def frame_fields(tree: SceneTree | None, eye: Array) -> dict[str, Any]:
+    """Where the grid of the tree lies, for the struct Frame."""
+    if tree is None:
+        return {"tree_center": (0, 0, 0), "tree_cell": 1.0}
+    return {"tree_center": tree.grid.center - eye, "tree_cell": tree.grid.cell}

@@ -1,0 +1,161 @@
+"""Shapes as rows of the kernel's arrays: a packer for each kind, in the order of its numbering.
+
+Positions are taken relative to the camera in float64: far from the origin nothing is lost.
+docs/extending.md says how a kind is added.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
+from glrt.scene.scene import Finish, Scene
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.cylinder import Cylinder
+from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.kinds import KINDS, Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.sphere import Sphere
+
+Array = np.ndarray[Any, Any]
+
+
+class Placing(NamedTuple):
+    """What a packer must know beside its shapes."""
+
+    eye: Array  # position of the camera, float64
+    scene: Scene
+    finishes: Mapping[Finish, int]  # row of each material, as it is on some objects
+    lights: Mapping[int, int]  # row of each sampled lamp, by the kernel's number of its shape
+
+    def material(self, thing: Shape) -> int:
+        """The row of an object's material."""
+        return self.finishes[self.scene.finish(thing)]
+
+    def light(self, number: int) -> int:
+        """The row of a lamp, or NO_LIGHT."""
+        return self.lights.get(number, CONSTANTS["NO_LIGHT"])
+
+
+def pack_spheres(rows: Array, spheres: Sequence[Sphere], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Sphere; `first` is the kernel's number of the first."""
+    rows["center"] = np.array([s.center for s in spheres], np.float64) - placing.eye
+    rows["radius"] = [s.radius for s in spheres]
+    rows["material"] = [placing.material(s) for s in spheres]
+    rows["light"] = [placing.light(first + i) for i in range(len(spheres))]
+
+
+def pack_planes(rows: Array, planes: Sequence[Plane], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Plane."""
+    del first  # planes are no sampled lamps
+    for row, plane in zip(rows, planes, strict=True):
+        normal = unit(np.array(plane.normal, np.float64))
+        offset = np.dot(normal, np.array(plane.point, np.float64) - placing.eye)
+        row["point"] = normal * offset  # nearest to the eye
+        row["normal"] = normal
+        row["material"] = placing.material(plane)
+
+
+def pack_quads(rows: Array, quads: Sequence[Quad], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Quad."""
+    for index, (row, quad) in enumerate(zip(rows, quads, strict=True)):
+        edges = np.array(quad.edge_u, np.float64), np.array(quad.edge_v, np.float64)
+        normal = np.cross(*edges)
+        area = np.linalg.norm(normal)
+        u, v = sorted(edges, key=np.linalg.norm)
+        length = np.linalg.norm(v)
+        row["corner"] = np.array(quad.corner, np.float64) - placing.eye
+        row["edge_u"], row["edge_v"] = u, v
+        row["normal"], row["height"] = normal / area, length
+        row["width"], row["shear"] = area / length, np.dot(u, v) / length
+        row["dual_u"] = np.cross(v, np.cross(u, v)) / area**2
+        row["dual_v"] = np.cross(np.cross(u, v), u) / area**2
+        row["material"] = placing.material(quad)
+        row["light"] = placing.light(first + index)
+
+
+def pack_disks(rows: Array, disks: Sequence[Disk], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Disk."""
+    for index, (row, disk) in enumerate(zip(rows, disks, strict=True)):
+        row["center"] = np.array(disk.center, np.float64) - placing.eye
+        row["normal"] = unit(np.array(disk.normal, np.float64))
+        row["radius"] = disk.radius
+        row["material"] = placing.material(disk)
+        row["light"] = placing.light(first + index)
+
+
+def pack_boxes(rows: Array, boxes: Sequence[Box], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Box."""
+    del first  # boxes are no sampled lamps
+    for row, box in zip(rows, boxes, strict=True):
+        row["center"] = np.array(box.middle, np.float64) - placing.eye
+        for name, axis, half in zip("xyz", box.axes, box.halves, strict=True):
+            row[f"axis_{name}"], row[f"half_{name}"] = axis, half
+        row["material"] = placing.material(box)
+
+
+def pack_cylinders(
+    rows: Array, cylinders: Sequence[Cylinder], placing: Placing, first: int
+) -> None:
+    """Fill rows of the struct Cylinder."""
+    del first  # cylinders are no sampled lamps
+    for row, cylinder in zip(rows, cylinders, strict=True):
+        row["center"] = np.array(cylinder.middle, np.float64) - placing.eye
+        row["axis"], row["radius"] = cylinder.axis, cylinder.radius
+        row["half_height"], row["is_capped"] = cylinder.half, cylinder.capped
+        row["material"] = placing.material(cylinder)
+
+
+def pack_meshes(rows: Array, meshes: Sequence[Mesh], placing: Placing, first: int) -> None:
+    """Fill rows of the struct Mesh; for its triangles see glrt/packing/triangles.py."""
+    del first  # meshes are no sampled lamps
+    rows["material"] = [placing.material(mesh) for mesh in meshes]
+    rows["is_smooth"] = [mesh.smooth for mesh in meshes]
+
+
+def unit(value: Array) -> Array:
+    """A vector of length 1 along another."""
+    along: Array = value / np.linalg.norm(value)
+    return along
+
+
+# The name of a model is that of its struct.
+PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
+    Sphere: pack_spheres,
+    Plane: pack_planes,
+    Quad: pack_quads,
+    Disk: pack_disks,
+    Box: pack_boxes,
+    Cylinder: pack_cylinders,
+    Mesh: pack_meshes,
+}
+NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
+
+if list(PACKERS) != list(KINDS.values()):
+    raise TypeError(f"shapes have packers {list(PACKERS)}, and models {list(KINDS.values())}")
+
+
+def order_of_kernel(scene: Scene) -> list[int]:
+    """Places of the visible objects in the scene, by kind, each as in the file."""
+    return [n for kind in PACKERS for n in scene.shown if type(scene.objects[n]) is kind]
+
+
+def in_order(scene: Scene) -> list[Shape]:
+    """The visible objects as the kernel numbers them."""
+    return [scene.objects[number] for number in order_of_kernel(scene)]
+
+
+def pack_shapes(shapes: Sequence[Shape], placing: Placing) -> dict[str, Array]:
+    """Rows of each kind by the name of its struct; `shapes` are in the kernel's order."""
+    arrays, first = {}, 0
+    for kind, pack in PACKERS.items():
+        some = [shape for shape in shapes if type(shape) is kind]
+        rows = np.zeros(len(some), STRUCTS[kind.__name__])
+        if some:
+            pack(rows, some, placing, first)
+        arrays[kind.__name__] = rows
+        first += len(some)
+    return arrays

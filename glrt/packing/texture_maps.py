@@ -1,0 +1,114 @@
+"""Images on surfaces: which a material has, their texels, and texture coordinates.
+
+shaders_glsl/structs/maps.glsl declares the rows, shaders_glsl/textures/ reads them.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
+from glrt.packing.triangles import corner_meshes
+from glrt.plan.facts import Contents
+from glrt.scene.images.texture_sizes import sizes_of
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.textures import NormalTexture, Texture
+from glrt.scene.scene import Finish, Scene
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.texture_axes import texture_axes
+
+Array = np.ndarray[Any, Any]
+
+NO_MAP, ALL_CHANNELS = CONSTANTS["NO_MAP"], CONSTANTS["ALL_CHANNELS"]
+FIELDS = {  # of the struct Maps, by the key of a material
+    "color": "color",
+    "emission": "emission",
+    "normal": "normal",
+    "metallic": "metallic",
+    "roughness": "roughness",
+    "alpha": "coverage",
+    "transmission": "crossed",
+}
+_WRAPS = {"repeat": "REPEAT", "mirror": "MIRROR", "clamp": "CLAMP"}
+_CHANNELS = "rgba"
+
+
+def textures_of(scene: Scene, finishes: Sequence[Finish]) -> dict[Texture, None]:
+    """The textures of the visible surfaces, each once."""
+    names = dict.fromkeys(finish.material for finish in finishes)
+    return {texture: None for name in names for texture in _textures(scene, name).values()}
+
+
+def _textures(scene: Scene, name: str) -> Mapping[str, Texture]:
+    material = scene.materials[name]
+    return material.textures if isinstance(material, Opaque) else {}
+
+
+def images_of(textures: Mapping[Texture, None]) -> list[Texture]:
+    """One texture for each image or checkerboard, in the order of their texels."""
+    found = dict[object, Texture]()
+    for texture in textures:
+        found.setdefault(texture.source, texture)
+    return list(found.values())
+
+
+def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
+    """Rows of the structs Map, one for each texture, and Maps, one for each finish; or none."""
+    textures = textures_of(scene, finishes)
+    maps = np.zeros(len(textures), STRUCTS["Map"])
+    images = images_of(textures)
+    shapes = sizes_of([texture.texels.shape[:2] for texture in images])
+    firsts = np.cumsum([0, *(height * width for height, width in shapes)])
+    place = {texture.source: number for number, texture in enumerate(images)}
+    for row, texture in zip(maps, textures, strict=True):
+        number = place[texture.source]
+        row["u"], row["v"] = texture.transform
+        row["first"], (row["height"], row["width"]) = firsts[number], shapes[number]
+        row["wrap_u"], row["wrap_v"] = (CONSTANTS[_WRAPS[wrap]] for wrap in texture.wrap)
+        row["is_sharp"] = texture.filter == "nearest" or texture.checker is not None
+        channel = texture.channel
+        row["channel"] = ALL_CHANNELS if channel is None else _CHANNELS.index(channel)
+        row["set"] = texture.uv
+        row["strength"] = texture.strength if isinstance(texture, NormalTexture) else 1.0
+    of_material = np.zeros(len(finishes) if len(textures) else 0, STRUCTS["Maps"])
+    numbers = {texture: number for number, texture in enumerate(textures)}
+    for row, finish in zip(of_material, finishes, strict=False):
+        own = _textures(scene, finish.material)
+        for key, field in FIELDS.items():
+            row[field] = numbers[own[key]] if key in own else NO_MAP
+        material = scene.materials[finish.material]
+        cutoff = material.alpha_cutoff if isinstance(material, Principled) else None
+        row["cutoff"] = -1.0 if cutoff is None else cutoff
+    return {"Map": maps, "Maps": of_material}
+
+
+def pack_coordinates(
+    scene: Scene, shapes: Sequence[Shape], contents: Contents, eye: Array
+) -> dict[str, Array]:
+    """Rows of the structs Axes, of planes, quads and disks, and Uv and Tangent, of corners.
+
+    None where there are no images; Tangent where there are none of normals.
+    """
+    is_mapped, is_bumpy = bool(contents.mapped), "normal" in contents.mapped
+    flat = [axes for shape in shapes if (axes := texture_axes(shape)) is not None]
+    axes_rows = np.zeros(len(flat) if is_mapped else 0, STRUCTS["Axes"])
+    for row, axes in zip(axes_rows, flat, strict=False):
+        row["origin"], row["u"], row["v"] = axes.origin - eye, axes.u, axes.v
+    meshes = corner_meshes(scene, contents) if is_mapped else []
+    own = len(scene.meshes) - len(contents.instances)  # from here on, each in its own frame
+    count = sum(len(mesh.triangles.vertices) for mesh in meshes)
+    uv_rows = np.zeros(count, STRUCTS["Uv"])
+    tangents = np.zeros(count if is_bumpy else 0, STRUCTS["Tangent"])
+    first = 0
+    for number, mesh in enumerate(meshes):
+        found = mesh.triangles
+        some = slice(first, first + len(found.vertices))
+        if found.uv is not None:
+            uv_rows["first"][some], uv_rows["second"][some] = found.uv[:, :2], found.uv[:, 2:]
+        if is_bumpy:
+            along = found.shading_tangents
+            tangents["along"][some] = along if number >= own else along @ mesh.linear.T
+        first = some.stop
+    return {"Axes": axes_rows, "Uv": uv_rows, "Tangent": tangents}

@@ -1,0 +1,192 @@
+"""What goes with what: one table of the ways to render that can be asked for together.
+
+Each pair of rows works or is refused, by its reason, before anything compiles. A pair that the
+table does not name is refused: whoever adds a row tries each pair first.
+docs/reference/combinations.md is written from here, and a test tries every cell.
+"""
+
+from collections.abc import Collection, Iterator
+from enum import StrEnum
+from itertools import combinations
+
+from glrt.core.errors import UsageError
+from glrt.plan.methods import METHODS, reuses_points
+from glrt.plan.particles import refusal
+from glrt.plan.plan import Layering
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+
+class Way(StrEnum):
+    """A way to render that is not the plain one; its value is what messages call it."""
+
+    CROP = "a crop"
+    RESUME = "--resume"
+    PART = "a part of a render"
+    MERGED = "a merged picture"
+    AOV = "AOVs"
+    LAYERS = "light by layers"
+    FRAGMENT = "the fragment pipeline"
+    INDEPENDENT = "the independent sampler"
+    CLASSIC = "a classic lighting model"
+    PROBES = "a method with probes"
+    REUSE = "reuse of points"
+    PARTICLES = "--caustics on"
+    PILOT = "--caustics auto"
+    DENOISE = "--denoise"
+    AUTO = "--method auto"
+    TIME = "--time"
+    ERROR = "--error"
+
+
+MEANINGS: dict[Way, str] = {
+    Way.CROP: "`--crop`: a part of the frame",
+    Way.RESUME: "`--resume`: go on from a picture",
+    Way.PART: "`--part`: a range of the samples",
+    Way.MERGED: "a picture of `glrt merge`, rendered again",
+    Way.AOV: "`--aov`: albedo, normal, depth, position, object, bounces",
+    Way.LAYERS: "a picture relit in the window, and the window's film",
+    Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
+    Way.INDEPENDENT: "`--sampler independent`",
+    Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
+    Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
+    Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
+    Way.PARTICLES: "`--caustics on`: particles from lamps",
+    Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
+    Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",
+    Way.AUTO: "`--method auto`: the cheapest that reaches `--error`",
+    Way.TIME: "`--time`: end after some seconds",
+    Way.ERROR: "`--error`: end at an error",
+}
+
+# Each row with those above it that it works with.
+_WORKS: dict[Way, tuple[Way, ...]] = {
+    Way.CROP: (),
+    Way.RESUME: (Way.CROP,),
+    Way.PART: (Way.CROP, Way.RESUME),
+    Way.MERGED: (Way.CROP, Way.PART),
+    Way.AOV: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED),
+    Way.LAYERS: (Way.CROP, Way.AOV),
+    Way.FRAGMENT: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
+    Way.INDEPENDENT: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+    ),
+    Way.CLASSIC: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        Way.INDEPENDENT,
+    ),
+    Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
+    Way.REUSE: (Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.PROBES),
+    Way.PARTICLES: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
+    ),
+    Way.PILOT: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        *(Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE),
+    ),
+    Way.DENOISE: (
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT),
+    ),
+    Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
+    Way.TIME: (
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
+    ),
+    Way.ERROR: (
+        *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
+        Way.TIME,
+    ),
+}
+
+_LENGTH = "which samples a part has follows from their number in all: give --samples"
+_REFUSED: dict[frozenset[Way], str] = {
+    frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
+    frozenset({Way.LAYERS, Way.RESUME}): "the picture lacks the layers that it was summed from",
+    frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
+    frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
+    frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
+    frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
+    frozenset({Way.PROBES, Way.LAYERS}): "probes hold the light of all lamps in one",
+    frozenset({Way.PROBES, Way.FRAGMENT}): "compute shaders fill the probes",
+    frozenset({Way.PROBES, Way.INDEPENDENT}): "the 16 samples of a block share their probes, so "
+    "that they are one observation",
+    frozenset({Way.PROBES, Way.CLASSIC}): "each is a method",
+    frozenset({Way.PROBES, Way.PARTICLES}): "particles are weighed by the method mis alone",
+    frozenset({Way.PROBES, Way.AUTO}): "it chooses among methods that leave no light out",
+    frozenset({Way.REUSE, Way.CROP}): "a sample asks pixels around, beyond the crop, too",
+    frozenset({Way.REUSE, Way.LAYERS}): "probes hold the light of all lamps in one",
+    frozenset({Way.REUSE, Way.FRAGMENT}): "compute shaders fill the probes",
+    frozenset({Way.REUSE, Way.INDEPENDENT}): "the 16 samples of a block share their probes, so "
+    "that they are one observation",
+    frozenset({Way.REUSE, Way.CLASSIC}): "each is a method",
+    frozenset({Way.REUSE, Way.PARTICLES}): "particles are weighed by the method mis alone",
+    frozenset({Way.REUSE, Way.AUTO}): "it chooses among methods that leave no light out",
+    frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
+    frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
+    frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
+    frozenset({Way.AUTO, Way.RESUME}): "the picture has its method: leave out --method auto",
+    frozenset({Way.AUTO, Way.PART}): "each part might choose another method: name one",
+    frozenset({Way.AUTO, Way.MERGED}): "its parts have their method: leave out --method auto",
+    frozenset({Way.AUTO, Way.LAYERS}): "its layers were traced by one method: leave it out",
+    frozenset({Way.AUTO, Way.CLASSIC}): "it chooses among methods that leave no light out",
+    frozenset({Way.TIME, Way.PART}): _LENGTH,
+    frozenset({Way.TIME, Way.MERGED}): _LENGTH,
+    frozenset({Way.ERROR, Way.PART}): _LENGTH,
+    frozenset({Way.ERROR, Way.MERGED}): _LENGTH,
+    frozenset({Way.DENOISE, Way.PART}): "it compares halves of all samples: render without parts",
+    frozenset({Way.DENOISE, Way.MERGED}): "its parts do not tell halves of all samples",
+    frozenset({Way.DENOISE, Way.AUTO}): "it chooses by the error of plain pictures: name a method",
+}
+_UNTRIED = "nobody has tried the two together"
+
+
+def works(one: Way, other: Way) -> bool:
+    """Whether two ways can be asked for together."""
+    return other in _WORKS.get(one, ()) or one in _WORKS.get(other, ())
+
+
+def reason(one: Way, other: Way) -> str:
+    """Why two ways are refused together."""
+    return _REFUSED.get(frozenset({one, other}), _UNTRIED)
+
+
+def pairs() -> Iterator[tuple[Way, Way]]:
+    """Every cell of the table."""
+    return combinations(Way, 2)
+
+
+def check(ways: Collection[Way]) -> None:
+    """UsageError for the first two that do not go together."""
+    for one, other in combinations([way for way in Way if way in ways], 2):
+        if not works(one, other):
+            first = one[:1].upper() + one[1:]
+            raise UsageError(f"{first} and {other} do not go together: {reason(one, other)}.")
+
+
+def check_render(
+    scene: Scene, settings: Settings, layering: Layering, is_part: bool, is_fragment: bool
+) -> None:
+    """UsageError where a renderer cannot render so."""
+    ways = ways_of(settings, layering)
+    ways |= {Way.PART} if is_part else set()
+    check(ways | ({Way.FRAGMENT} if is_fragment else set()))
+    if reason := refusal(scene, settings):
+        raise UsageError(f"--caustics on does not fit here: {reason}. Leave it out.")
+
+
+def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
+    """The ways that settings and layers of light ask for."""
+    found = {
+        Way.CROP: settings.crop is not None,
+        Way.AOV: bool(settings.aov),
+        Way.LAYERS: layering != "none",
+        Way.INDEPENDENT: settings.sampler == "independent",
+        Way.CLASSIC: METHODS[settings.method].model != 0,
+        Way.PROBES: METHODS[settings.method].has_probes,
+        Way.REUSE: reuses_points(settings),
+        Way.PARTICLES: settings.caustics == "on",
+        Way.DENOISE: settings.denoise != "none",
+    }
+    return {way for way, is_asked in found.items() if is_asked}

@@ -1,0 +1,228 @@
+"""What the kernel must be able to do for a scene and its settings, and nothing else."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+from glrt.plan.facts import SAMPLED, Contents, contents_of
+from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
+from glrt.plan.particles import (
+    caster_bits,
+    link_bits,
+    sky_sends_particles,
+    sun_sends_particles,
+    targets_of,
+)
+from glrt.scene.coincidence import coincidence_of
+from glrt.scene.materials.kinds import TYPES
+from glrt.scene.materials.metal import Metal
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.kinds import KINDS
+from glrt.settings import Settings
+
+NEAR = 8  # pixels that one asks for what they have kept
+NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # what the tree needs is known once it stands
+NO_LAYERS: dict[str, bool | int] = {
+    "LAYERS": 0,
+    "BY_LENGTH": False,
+    "BACKGROUND_LAYER": 0,
+    "SUN_LAYER": 0,
+}
+PLAIN_PROBES: dict[str, bool | int] = {
+    "FROM_PROBES": False,  # paths start at probes
+    "WITHOUT_VISIBILITY": False,  # of probes: for experiments
+    "WITHOUT_BIAS": False,
+}
+
+
+@dataclass(frozen=True)
+class Needs:
+    """The features compiled into a kernel; each is a constant of its prelude, in upper case.
+
+    `shapes`, `materials` and `lamps` become HAS_SPHERE, HAS_SPHERE_LIGHT and so on, one for each
+    kind and type there is, but for matte surfaces, which are always there, and metal, of which
+    there are two sorts.
+    """
+
+    shapes: frozenset[str]
+    materials: frozenset[str]
+    lamps: frozenset[str]  # kinds that are sampled, or lit by in the classic models
+    has_sphere_tree: bool
+    has_tree: bool  # over other shapes
+    has_instance: bool  # meshes with trees of their own
+    instance_bits: int
+    has_smooth: bool  # meshes whose normals are interpolated
+    has_vertex_color: bool  # meshes whose vertices have colours
+    has_map: bool  # images on surfaces
+    has_color_map: bool
+    has_emission_map: bool
+    has_gloss_map: bool  # of metallic or roughness
+    has_normal_map: bool
+    has_coverage_map: bool  # of alpha
+    has_transmission_map: bool
+    has_mirror: bool
+    has_rough_metal: bool
+    has_rough_glass: bool
+    has_pane: bool  # glass that is thin
+    has_attenuation: bool  # glass that absorbs light
+    has_nested: bool  # glasses that overlap by priority
+    media: int  # how many of them
+    has_transmission: bool  # principled surfaces that are glass in part
+    has_hole: bool  # or have holes
+    has_coat: bool  # principled surfaces under a clear coat
+    has_conductor: bool  # metal whose reflectance depends on the angle
+    has_lens: bool
+    has_cone: bool  # lamps that light a cone of directions
+    has_one_sided: bool  # lamps that emit from their front alone
+    has_coincident: bool  # flat lamps that share a place with other surfaces
+    has_background: bool
+    has_horizon: bool  # a background of two gradients
+    has_environment: bool  # a background in an image
+    has_sun: bool
+    sample_sky: bool  # the image of the sky
+    sample_sun: bool
+    sample_lights: bool
+    weight_both: bool
+    quads_by_area: bool  # points on lamps even in area, not in solid angle
+    has_particles: bool  # from lamps, linked to the camera
+    casters: int  # spheres at which some of them are aimed: a bit for each
+    targets: int  # balls around other shapes at which some of them are aimed
+    linked: int  # smooth spheres through which some of them are linked: a bit for each
+    has_probes: bool  # indirect light from a grid of them
+    final_gather: bool  # over one more matte surface, to which paths are traced
+    resamples: bool  # keeps one of the points that light the first matte surface
+    reuses_own: bool  # what the sample before has kept for the pixel, too
+    reuses_near: int  # and for so many pixels around
+    unbiased: bool  # asks what of that other pixels could have found
+    roulette: bool
+    model: int  # of those before path tracing; 0: paths are traced
+    many_lights: bool  # more than MOST_NEAR to sample
+    clusters: int  # lamps to weigh at each point, or of many clusters of them
+    block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
+
+    def constants(self) -> dict[str, bool | int]:
+        """The prelude: what the compiler may take for granted."""
+        kinds = {f"HAS_{kind.upper()}": kind in self.shapes for kind in KINDS}
+        own = [name for name in TYPES if name not in WITHOUT_OWN_FLAG]
+        types = {f"HAS_{name.upper()}": name in self.materials for name in own}
+        lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
+        plain = [field.name for field in fields(self) if field.name not in _SETS]
+        values = {name.upper(): getattr(self, name) for name in plain}
+        counts = {"COUNT_RAYS": False, "COUNT_BOUNCES": False}
+        every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
+        return {**every, **PLAIN_PROBES}
+
+
+def everything() -> dict[str, bool | int]:
+    """The constants of a kernel with every feature, for functions that are tried alone.
+
+    Paths are traced; lamps are chosen as in the scene that the caller names, or not at all. The sky
+    has two gradients and no image, which would take their place, as probes would that of paths.
+    """
+    plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
+    sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
+    numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0, "casters": 0}
+    numbers |= {"targets": 0, "linked": 0, "reuses_near": 0}
+    return Needs(**{**plain, **sets, **numbers}).constants()
+
+
+_IMAGE = (
+    *("has_environment", "sample_sky", "has_probes", "final_gather", "has_coincident"),
+    *("resamples", "reuses_own", "unbiased"),
+)
+_SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
+WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
+
+
+def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None) -> Needs:
+    """The features that this scene, rendered with these settings, makes use of."""
+    found, traits = contents or contents_of(scene), METHODS[settings.method]
+    is_lit = traits.uses_lamps and found.sampled_lamps > 0
+    is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
+    sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
+    follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
+    metals = [m for m in found.materials.values() if m.type == "metal"]
+    return Needs(
+        shapes=frozenset(kind for kind, count in found.shapes.items() if count),
+        materials=_types(found, traits.follows),
+        lamps=frozenset(found.sampled if is_lit else ()),
+        has_sphere_tree=found.has_sphere_tree,
+        has_tree=bool(found.tree_kinds),
+        has_instance=bool(found.instances),
+        instance_bits=found.instance_bits,
+        has_smooth=found.is_smooth,
+        has_vertex_color=found.is_colored,
+        has_map=bool(found.mapped),
+        has_color_map="color" in found.mapped,
+        has_emission_map="emission" in found.mapped,
+        has_gloss_map=bool(found.mapped & {"metallic", "roughness"}),
+        has_normal_map="normal" in found.mapped,
+        has_coverage_map="alpha" in found.mapped,
+        has_transmission_map="transmission" in found.mapped,
+        has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
+        has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
+        has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),
+        has_transmission=bool(found.transmitting),
+        has_hole=bool(found.holed),
+        has_coat=bool(found.coated),
+        has_conductor=bool(found.conductors),
+        has_pane=traits.follows and bool(found.panes),
+        has_attenuation=traits.follows and bool(found.tinted),
+        has_nested=traits.follows and bool(found.media),
+        media=len(found.media) if traits.follows else 0,
+        has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
+        has_cone=bool(found.cones),
+        has_one_sided=bool(found.one_sided),
+        has_coincident=bool(coincidence_of(scene).pairs),
+        has_background=any(map(any, scene.background_colors)),
+        has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
+        has_environment=is_pictured,
+        has_sun=has_sun and not traits.model,
+        sample_sky=is_pictured and traits.samples_lights,
+        sample_sun=has_sun and traits.samples_lights,
+        sample_lights=is_lit and traits.samples_lights,
+        weight_both=(is_lit or is_pictured or has_sun) and traits.weights_both,
+        quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
+        has_particles=follows_particles,
+        casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
+        targets=len(targets_of(scene)) if follows_particles and settings.aimed else 0,
+        linked=link_bits(scene) if follows_particles and settings.linked else 0,
+        **_of_probes(settings, found),
+        roulette=settings.roulette and traits.follows,
+        model=_model_number(settings.method, metals),
+        many_lights=traits.chooses_lights and found.has_many_lights,
+        clusters=found.clusters if traits.chooses_lights else 0,
+        block=settings.block,
+    )
+
+
+def _of_probes(settings: Settings, found: Contents) -> dict[str, Any]:
+    """The features of methods with probes."""
+    traits = METHODS[settings.method]
+    resamples = traits.resamples and not found.holed  # a ray sees through holes at random
+    reuses = resamples and reuses_points(settings)
+    return {
+        "has_probes": traits.has_probes,
+        "final_gather": traits.gathers,
+        "resamples": resamples,
+        "reuses_own": reuses and settings.reuse in TEMPORAL,
+        "reuses_near": NEAR if reuses and settings.reuse in SPATIAL else 0,
+        "unbiased": reuses and settings.unbiased,
+    }
+
+
+def _types(found: Contents, follows: bool) -> frozenset[str]:
+    types = {m.type for m in found.materials.values() if not m.is_transparent}
+    return frozenset(types | ({"dielectric"} if follows and found.solid_glasses else set()))
+
+
+def has_image(scene: Scene) -> bool:
+    """Whether light comes from an image of the sky."""
+    return any(map(any, scene.background_colors)) and scene.background.is_pictured
+
+
+def _model_number(method: str, metals: Sequence[Metal]) -> int:
+    """Of the model; without highlights, the two that differ in their form are one."""
+    if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
+        return METHODS["phong"].model
+    return METHODS[method].model

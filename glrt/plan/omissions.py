@@ -1,0 +1,92 @@
+"""What a method leaves out of a scene, in plain words: its failures against what is in there."""
+
+from collections.abc import Iterator
+
+from glrt.plan.facts import contents_of
+from glrt.plan.methods import CLASSIC, METHODS, reuses_points
+from glrt.plan.probe_grid import grid_of
+from glrt.scene.materials.kinds import glass_of
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.kinds import KINDS
+from glrt.settings import Settings
+
+
+def omissions(scene: Scene, settings: Settings) -> list[str]:
+    """The light that this method does not show in this scene; nothing for those that trace paths.
+
+    What a limit of bounces cuts off is not among it.
+    """
+    if METHODS[settings.method].has_probes:
+        return list(_blurred(scene, settings))
+    return list(_omissions(scene, settings.method)) if settings.method in CLASSIC else []
+
+
+def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
+    """What probes do not hold of the light that paths leave to them."""
+    gathers = METHODS[settings.method].gathers
+    if settings.bounces < 2 + gathers or not scene.visible:
+        return
+    kinds = {material.type for material in contents_of(scene).materials.values()}
+    if "lambertian" not in kinds:
+        return
+    cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(scene, settings).cell)
+    light = "light over three matte surfaces or more" if gathers else "indirect light"
+    yield f"of {light} what is finer than its probes, {cell} apart"
+    if reuses_points(settings) and not settings.unbiased:
+        yield "light at contacts and edges, of which points of other pixels tell too little"
+    if kinds & {"metal", "dielectric"}:
+        lit = "matte surfaces that light others" if gathers else "matte surfaces"
+        yield f"light over mirrors or through glass onto {lit}"
+
+
+def _omissions(scene: Scene, method: str) -> Iterator[str]:
+    """From what usually weighs most to what weighs least."""
+    contents = contents_of(scene)
+    materials = contents.materials.values()
+    kinds = {material.type for material in materials}
+    metals = [material for material in materials if material.type == "metal"]
+    is_local = not METHODS[method].follows
+    lamps = {shape.shape for shape in scene.visible if scene.finish(shape).group}
+    traits = METHODS[method]
+    reflects = any(
+        not material.is_transparent and (material.type != "light" or any(material.color))
+        for material in materials
+    )
+    if is_local and any(metal.alpha == 0 for metal in metals):
+        yield "mirrors reflect nothing"
+    if is_local and any(map(glass_of, materials)):
+        yield "glass is black"
+    if reflects:
+        yield "no indirect light"
+    if is_local and lamps and len(scene.visible) > 1:
+        yield "no shadows"
+    if traits.follows and not traits.chooses_lights and lamps:
+        yield "hard shadows: lamps are points"
+    if not traits.has_rough and any(metal.alpha > 0 for metal in metals):
+        yield "rough metal is a mirror"
+    if not is_local and not traits.has_rough and contents.rough_glasses:
+        yield "rough glass is smooth"
+    if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
+        yield "no light over mirrors or through glass onto matte surfaces"
+    if "principled" in kinds and len(scene.visible) > 1:
+        yield "principled surfaces reflect lamps alone"
+    for kind in KINDS:
+        if kind in lamps and kind not in contents.sampled:
+            yield f"{kind} lamps light nothing"
+    has_sky = any(map(any, scene.background_colors))
+    if has_sky and scene.background.is_pictured:
+        yield "the image of the sky lights nothing"
+    elif has_sky and len(scene.visible) > 1:
+        yield "nothing hides the sky"
+    if any(scene.sun_radiance):
+        yield "the sun lights nothing"
+    if not traits.has_lens and scene.camera.defocus_angle > 0:
+        yield "everything is in focus"
+
+
+def left_out(settings: Settings, missing: list[str]) -> str:
+    """A sentence that names what `omissions` found."""
+    what = "blurs light" if METHODS[settings.method].has_probes else "leaves light out"
+    return (
+        f"Method {settings.method} {what}, which no estimated error contains: {'; '.join(missing)}."
+    )

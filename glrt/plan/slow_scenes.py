@@ -1,0 +1,64 @@
+"""Why a scene is slow, where the user can change it."""
+
+from glrt.core.text import counted
+from glrt.plan.facts import MOST_LAMPS, contents_of
+from glrt.plan.methods import CLASSIC, METHODS
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+MOST_PLANES = 32  # as many shapes as a kernel holds as constants
+LONG = 16  # bounces: paths that are followed further have hardly any light left
+
+
+def slow_because(scene: Scene, settings: Settings) -> list[str]:
+    """A sentence or two for each reason: what takes the time, and what to do."""
+    found = (
+        _one_by_one(scene),
+        _unsampled(scene, settings),
+        _no_roulette(settings),
+        _particles_of_a_crop(settings),
+    )
+    return [text for text in found if text]
+
+
+def _one_by_one(scene: Scene) -> str:
+    """Shapes that no tree holds."""
+    planes = contents_of(scene).shapes["plane"]
+    if planes <= MOST_PLANES:
+        return ""
+    return (
+        f"each ray is compared with {counted(planes, 'plane')} one by one: what has no end has no "
+        "place in a tree. Quads have: use them for planes that need not be endless."
+    )
+
+
+def _unsampled(scene: Scene, settings: Settings) -> str:
+    """Triangles that emit, and are too many to be sampled."""
+    found = contents_of(scene)
+    if not METHODS[settings.method].uses_lamps or found.bright_triangles == found.lamp_triangles:
+        return ""
+    return (
+        f"{found.bright_triangles:,} triangles emit light, and a scene may have {MOST_LAMPS:,} "
+        "lamps that are sampled: the light of meshes is found by scattering alone, and noisy. Use "
+        "a mesh of fewer triangles for the lamp, or a quad."
+    )
+
+
+def _no_roulette(settings: Settings) -> str:
+    if settings.roulette or settings.bounces < LONG or settings.method in CLASSIC:
+        return ""
+    return (
+        f"--no-roulette follows every path to its limit of {counted(settings.bounces, 'bounce')}, "
+        "though it has hardly any light left: leave it out, or allow fewer --bounces."
+    )
+
+
+def _particles_of_a_crop(settings: Settings) -> str:
+    if settings.crop is None or settings.caustics == "off":
+        return ""
+    columns, rows = settings.size
+    share = 100 * columns * rows / (settings.width * settings.height)
+    return (
+        f"the crop is {share:.2g} % of the frame, and the particles of all of it are followed: "
+        "--caustics off may be faster."
+    )

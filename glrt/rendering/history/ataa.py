@@ -1,0 +1,99 @@
+"""Adaptive temporal antialiasing: other means where an exponential mean over views fails.
+
+Marrs et al., "Adaptive Temporal Antialiasing" (2018): a mask of failures, FXAA where what is seen
+was outside the view before, and more samples elsewhere.
+"""
+
+import moderngl
+
+from glrt.gpu.canvas import Canvas
+from glrt.rendering.history.drawn_pass import DrawnPass
+from glrt.rendering.history.gbuffer import Surfaces
+from glrt.rendering.history.history_filter import Fresh
+from glrt.rendering.history.more_samples import MoreSamples
+from glrt.rendering.history.reprojection import Reprojection, between
+from glrt.rendering.history.taa import PUBLISHED, UNLIMITED
+
+SAMPLES = 8  # more, of a pixel where the mean fails
+CHOICES = range(2, 17)  # of it: as in the paper
+
+
+class Ataa:
+    """Temporal antialiasing, and what its mask says. Pixels are traced once for each view."""
+
+    def __init__(self, gl: moderngl.Context, samples: int = SAMPLES) -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self.samples = samples
+        self.traced = 0  # pixels of this view
+        self._reprojection = Reprojection(gl, UNLIMITED)
+        self._plain, self._find = DrawnPass(gl, "taa.frag"), DrawnPass(gl, "ataa_mask.frag")
+        self._compose, self._more = DrawnPass(gl, "ataa.frag"), MoreSamples(gl)
+        self._means, self._mask, self._canvas = (Canvas(gl, "f4") for _ in range(3))
+        self._before: Surfaces | None = None
+        self._history: moderngl.Texture | None = None  # the newest of this view
+        self._brought: moderngl.Texture | None = None
+        self._extra: moderngl.Texture | None = None
+        self._is_masked = False
+
+    @property
+    def more(self) -> int:
+        """Samples of this view beside the film."""
+        return self.traced * self.samples
+
+    @property
+    def mask(self) -> moderngl.Texture | None:
+        """Of this view, a: 0 the mean over views, 1 FXAA, 2 more samples, 3 those alone."""
+        return self._mask.texture if self._is_masked else None
+
+    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
+        """Bring what was shown, whatever the light: limits and mask keep it near the film."""
+        del is_same_light
+        self._brought, self._before, self._extra = None, before, None
+        self._is_masked, self.traced = False, 0
+        if before and self._history:
+            self._brought = self._reprojection.bring(now, before, self._history)
+        self._history = self._brought
+
+    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
+        """Radiance, and the samples that it stands for."""
+        size, film = fresh.mean.size, {"light": fresh.light, "mean": fresh.mean}
+        brought = self._brought if fresh.samples < fresh.end else None
+        values = {"has_history": brought is not None, **PUBLISHED._asdict()}
+        means = self._means.sized(size)
+        self._plain.draw(means, {**film, "brought": brought or fresh.mean}, values)
+        assert self._means.texture
+        self._history = self._means.texture
+        if not brought or not self._before:
+            return self._history
+        if not self._is_masked:
+            self._look(now, self._before, fresh, brought)
+        assert self._mask.texture
+        textures = {**film, "plain": self._means.texture, "mask": self._mask.texture}
+        textures["more"] = self._extra or fresh.mean
+        own = {"has_more": self._extra is not None, "least": PUBLISHED.least}
+        self._compose.draw(self._canvas.sized(size), textures, own)
+        assert self._canvas.texture
+        self._history = self._canvas.texture
+        return self._history
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for one in (self._reprojection, self._plain, self._find, self._compose, self._more):
+            one.release()
+        for canvas in (self._means, self._mask, self._canvas):
+            canvas.release()
+        self._is_masked = False
+
+    def _look(
+        self, now: Surfaces, before: Surfaces, fresh: Fresh, brought: moderngl.Texture
+    ) -> None:
+        """Find where the mean fails, by the first samples of the view, and trace there."""
+        textures, values = between(now, before)
+        own = {**textures, "light": fresh.light, "brought": brought}
+        self._find.draw(self._mask.sized(now.size), own, values)
+        self._is_masked = True
+        assert self._mask.texture
+        if fresh.source:
+            self._extra, self.traced = self._more.trace(
+                fresh.source, self._mask.texture, self.samples
+            )

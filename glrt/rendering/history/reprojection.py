@@ -1,0 +1,94 @@
+"""What was shown of one view, brought to another: the history follows the surfaces.
+
+A place of the other view is taken over if it holds the same object, as far from the eye within 2 %
+and facing within 25 degrees (shaders_glsl/passes/reprojection.glsl).
+"""
+
+from typing import Any, NamedTuple
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.canvas import Canvas
+from glrt.packing.scene_arrays import screen_axes
+from glrt.rendering.history.drawn_pass import DrawnPass
+from glrt.rendering.history.gbuffer import Surfaces
+from glrt.scene.scene import Scene
+
+
+class Limits(NamedTuple):
+    """Samples of a pixel that history may stand for, at most: where it is old it is wrong."""
+
+    most: float = 64.0
+    most_specular: float = 8.0  # in mirrors and glass, and out of focus
+    most_at_edges: float = 2.0  # where samples may meet another surface, too
+
+
+USUAL = Limits()
+
+
+def shares_objects(one: Scene, other: Scene) -> bool:
+    """Whether the numbers of objects mean the same in both scenes."""
+    return [shape.shape for shape in one.visible] == [shape.shape for shape in other.visible]
+
+
+def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture], dict[str, Any]]:
+    """Textures and uniforms of passes/reprojection.glsl; both hold a view."""
+    assert now.scene
+    assert before.scene
+    assert before.settings
+    settings = before.settings
+    axes = screen_axes(before.scene.camera, settings.width / settings.height)
+    shift = np.subtract(now.scene.camera.position, before.scene.camera.position, dtype=np.float64)
+    textures = {
+        "position": now.position,
+        "normal": now.normal,
+        "before_position": before.position,
+        "before_normal": before.normal,
+    }
+    values = {
+        "eye_shift": shift,
+        **{f"before_{name}": np.asarray(axis) for name, axis in axes.items()},
+        "before_frame": np.array([settings.width, settings.height]),
+        "before_origin": np.array(settings.crop[:2] if settings.crop else (0, 0)),
+    }
+    return textures, {name: tuple(map(float, value)) for name, value in values.items()}
+
+
+class Reprojection:
+    """Brings history from one view to another: radiance, and the samples that it stands for."""
+
+    def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self.limits = limits
+        self._pass = DrawnPass(gl, "reproject.frag")
+        self._canvases = [Canvas(gl, "f4"), Canvas(gl, "f4")]
+
+    def bring(
+        self,
+        now: Surfaces,
+        before: Surfaces,
+        history: moderngl.Texture,
+        limits: Limits | None = None,
+    ) -> moderngl.Texture:
+        """RGBA32F of the size of `now`, a: samples, 0 where the surface was not seen before.
+
+        It stays valid through the next call, whose history it may be.
+        """
+        self._canvases.reverse()
+        target = self._canvases[0].sized(now.size)
+        textures, values = between(now, before)
+        pixels = [width * height for width, height in (before.size, now.size)]
+        own = {
+            **(limits or self.limits)._asdict(),
+            "density": min(pixels[0] / pixels[1], 1.0),
+        }
+        self._pass.draw(target, {**textures, "history": history}, {**values, **own})
+        assert self._canvases[0].texture
+        return self._canvases[0].texture
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._pass.release()
+        for canvas in self._canvases:
+            canvas.release()

@@ -1,0 +1,65 @@
+"""Temporal antialiasing: an exponential mean of what was shown, where the surface was seen before.
+
+Yang, Liu, Salvi, "A Survey of Temporal Antialiasing Techniques" (2020). Samples have places of
+their own in their pixels: the film needs no other jitter, and keeps its bits.
+"""
+
+from typing import NamedTuple
+
+import moderngl
+
+from glrt.gpu.canvas import Canvas
+from glrt.rendering.history.drawn_pass import DrawnPass
+from glrt.rendering.history.gbuffer import Surfaces
+from glrt.rendering.history.history_filter import Fresh
+from glrt.rendering.history.reprojection import Limits, Reprojection
+
+ANY = -1.0  # history is not kept within limits
+UNLIMITED = Limits(1e6, 1e6, 1e6)  # the least share of a sample limits it
+
+
+class TaaOptions(NamedTuple):
+    """As the survey has them."""
+
+    least: float = 0.1  # share of a new sample; more of the first: 1 / n of the n-th
+    reach: float = 1.0  # deviations of the neighbourhood about its mean that history is kept in
+
+
+PUBLISHED = TaaOptions()
+
+
+class Taa:
+    """The film, and what was shown of the view before: each sample is a frame."""
+
+    def __init__(self, gl: moderngl.Context, options: TaaOptions = PUBLISHED) -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self._reprojection = Reprojection(gl, UNLIMITED)
+        self._pass = DrawnPass(gl, "taa.frag")
+        self._canvas = Canvas(gl, "f4")
+        self._options = options
+        self._history: moderngl.Texture | None = None  # the newest of this view
+        self._brought: moderngl.Texture | None = None
+
+    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
+        """Bring what was shown, whatever the light: limits keep it near the film."""
+        del is_same_light
+        self._brought = None
+        if before and self._history:
+            self._brought = self._reprojection.bring(now, before, self._history)
+        self._history = self._brought
+
+    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
+        """Radiance, and the samples that it stands for."""
+        del now
+        brought = self._brought if fresh.samples < fresh.end else None
+        textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought or fresh.mean}
+        values = {"has_history": brought is not None, **self._options._asdict()}
+        self._pass.draw(self._canvas.sized(fresh.mean.size), textures, values)
+        self._history = self._canvas.texture
+        assert self._history
+        return self._history
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for part in (self._reprojection, self._pass, self._canvas):
+            part.release()

@@ -1,0 +1,262 @@
+"""What the screen shows while the camera moves: a film that begins anew, and history beside it.
+
+`Temporal` follows a renderer from view to view and holds what all modes share: the surfaces of this
+view and of the one before. A mode is a `Resolver`: it makes the picture, and what the next view
+begins from. None of them ever writes to the film.
+
+    temporal.leave(renderer, weights)   # before an edit: what is shown becomes history
+    renderer.update(...)                # the film is empty
+    temporal.arrive(renderer)           # surfaces of the new view; history is brought to it
+    renderer.advance(...)
+    texture = temporal.show(renderer, weights)   # None: the film alone is to be shown
+"""
+
+from typing import Literal, NamedTuple, get_args
+
+import moderngl
+
+from glrt.core.errors import RenderError
+from glrt.gpu.canvas import Canvas
+from glrt.gpu.program import TILE
+from glrt.plan.plan import Weights, are_trivial
+from glrt.rendering.history.ataa import SAMPLES, Ataa
+from glrt.rendering.history.drawn_pass import DrawnPass
+from glrt.rendering.history.gbuffer import SurfacePass, Surfaces
+from glrt.rendering.history.history_filter import Fresh, Resolver
+from glrt.rendering.history.reprojection import USUAL, Limits, Reprojection, shares_objects
+from glrt.rendering.history.taa import Taa
+from glrt.rendering.history.wrls import Predictor, Wrls
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.screen.false_colors import Number, Told
+
+Mode = Literal["reset", "reproject", "taa", "ataa", "wrls"]
+
+END = 64.0  # samples of a film from which on history is not shown, at the latest
+
+
+class Reproject:
+    """History follows the surfaces; film and history are weighed by their numbers of samples."""
+
+    def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self._reprojection = Reprojection(gl, limits)
+        self._evidence, self._fade = DrawnPass(gl, "evidence.frag"), DrawnPass(gl, "fade.frag")
+        self._tiles, self._canvas = Canvas(gl, "f4"), Canvas(gl, "f4")
+        self._history: moderngl.Texture | None = None  # the newest of this view
+        self._brought: moderngl.Texture | None = None
+
+    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
+        """Bring what was shown."""
+        self._brought = None
+        if before and self._history:
+            limits = None if is_same_light else OTHER_LIGHT
+            self._brought = self._reprojection.bring(now, before, self._history, limits)
+        self._history = self._brought
+
+    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
+        """Radiance, and the samples that it stands for."""
+        del now
+        if not self._brought:
+            self._history = None
+            return self._draw(fresh, fresh.mean, 0.0)
+        return self._draw(fresh, self._brought, fresh.end)
+
+    def _draw(self, fresh: Fresh, brought: moderngl.Texture, end: float) -> moderngl.Texture:
+        target = self._canvas.sized(fresh.mean.size)
+        width, height = fresh.mean.size
+        tiles = self._tiles.sized((-(-width // TILE), -(-height // TILE)))
+        textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought}
+        self._evidence.draw(tiles, textures, {})
+        assert self._tiles.texture
+        textures["evidence"] = self._tiles.texture
+        values = {"samples": float(fresh.samples), "end": end}
+        self._fade.draw(target, textures, values)
+        self._history = self._canvas.texture
+        assert self._history
+        return self._history
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        for part in (self._reprojection, self._evidence, self._fade, self._tiles, self._canvas):
+            part.release()
+
+
+OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # what was shown is wrong by an unknown amount
+
+
+class Way(NamedTuple):
+    """A mode, and what else its users choose."""
+
+    mode: Mode = "reproject"
+    predictor: Predictor = "published"  # of wrls
+    traced: int = SAMPLES  # of ataa: samples more of a pixel where history fails
+
+    @property
+    def name(self) -> str:
+        """For tables and charts."""
+        if self.mode == "wrls" and self.predictor != "published":
+            return f"{self.mode} {self.predictor}"
+        if self.mode == "ataa" and self.traced != SAMPLES:
+            return f"{self.mode} {self.traced}"
+        return self.mode
+
+
+USUAL_WAY = Way()
+_ALL = [Way(mode, predictor) for mode in get_args(Mode) for predictor in get_args(Predictor)]
+WAYS = {way.name: way for way in reversed(_ALL)}  # a name alone: the published predictor
+
+
+def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
+    """What makes its pictures; None: the film alone is shown."""
+    match way.mode:
+        case "reset":
+            return None
+        case "reproject":
+            return Reproject(gl)
+        case "taa":
+            return Taa(gl)
+        case "ataa":
+            return Ataa(gl, way.traced)
+        case "wrls":
+            return Wrls(gl, way.predictor)
+
+
+class Temporal:
+    """Follows a renderer; `reset` shows its film alone, and costs nothing."""
+
+    def __init__(self, gl: moderngl.Context, way: Way = USUAL_WAY) -> None:
+        """Nothing is compiled or allocated before it is needed."""
+        self.end = END  # samples of the film from which on it is shown alone
+        self._gl = gl
+        self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, of the one before
+        self._pass = SurfacePass(gl)
+        self._resolver = resolver_of(gl, way)
+        self._is_prepared = False  # whether all passes are compiled
+        self._is_kept = False  # whether there is a history to begin from
+        self._is_brought = False  # whether the view has one
+        self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view
+
+    @property
+    def surfaces(self) -> Surfaces:
+        """Of this view."""
+        return self._surfaces[0]
+
+    def leave(self, renderer: Renderer, weights: Weights | None = None) -> None:
+        """What is shown becomes history: call it before an edit restarts the film."""
+        if self._resolver and renderer.samples and not self.surfaces.scene:
+            self._find(renderer)  # the first view of all
+        if self._resolver and renderer.samples:
+            if self._resolved_at != (renderer.samples, weights):
+                self._resolved(self._resolver, renderer, weights)
+            self._is_kept = True
+
+    def prepare(self, renderer: Renderer, weights: Weights | None = None) -> None:
+        """Compile and allocate what the first edit would wait for; nothing of it is shown."""
+        if not self._resolver or not renderer.samples or self._is_prepared:
+            return
+        self._is_prepared = True
+        self.leave(renderer, weights)
+        with self._gl:
+            for before in (self.surfaces, None):
+                self._resolver.arrive(self.surfaces, before, True)
+                self._resolver.show(self.surfaces, self._fresh(renderer, weights, END))
+        self.forget()
+
+    def arrive(self, renderer: Renderer) -> None:
+        """Begin the view that a renderer shows now; its film has no sample yet."""
+        if not self._resolver:
+            return
+        self._surfaces.reverse()
+        self._find(renderer)
+        self._resolved_at = None
+        now, before = self._surfaces
+        is_usable = self._is_kept and before.scene and shares_objects(renderer.scene, before.scene)
+        is_same_light = bool(before.scene and is_lit_alike(renderer, before))
+        self._is_brought = bool(is_usable)
+        self._is_prepared |= self._is_brought
+        with self._gl:
+            self._resolver.arrive(now, before if is_usable else None, is_same_light)
+
+    def show(self, renderer: Renderer, weights: Weights | None = None) -> moderngl.Texture | None:
+        """The picture of film and history, valid until the next call; None: the film alone."""
+        if not self._resolver or not self.is_shown(renderer):
+            return None
+        return self._resolved(self._resolver, renderer, weights)
+
+    def is_shown(self, renderer: Renderer) -> bool:
+        """Whether the picture is not the film alone."""
+        return self._is_brought and renderer.samples < self.end
+
+    def told(
+        self, renderer: Renderer, number: Number, weights: Weights | None = None
+    ) -> Told | None:
+        """A number of what is shown, valid as `show` is; None: there is none.
+
+        `history`: samples that a pixel stands for, with those of the film; by `wrls` the views that
+        its model has seen. `weight`: by `wrls` that of the film in the fit, from 0 to 1.
+        `mask`: by `ataa` what a pixel shows where the mean over views fails (temporal/ataa.glsl).
+        """
+        shown, resolver = self.show(renderer, weights), self._resolver
+        if number == "mask":
+            mask = resolver.mask if shown and isinstance(resolver, Ataa) else None
+            return Told(mask, 0.0) if mask else None
+        if shown and isinstance(resolver, Wrls):
+            return Told(shown, 1.0) if number == "history" else Told(resolver.predictions, 0.0)
+        return Told(shown, renderer.samples) if shown and number == "history" else None
+
+    @property
+    def more_samples(self) -> float:
+        """What this view took beside the film, by `ataa`: the mean over pixels."""
+        resolver, (width, height) = self._resolver, self.surfaces.size
+        return resolver.more / (width * height) if isinstance(resolver, Ataa) and width else 0.0
+
+    def forget(self) -> None:
+        """What was shown is no history for what comes."""
+        self._is_kept = self._is_brought = False
+        self._resolved_at = None
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._pass.release()
+        for surfaces in self._surfaces:
+            surfaces.release()
+        if self._resolver:
+            self._resolver.release()
+
+    def _find(self, renderer: Renderer) -> None:
+        if isinstance(self._resolver, Ataa) and renderer.pipeline == "fragment":
+            raise RenderError(
+                "temporal ataa lists the pixels that it traces: that takes compute shaders, and "
+                "the pipeline is fragment. temporal taa does without."
+            )
+        self._pass.fill(renderer, self.surfaces)
+
+    def _resolved(
+        self, resolver: Resolver, renderer: Renderer, weights: Weights | None
+    ) -> moderngl.Texture:
+        with self._gl:
+            fresh = self._fresh(renderer, weights, self.end if self._is_brought else 0.0)
+            self._resolved_at = renderer.samples, weights
+            return resolver.show(self.surfaces, fresh)
+
+    def _fresh(self, renderer: Renderer, weights: Weights | None, end: float) -> Fresh:
+        weights = weights or renderer.plan.weights
+        source = renderer if is_whole(renderer, weights) else None
+        light = renderer.weighed(weights)
+        return Fresh(light, renderer.film.mean, renderer.samples, end, source)
+
+
+def is_whole(renderer: Renderer, weights: Weights) -> bool:
+    """Whether paths alone, as the kernel sums them, are what is shown."""
+    return are_trivial(weights) and renderer.settings.caustics == "off"
+
+
+def is_lit_alike(renderer: Renderer, before: Surfaces) -> bool:
+    """Whether a view shows the scene of another one, but for the camera and the size."""
+    if not before.scene or not before.settings:
+        return False
+    same_scene = before.scene.model_copy(update={"camera": renderer.scene.camera})
+    settings = before.settings
+    same = settings.bounces, settings.method, settings.caustics
+    now = renderer.settings
+    return same_scene == renderer.scene and same == (now.bounces, now.method, now.caustics)

@@ -1,0 +1,260 @@
+"""Samples of single pixels traced again, with all that happens on their paths.
+
+The path text is that of a render, and so are the random numbers, which hang on seed, sampler, place
+of the pixel and number of the sample: on software drivers the same bits come out.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from glrt.core.errors import ContextError, UsageError
+from glrt.core.version import VERSION
+from glrt.gpu.context import Choice, Context, open_context
+from glrt.image.particle_film import observations_of
+from glrt.image.recipe import Recipe
+from glrt.plan.combinations import check_render
+from glrt.plan.methods import METHODS
+from glrt.plan.particles import GROUP as PARTICLE_GROUP
+from glrt.plan.particles import particle_groups
+from glrt.plan.plan import Plan, plan_for
+from glrt.rendering.device_scene import DeviceScene
+from glrt.rendering.passes import PARTICLE_PATHS, PATHS
+from glrt.rendering.paths.recorder import TOGETHER, PathRecorder, Pixel
+from glrt.rendering.paths.records import particle_of, paths_of
+from glrt.rendering.paths.values import NUMBERS, Path, PixelParticles, PixelPaths
+from glrt.rendering.pipelines import KernelOptions, Tier
+from glrt.rendering.schedule import dispatch_limits
+from glrt.scene.instancing import Apart
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+Array = np.ndarray[Any, Any]
+
+LOST = NUMBERS["END_CUT_LOOP"]
+FOLLOWED = 1 << 16  # particles of a dispatch
+
+
+class PathReplay:
+    """Traces samples of a plan again.
+
+    `scene` is that of the plan on the driver, which whoever made it frees. The plan's crop is of no
+    matter: pixels are numbered in the full frame.
+    """
+
+    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
+        """Compile; UsageError where paths are not recorded, RenderError as ever."""
+        check_method(plan.settings)
+        self._plan = plan
+        self._paths = PathRecorder(context, plan, scene, PATHS)
+        self._particles: PathRecorder | None = None
+        if plan.settings.caustics == "on":
+            with ExitStack() as refused:
+                refused.callback(self._paths.release)
+                self._particles = PathRecorder(context, plan, scene, PARTICLE_PATHS)
+                refused.pop_all()
+
+    def radiances(self, pixel: Pixel, samples: int) -> Array:
+        """What the samples 0 to `samples` - 1 bring, (samples, 3) float32; NaN: it is lost."""
+        found = np.empty((samples, 3), np.float32)
+        for first in range(0, samples, TOGETHER):
+            count = min(TOGETHER, samples - first)
+            batch = self._paths.records(pixel, first, count, vertices=False, lights=False)
+            is_lost = batch.samples["end"][:, None] == LOST
+            found[first : first + count] = np.where(is_lost, np.nan, batch.samples["radiance"])
+        return found
+
+    def paths(self, pixel: Pixel, numbers: Sequence[int]) -> tuple[Path, ...]:
+        """The paths of the samples with these numbers, in this order."""
+        found: dict[int, Path] = {}
+        for first, count in _runs(sorted(set(numbers))):
+            batch = self._paths.records(pixel, first, count)
+            for path in paths_of(self._plan.scene, first, *batch):
+                found[path.sample] = path
+        return tuple(found[number] for number in numbers)
+
+    def particles(self, pixel: Pixel) -> PixelParticles | None:
+        """All particles of all samples that reach the pixel, without their paths; None: none go.
+
+        They are those of whole observations, as in a render.
+        """
+        if self._particles is None:
+            return None
+        settings = self._plan.settings
+        samples = settings.block * observations_of(settings.samples, settings.block)
+        return arrived([*self.arriving(pixel, samples)])
+
+    def arriving(self, pixel: Pixel, samples: int) -> Iterator[Array]:
+        """Their records for `arrived`, of one sample after the other; none if no particles go."""
+        count = self._particle_count if self._particles else 0
+        for sample in range(samples if self._particles else 0):
+            found = []
+            for lane in range(0, count, FOLLOWED):
+                lanes = lane, min(lane + FOLLOWED, count)
+                assert self._particles
+                batch = self._particles.records(pixel, sample, 1, lanes, vertices=False)
+                found.append(batch.lights)
+            yield np.concatenate(found)
+
+    def particle_path(self, pixel: Pixel, sample: int, number: int) -> Path | None:
+        """The path of a particle by its sample and its number; None: it does not arrive."""
+        if self._particles is None or number >= self._particle_count:
+            return None
+        batch = self._particles.records(pixel, sample, 1, (number, number + 1))
+        if not len(batch.lights):
+            return None
+        return particle_of(self._plan.scene, sample, number, batch.vertices, batch.lights)
+
+    @property
+    def _particle_count(self) -> int:
+        """Of all pixels of the frame, for one sample."""
+        return PARTICLE_GROUP * particle_groups(self._plan.settings)
+
+    def release(self) -> None:
+        """Free what the driver holds."""
+        self._paths.release()
+        if self._particles:
+            self._particles.release()
+
+
+def arrived(records: Sequence[Array]) -> PixelParticles:
+    """The particles that reach a pixel, by what each brings: `records` are those of its samples."""
+    lights = np.concatenate(records)
+    lights = lights[np.isfinite(lights["added"]).all(axis=1)]
+    lights = lights[np.lexsort((lights["number"], lights["lane"], lights["sample_index"]))]
+    names = zip(lights["sample_index"].tolist(), lights["lane"].tolist(), strict=True)
+    brought: dict[tuple[int, int], Array] = {}
+    for name, light in zip(names, lights, strict=True):
+        brought[name] = brought.get(name, np.zeros(3, np.float32)) + light["added"]
+    radiances = np.array([*brought.values()], np.float32).reshape(-1, 3)
+    return PixelParticles(len(records), tuple(brought), radiances, ())
+
+
+def check_method(settings: Settings) -> None:
+    """UsageError for a method whose paths are not recorded."""
+    if METHODS[settings.method].model:
+        raise UsageError(
+            f"paths are not shown of the method {settings.method}: it is a lighting model, which "
+            "sums over all lamps where it ends. Choose naive, nee or mis."
+        )
+    if METHODS[settings.method].has_probes:
+        raise UsageError(
+            f"paths are not shown of the method {settings.method}: they end where probes tell the "
+            "rest of the light. Choose naive, nee or mis."
+        )
+
+
+def check_pixel(pixel: Pixel, settings: Settings) -> None:
+    """UsageError for a pixel that a render with these settings does not have."""
+    left, top, width, height = settings.crop or (0, 0, settings.width, settings.height)
+    x, y = pixel
+    if left <= x < left + width and top <= y < top + height:
+        return
+    what = "crop" if settings.crop else "picture"
+    raise UsageError(
+        f"the pixel {x} {y} is not in the {what}: columns are {left} to {left + width - 1}, from "
+        f"the left, and rows {top} to {top + height - 1}, from the top of the whole picture."
+    )
+
+
+@contextmanager
+def path_replay(
+    scene: Scene,
+    settings: Settings,
+    context: Context | Choice = "auto",
+    tier: Tier = "baked",
+    apart: Apart = "repeated",
+) -> Iterator[tuple[PathReplay, Recipe]]:
+    """A replay of a scene of its own, and the recipe of what it traces.
+
+    Raises ContextError without OpenGL 4.3, UsageError, RenderError, and SceneError for a scene
+    beyond the driver.
+    """
+    check_method(settings)
+    check_render(scene, settings, "none", False, False)
+    with ExitStack() as stack:
+        if not isinstance(context, Context):
+            context = open_context(context)
+            stack.callback(context.gl.release)
+        check_context(context)
+        stack.enter_context(context.gl)
+        plan = plan_for(scene, settings, "none", apart=apart)
+        dispatch_limits(context, plan)
+        device_scene = DeviceScene(context, plan, KernelOptions("compute", tier))
+        stack.callback(device_scene.release)
+        replay = PathReplay(context, plan, device_scene)
+        stack.callback(replay.release)
+        recipe = Recipe(
+            scene=scene,
+            settings=settings,
+            samples=settings.samples,
+            version=VERSION,
+            renderer=context.renderer,
+            tier=device_scene.tier,
+            apart="large" if apart == "large" else "repeated",
+        )
+        yield replay, recipe
+
+
+def check_context(context: Context) -> None:
+    """ContextError for an OpenGL that has the fragment pipeline alone."""
+    if not context.has_compute:
+        raise ContextError(
+            f"paths cannot be recorded by the fragment pipeline: {context.renderer} offers OpenGL "
+            f"{context.version}, and compute shaders with storage buffers need 4.3."
+        )
+
+
+def pixel_paths(
+    scene: Scene,
+    settings: Settings,
+    pixel: Pixel,
+    numbers: Sequence[int] | None = None,
+    brightest: int = 0,
+    context: Context | Choice = "auto",
+    tier: Tier = "baked",
+    apart: Apart = "repeated",
+    particles: int = 64,
+) -> PixelPaths:
+    """What the samples of the settings bring to a pixel, and the paths of some of them.
+
+    Those with these `numbers` (default: all), or the `brightest` so many, the brightest first; and
+    those of so many `particles`, the brightest first.
+    """
+    check_pixel(pixel, settings)
+    check_samples(numbers or (), settings)
+    with path_replay(scene, settings, context, tier, apart) as (replay, recipe):
+        found = PixelPaths(recipe, pixel, replay.radiances(pixel, settings.samples), ())
+        if brightest:
+            wanted: Sequence[int] = found.brightest(brightest)
+        else:
+            wanted = range(settings.samples) if numbers is None else numbers
+        arriving = replay.particles(pixel)
+        if arriving:
+            names = arriving.brightest(particles)
+            traced = (replay.particle_path(pixel, *name) for name in names)
+            arriving = replace(arriving, paths=tuple(path for path in traced if path))
+        return replace(found, paths=replay.paths(pixel, wanted), particles=arriving)
+
+
+def check_samples(numbers: Sequence[int], settings: Settings) -> None:
+    """UsageError for the number of a sample that there is none of."""
+    for number in numbers:
+        if not 0 <= number < settings.samples:
+            raise UsageError(
+                f"there is no sample {number}: the pixel has {settings.samples}, numbered from 0 "
+                f"to {settings.samples - 1}. Ask for another, or for more --samples."
+            )
+
+
+def _runs(numbers: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """First and count of runs of neighbours, TOGETHER at most in each."""
+    start = 0
+    for end in range(1, len(numbers) + 1):
+        is_next = end < len(numbers) and numbers[end] == numbers[end - 1] + 1
+        if not is_next or end - start == TOGETHER:
+            yield numbers[start], end - start
+            start = end

@@ -1,0 +1,73 @@
+"""AOVs as colours: an AOV's film, drawn on any framebuffer."""
+
+import math
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.glsl import Source
+from glrt.gpu.program import drawing
+from glrt.rendering.passes import aov_number
+from glrt.rendering.screen.false_colors import VIRIDIS, Scale
+from glrt.scene.camera import Camera
+from glrt.settings import Aov
+
+_VERSION = "410 core"
+MOST_BOUNCES = 16  # that are told apart
+
+
+def scale_of_bounces(limit: int) -> Scale:
+    """The colours of numbers of bounces, where paths have so many at most."""
+    return Scale(VIRIDIS, 0.0, float(min(max(limit, 1), MOST_BOUNCES)), is_logarithmic=False)
+
+
+def cell_of(camera: Camera) -> float:
+    """After what length the colours of the position repeat: a power of ten, in scene units."""
+    return 10.0 ** math.floor(math.log10(camera.resolved_focus_distance))
+
+
+class AovView:
+    """Draws the mean of an AOV on the framebuffer in use."""
+
+    def __init__(self, gl: moderngl.Context) -> None:
+        """Nothing is compiled before it is needed."""
+        self._gl = gl
+        self._program: moderngl.Program | None = None
+
+    def draw(self, aov: Aov, mean: moderngl.Texture, camera: Camera, bounces: int = 10) -> None:
+        """Albedo as sRGB; normals around middle grey; near things bright; a colour an object.
+
+        What lies as far as the camera focuses is middle grey in the view of the depth. `bounces` is
+        the limit of the paths.
+        """
+        program = self._program or self._compile()
+        mean.use(0)
+        cell = cell_of(camera)
+        eye = np.remainder(np.array(camera.position, np.float64), cell)
+        values = {
+            "mean": 0,
+            "aov": aov_number(aov),
+            "eye": tuple(eye.tolist()),
+            "distance": camera.resolved_focus_distance,
+            "cell": cell,
+            "colors": VIRIDIS,
+            "most": scale_of_bounces(bounces).high,
+        }
+        for name, value in values.items():
+            program[name] = value
+        self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
+
+    def release(self) -> None:
+        """Free program and quad."""
+        if self._program:
+            self._quad.release()
+            self._program.release()
+
+    def _compile(self) -> moderngl.Program:
+        self._program = drawing(
+            self._gl,
+            Source("display.vert", version=_VERSION),
+            Source("aov_view.frag", version=_VERSION),
+        )
+        self._quad = self._gl.vertex_array(self._program, [])
+        return self._program

@@ -1,0 +1,133 @@
+"""Functions of the path tracer over arrays, with a scene for them to see."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from glrt.gpu.evaluate import Probe, path_files
+from glrt.gpu.program import Resource
+from glrt.gpu.struct_arrays import FILE, Arrays
+from glrt.packing.image_texture import texture_of
+from glrt.packing.kernel_structs import STRUCTS
+from glrt.packing.particles import with_particles
+from glrt.packing.scene_arrays import pack_frame, pack_scene
+from glrt.packing.scene_tree import SceneTree, tree_of
+from glrt.packing.shapes import NUMBERED
+from glrt.packing.sky_table import sky_sampling, tree_texture
+from glrt.packing.texel_texture import texture_of as texels_of
+from glrt.packing.texture_maps import images_of, textures_of
+from glrt.plan.facts import Contents, contents_of
+from glrt.plan.features import everything
+from glrt.plan.methods import METHODS
+from glrt.plan.particles import ball_around
+from glrt.plan.probe_grid import grid_of
+from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, scene_text, upload
+from glrt.scene.glasses import around_camera
+from glrt.scene.instancing import Apart
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+
+Array = np.ndarray[Any, Any]
+
+
+def evaluate(
+    gl: moderngl.Context,
+    expression: str,
+    inputs: Mapping[str, Any],
+    returns: str = "float",
+    setup: str = "",
+    functions: str = "",
+    scene: Scene | None = None,
+    constants: Mapping[str, bool | int] | None = None,
+    apart: Apart = "repeated",
+    settings: Settings | None = None,
+) -> Array:
+    """An expression of the functions that trace paths (`Probe` says more), of a scene or of none.
+
+    Every feature is compiled in, and lamps are chosen as in the scene, unless `constants` say
+    otherwise; `apart` are meshes with trees of their own; the frame is of `settings`, or of what
+    the scene wishes. The context must be current.
+    """
+    contents = contents_of(scene, apart) if scene else None
+    tree = tree_of(scene, contents) if scene and contents else None
+    stack = {"TREE_STACK": tree.stack if tree else 0}
+    prelude = {
+        **everything(),
+        **(_choice(contents) if contents else {}),
+        **stack,
+        **(constants or {}),
+    }
+    arrays = pack_scene(scene, contents, tree=tree) if scene else no_rows()
+    if scene and settings:
+        arrays = with_particles(arrays, scene, settings)
+    texts = {FILE: scene_text(gl, arrays, "generic")}
+    probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
+    resources = resources_of(gl, scene, arrays, tree, settings)
+    try:
+        return probe.run(gl, inputs, resources)
+    finally:
+        for resource in resources.values():
+            resource.release()
+
+
+def resources_of(
+    gl: moderngl.Context,
+    scene: Scene | None,
+    arrays: Arrays,
+    tree: SceneTree | None = None,
+    settings: Settings | None = None,
+) -> dict[str, Resource]:
+    """The buffers and textures that the functions read; a frame of zeros without a scene."""
+    frame = bytes(STRUCTS["Frame"].itemsize)
+    picture = scene.sky if scene else None
+    pixels = picture.pixels if picture else None
+    sampling = sky_sampling(pixels) if pixels is not None else None
+    if scene:
+        counts = {struct: len(rows) for struct, rows in arrays.items()}
+        glass = around_camera(scene, scene.finishes)
+        density = sampling.density if sampling else 0.0
+        around: Any = {"tree": tree, "glass": glass, "sky_density": density}
+        around["bounds"] = ball_around(scene)
+        settings = settings or settings_for(scene.render)
+        if METHODS[settings.method].has_probes:
+            around["grid"] = grid_of(scene, settings)
+        frame = pack_frame(scene, settings, counts, 0, 1, **around)
+    sky: dict[str, Resource] = {}
+    if pixels is not None and sampling:
+        sky = {ENVIRONMENT: texture_of(gl, pixels), SKY_TREE: tree_texture(gl, sampling.tree)}
+    if scene and (images := images_of(textures_of(scene, scene.finishes))):
+        sky[TEXELS] = texels_of(gl, images)
+    return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
+
+
+def _choice(found: Contents) -> dict[str, bool | int]:
+    aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
+    aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.conductors)}
+    return {
+        "CLUSTERS": found.clusters,
+        "MANY_LIGHTS": found.has_many_lights,
+        **aimed,
+        "HAS_INSTANCE": bool(found.instances),
+        "INSTANCE_BITS": found.instance_bits,
+        "HAS_TRANSMISSION": bool(found.transmitting),
+        "HAS_MAP": bool(found.mapped),
+        "HAS_HOLE": bool(found.holed),
+        "HAS_COAT": bool(found.coated),
+        "HAS_ROUGH_GLASS": bool(found.rough_glasses),
+        "HAS_ATTENUATION": bool(found.tinted),
+        "HAS_NESTED": bool(found.media),
+        "MEDIA": len(found.media),
+    }
+
+
+def no_rows() -> dict[str, Array]:
+    """The arrays of a scene without anything."""
+    trees = ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint")
+    images, lamps = (
+        ("Axes", "Uv", "Tangent", "Map", "Maps"),
+        ("Emitter", "Light", "Cluster", "Aim", "Target", "Sides"),
+    )
+    others = (*trees, *images, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
+    return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -1,0 +1,10 @@
+"""Files that a scene names by their path.
+
+Modules, each importing only what stands above it:
+
+- path_text: names of files as text
+- assets: reads files inside the folder of a scene, with their hashes
+- named_files: files named by a path
+- named_images: images named by a path
+- named_meshes: meshes named by a path
+"""

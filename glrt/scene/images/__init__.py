@@ -1,0 +1,8 @@
+"""Image files as arrays.
+
+Modules, each importing only what stands above it:
+
+- float_images: Radiance .hdr and OpenEXR files
+- image_files: image files of any format as linear values
+- texture_sizes: textures scaled down to the limits of a driver
+"""

@@ -1,0 +1,300 @@
+"""Images of float values in files: Radiance .hdr and OpenEXR, whose values are linear."""
+
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.core.errors import RenderError
+from glrt.core.files import reason
+from glrt.core.text import shortened
+from glrt.process.silence import silenced
+
+Pixels = NDArray[np.float32]
+Bytes = NDArray[np.uint8]
+
+MOST_PIXELS = 16384**2
+_MOST_CHANNELS = 16  # of an OpenEXR file with so many pixels: all of them are read
+
+# x and y of red, green, blue and white: Rec. 709 and D65, of linear sRGB.
+_REC_709 = (0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)
+_SAME = 0.005  # between roundings of these and other primaries
+_FAINT = 1e-3  # share of all light that negative colours may have
+
+
+class RefusedImageError(Exception):
+    """An image that is not read: what of it, and what to do, to follow "this image"."""
+
+
+def damaged(problem: str) -> RefusedImageError:
+    """The refusal of a file that breaks the rules of its format."""
+    return RefusedImageError(f"is damaged: {shortened(problem)}. Copy or export it again")
+
+
+def check_size(width: float, height: float) -> None:
+    """Raise RefusedImageError for a size that is none, or more than memory is given for."""
+    if min(width, height) < 1:
+        raise damaged("it has no pixels")
+    if width * height > MOST_PIXELS:
+        raise RefusedImageError(
+            f"has {width:.0f} x {height:.0f} pixels, more than glrt reads, {MOST_PIXELS:,}. "
+            "Make it smaller"
+        )
+
+
+@contextmanager
+def reading() -> Iterator[None]:
+    """Make a refusal of whatever a library raises of a damaged file: errors of a dozen kinds."""
+    try:
+        yield
+    except (RefusedImageError, MemoryError):
+        raise
+    except Exception as error:
+        raise damaged(reason(error)) from None
+
+
+def _checked(pixels: Pixels, channels: str, color: bool) -> Pixels:
+    """The pixels; raises for what no light can be: NaN, infinite, and negative colours.
+
+    Colours that are negative by next to nothing, as filters leave them, become 0.
+    """
+    wrong = ~np.isfinite(pixels)
+    if color and not wrong.any():
+        negative = np.minimum(pixels, 0)
+        if -negative.sum(dtype=np.float64) <= _FAINT * pixels.sum(dtype=np.float64):
+            return pixels - negative if negative.any() else pixels
+    if color:
+        wrong |= pixels < 0
+    if not wrong.any():
+        return pixels
+    count, row, column, channel = _first(wrong)
+    kind = "negative or not finite" if color else "not finite"
+    raise RefusedImageError(
+        f"has values that are {kind}, {count:,} of them: the first is "
+        f"{pixels[row, column, channel]:g}, in row {row} and column {column} of "
+        f"{channels[channel]}, counted from 0 at the top left. Repair the image"
+    )
+
+
+def _first(wrong: NDArray[np.bool_]) -> tuple[int, ...]:
+    """How many are true, and the indices of the first."""
+    return int(wrong.sum()), *map(int, np.unravel_index(wrong.argmax(), wrong.shape))
+
+
+# --- Radiance .hdr ---------------------------------------------------------------------------
+
+_DARKEST = 1e-30  # exposure: its inverse is a float32 number too
+_HDR_SIZE = re.compile(rb"([-+])([XY]) +(\d{1,9}) +([-+])([XY]) +(\d{1,9})\r?\n")
+
+
+def decode_hdr(content: bytes, color: bool) -> Pixels:
+    """The Radiance picture format, in Greg Ward's "Real Pixels" (Graphics Gems II) and his manual.
+
+    A pixel is (R, G, B) 2^(E - 136), and black for E = 0, as other renderers read it: what was 1 is
+    1. Ward's own programs add half a step to R, G and B.
+    """
+    header, _, rest = content.partition(b"\n\n")
+    exposure = _hdr_exposure(header.decode("latin-1").split("\n"))
+    size = _HDR_SIZE.match(rest)
+    if not size or size[2] == size[5]:
+        raise damaged("its header does not say how large it is")
+    lines, length = int(size[3]), int(size[6])
+    check_size(length, lines)
+    rgbe = _hdr_pixels(rest, size.end(), lines, length)
+    with np.errstate(over="ignore"):  # what is infinite is refused
+        powers = np.ldexp(1.0, np.arange(256) - 136) * (np.arange(256) > 0)
+        pixels = rgbe[:, :, :3] * powers.astype(np.float32)[rgbe[:, :, 3:]] / exposure
+    return _checked(_hdr_upright(pixels, size), "RGB", color)
+
+
+def _hdr_upright(pixels: Pixels, size: re.Match[bytes]) -> Pixels:
+    """Row 0 on top and column 0 on the left, of lines whose order the header tells."""
+    by_rows = size[2] == b"Y"
+    upright = pixels if by_rows else pixels.swapaxes(0, 1)
+    up, right = (size[1], size[4]) if by_rows else (size[4], size[1])
+    upright = upright[::-1] if up == b"+" else upright
+    return np.ascontiguousarray(upright[:, ::-1] if right == b"-" else upright)
+
+
+def _hdr_exposure(lines: list[str]) -> NDArray[np.float32]:
+    """What the pixels were multiplied by, of R, G, B; raises for what is no RGBE."""
+    exposure = np.ones(3)
+    for name, _, value in (line.partition("=") for line in lines):
+        if name == "FORMAT" and value.strip() != "32-bit_rle_rgbe":
+            raise RefusedImageError(
+                f"has pixels in {shortened(value.strip())}, not in RGBE. Convert it to RGBE"
+            )
+        if name in ("EXPOSURE", "COLORCORR"):
+            with np.errstate(over="ignore"):
+                exposure *= _exposure(value)
+            if not ((exposure > _DARKEST) & (exposure < 1 / _DARKEST)).all():
+                raise damaged(f"an exposure in its header is {value.strip() or 'empty'}")
+    return exposure.astype(np.float32)
+
+
+def _exposure(text: str) -> NDArray[np.float64]:
+    """One number, or three; NaN for what is neither."""
+    try:
+        numbers = np.array([float(word) for word in text.split()])
+    except ValueError:
+        numbers = np.empty(0)
+    return numbers if len(numbers) in (1, 3) else np.full(1, np.nan)
+
+
+def _hdr_pixels(content: bytes, at: int, lines: int, length: int) -> Bytes:
+    rows = []
+    for number in range(lines):
+        try:
+            row, at = _hdr_line(content, at, length)
+        except IndexError:
+            raise damaged(f"it ends in line {number} of {lines}") from None
+        rows.append(row)
+    return np.stack(rows)
+
+
+def _hdr_line(content: bytes, at: int, length: int) -> tuple[Bytes, int]:
+    """Pixels (length, 4) and where the next ones begin; raises IndexError where the file ends."""
+    mark = content[at : at + 4]
+    if not (8 <= length < 1 << 15 and mark[:2] == b"\2\2" and mark[2:3] < b"\x80"):
+        row, at = _hdr_line_of_pixels(content, at, length)
+        return np.frombuffer(row, np.uint8).reshape(length, 4), at
+    if int.from_bytes(mark[2:]) != length:
+        raise damaged("a line has another length than the image is wide")
+    row, at = _hdr_line_of_runs(content, at + 4, length)
+    return np.frombuffer(row, np.uint8).reshape(4, length).T, at
+
+
+def _hdr_line_of_runs(content: bytes, at: int, length: int) -> tuple[bytes, int]:
+    """All R, then all G, B and E; each a run of a repeated byte, or of different ones."""
+    row = bytearray()
+    for end in range(length, 4 * length + 1, length):
+        while len(row) < end:
+            count = content[at]
+            if count > 128:
+                row += content[at + 1 : at + 2] * (count - 128)
+                at += 2
+            else:
+                row += content[at + 1 : at + 1 + count]
+                at += 1 + count
+            if count == 0 or len(row) > end:
+                raise damaged("a run passes the end of its line")
+    return bytes(row), at
+
+
+def _hdr_line_of_pixels(content: bytes, at: int, length: int) -> tuple[bytes, int]:
+    """Pixels one by one; (1, 1, 1, n) repeats the last one n times, the next such 256 n times."""
+    row, digit = bytearray(content[at : at + 4 * length]), 0
+    if b"\1\1\1" not in row and len(row) == 4 * length:
+        return bytes(row), at + len(row)
+    row.clear()
+    while len(row) < 4 * length:
+        pixel = content[at : at + 4]
+        at += 4
+        if len(pixel) < 4:
+            raise IndexError
+        if pixel[:3] != b"\1\1\1":
+            row += pixel
+            digit = 0
+            continue
+        count = pixel[3] << digit
+        digit += 8
+        if not row or count > length - len(row) // 4:
+            raise damaged("a run passes the end of its line")
+        row += row[-4:] * count
+    return bytes(row), at
+
+
+# --- OpenEXR ---------------------------------------------------------------------------------
+
+
+def decode_exr(content: bytes, color: bool) -> Pixels:
+    """One flat image with channels R, G, B or Y, with A or without, in half or float.
+
+    Other channels are left out. The data window must be the display window, and the primaries of a
+    colour those of Rec. 709. Raises `RenderError` where there is no room for a copy of the file:
+    OpenEXR reads from memory only since 3.5.
+    """
+    try:
+        with TemporaryDirectory(prefix="glrt-") as folder:
+            path = Path(folder) / "image.exr"
+            path.write_bytes(content)
+            with reading():
+                return _read_exr(str(path), color)
+    except OSError as error:
+        raise RenderError(
+            f"Cannot copy an OpenEXR image into a temporary folder: {reason(error)}. Free some "
+            "space, or set TMPDIR to a folder with room."
+        ) from error
+
+
+def _read_exr(path: str, color: bool) -> Pixels:
+    header = _opened_exr(path, header_only=True).header()
+    _check_exr_windows(header)
+    if color:
+        _check_exr_primaries(header)
+    names = _exr_channels(header["channels"])
+    channels = _opened_exr(path).channels()
+    planes = [channels[name].pixels for name in names]
+    if not {plane.dtype for plane in planes} <= {np.dtype(np.half), np.dtype(np.single)}:
+        raise RefusedImageError("has channels of whole numbers. Save it in half or float")
+    return _checked(np.stack(planes, axis=-1).astype(np.float32), names, color)
+
+
+def _opened_exr(path: str, header_only: bool = False) -> Any:
+    import OpenEXR  # type: ignore[import-not-found]
+
+    with silenced():
+        file = OpenEXR.File(path, separate_channels=True, header_only=header_only)
+    if not file.parts:  # since 3.5, of pixels that cannot be decoded
+        raise damaged("its pixels cannot be decoded")
+    if len(file.parts) > 1:
+        raise RefusedImageError(f"has {len(file.parts)} parts. Save one of them")
+    if file.header()["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
+        raise RefusedImageError("is deep. Flatten it to one value a pixel and channel")
+    return file
+
+
+def _check_exr_windows(header: Mapping[str, Any]) -> None:
+    low, high = (np.asarray(corner, float) for corner in header["dataWindow"])
+    width, height = high - low + 1
+    check_size(width, height)
+    if width * height * len(header["channels"]) > _MOST_CHANNELS * MOST_PIXELS:
+        raise RefusedImageError(
+            f"has {len(header['channels'])} channels of {width:.0f} x {height:.0f} pixels, more "
+            "than glrt reads. Save R, G and B alone"
+        )
+    if not np.array_equal([low, high], header["displayWindow"]):
+        raise RefusedImageError(
+            "is a part of a larger picture, or larger than it: its data window is not its display "
+            "window. Save it whole, without a border"
+        )
+
+
+def _check_exr_primaries(header: Mapping[str, Any]) -> None:
+    primaries = header.get("chromaticities", _REC_709)
+    if not np.allclose(primaries, _REC_709, rtol=0, atol=_SAME):
+        red = ", ".join(f"{value:.3g}" for value in primaries[:2])
+        raise RefusedImageError(
+            f"has other primaries than linear sRGB, with red at ({red}) and not (0.64, 0.33). "
+            "Convert it to linear sRGB (Rec. 709)"
+        )
+
+
+def _exr_channels(channels: list[Any]) -> str:
+    """The channels to read, a letter each; raises for what holds no image."""
+    samplings = {channel.name: (channel.xSampling, channel.ySampling) for channel in channels}
+    for names in ("RGBA", "RGB", "YA", "Y"):
+        if not all(name in samplings for name in names):
+            continue
+        if "RY" in samplings or {samplings[name] for name in names} != {(1, 1)}:
+            raise RefusedImageError("has channels of luminance and chroma. Save it as R, G and B")
+        return names
+    found = ", ".join(sorted(shortened(name) for name in samplings)[:12])
+    raise RefusedImageError(
+        f"needs channels R, G and B, or Y; has {found or 'none'}. Save it with one of these"
+    )

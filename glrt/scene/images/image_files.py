@@ -1,0 +1,213 @@
+"""Images in files as arrays of linear values: PNG, JPEG, WebP, BMP, TGA, Radiance and OpenEXR.
+
+All but the last two hold codes: colours are decoded by the sRGB curve, data are scaled to 0..1;
+gAMA chunks and colour profiles are ignored, as in glTF. Radiance and OpenEXR hold linear values.
+"""
+
+import io
+import re
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.core.errors import SceneError
+from glrt.scene.images.float_images import (
+    MOST_PIXELS,
+    Pixels,
+    RefusedImageError,
+    check_size,
+    damaged,
+    decode_exr,
+    decode_hdr,
+    reading,
+)
+
+Codes = NDArray[Any]  # uint8 or uint16, (H, W, C)
+
+_MOST_SCANS = 16  # of a JPEG file with so many pixels: a scan of a few bytes goes over all of them
+
+
+def decode_image(content: bytes, where: str, color: bool = True) -> Pixels:
+    """The image in the bytes of a file, (H, W, C) float32, linear, row 0 on top.
+
+    C is 1 for grey, 2 for grey and alpha, 3 for R, G, B and 4 for R, G, B, alpha, as stored. A
+    palette becomes the colours that it stands for, a transparent colour of a PNG becomes alpha.
+    8 and 16 bits are kept whole. Alpha is linear and the colours are what the file says, not
+    multiplied by it (PNG, WebP) or multiplied (OpenEXR). The EXIF orientation is ignored: texture
+    coordinates mean the pixels as stored. Radiance values are divided by the exposures in their
+    header.
+
+    `color` says that codes are colours in sRGB, which become linear in Rec. 709 primaries; else
+    they are data, code / 255 or code / 65535. Float values are taken as they are; those of colours
+    must not be negative.
+
+    The format is told by the content; no name plays a part. `where` begins messages: the scene
+    file, the key and the file. Raises `SceneError` for another format, a damaged file, more than
+    16384 x 16384 pixels, values that are not finite or negative colours, a CMYK image, an
+    animation, Radiance XYZE, or an OpenEXR file that is not one flat image of R, G, B, or Y.
+    """
+    try:
+        for begin, decode in _DECODERS.items():
+            if re.match(begin, content, re.DOTALL):
+                return decode(content, color)
+        raise RefusedImageError(
+            "is none of PNG, JPEG, WebP, Radiance .hdr and OpenEXR. Convert it to one of them"
+        )
+    except RefusedImageError as refused:
+        raise SceneError(f"{where}: this image {refused}.") from None
+
+
+def decode_srgb(code: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Linear values, 0..1, of sRGB codes, 0..1: IEC 61966-2-1, piecewise."""
+    return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
+
+
+# --- codes ----------------------------------------------------------------------
+
+
+def _decode_png(content: bytes, color: bool) -> Pixels:
+    from PIL.PngImagePlugin import PngImageFile
+
+    with _reading():
+        return _linear(_png_codes(lambda: PngImageFile(io.BytesIO(content))), color)
+
+
+def _decode_jpeg(content: bytes, color: bool) -> Pixels:
+    from PIL.JpegImagePlugin import JpegImageFile
+
+    with _reading(), JpegImageFile(io.BytesIO(content)) as image:
+        check_size(*image.size)
+        if image.mode == "CMYK":
+            raise RefusedImageError("is in CMYK, for printing. Convert it to RGB")
+        scans = content.count(b"\xff\xda")
+        if scans * image.width * image.height > _MOST_SCANS * MOST_PIXELS:
+            raise damaged(f"it goes over its pixels {scans:,} times")
+        return _linear(_planes(image), color)
+
+
+def _decode_webp(content: bytes, color: bool) -> Pixels:
+    from PIL import features
+    from PIL.WebPImagePlugin import WebPImageFile
+
+    if not features.check("webp"):
+        raise RefusedImageError("is WebP, which Pillow cannot read here. Convert it to PNG")
+    with _reading(), WebPImageFile(io.BytesIO(content)) as image:
+        check_size(*image.size)
+        _check_still(image)
+        return _linear(_planes(image), color)
+
+
+def _decode_bmp(content: bytes, color: bool) -> Pixels:
+    from PIL.BmpImagePlugin import BmpImageFile
+
+    return _plain(lambda: BmpImageFile(io.BytesIO(content)), color)
+
+
+def _decode_tga(content: bytes, color: bool) -> Pixels:
+    from PIL.TgaImagePlugin import TgaImageFile
+
+    return _plain(lambda: TgaImageFile(io.BytesIO(content)), color)
+
+
+def _plain(opened: Callable[[], Any], color: bool) -> Pixels:
+    """Read an image of 8 bits a channel, perhaps with a palette."""
+    with _reading(), opened() as image:
+        check_size(*image.size)
+        is_plain = image.mode in ("L", "LA", "RGB", "RGBA")
+        return _linear(_planes(image if is_plain else image.convert("RGB")), color)
+
+
+@contextmanager
+def _reading() -> Iterator[None]:
+    """`reading`, and silence: Pillow warns of metadata that are of no use here."""
+    from PIL.Image import DecompressionBombError
+
+    with reading(), warnings.catch_warnings(action="ignore"):
+        try:
+            yield
+        except DecompressionBombError:  # for WebP alone, and for fewer pixels than are read here
+            raise RefusedImageError(
+                "has more pixels than Pillow reads of its format. Make it smaller, or convert it "
+                "to PNG"
+            ) from None
+
+
+def _check_still(image: Any) -> None:
+    if image.is_animated:
+        raise RefusedImageError("is an animation. Save one picture of it")
+
+
+def _png_codes(opened: Callable[[], Any]) -> Codes:
+    with opened() as image:
+        check_size(*image.size)
+        _check_still(image)
+        stored = image.tile[0].args if image.tile else ""
+        if stored in _PARTS_OF_16_BITS:
+            return _with_key(_sixteen_bits(opened, stored), image, 1)
+        if image.mode == "P":
+            return _planes(image.convert("RGBA" if image.has_transparency_data else "RGB"))
+        planes = _planes(image.convert("L") if image.mode == "1" else image)
+        return _with_key(planes, image, {"L;2": 85, "L;4": 17}.get(stored, 1))
+
+
+# How Pillow unpacks pixels of 16 bits into bytes: it has no image for them, and keeps the upper
+# byte. As if they were little-endian, the lower byte takes its place. Grey with alpha has the four
+# bytes of a colour with alpha.
+_PARTS_OF_16_BITS = {
+    "RGB;16B": ("RGB;16B", "RGB;16L"),
+    "RGBA;16B": ("RGBA;16B", "RGBA;16L"),
+    "LA;16B": ("RGBA",),
+}
+
+
+def _sixteen_bits(opened: Callable[[], Any], stored: str) -> Codes:
+    parts = []
+    for layout in _PARTS_OF_16_BITS[stored]:
+        with opened() as image:
+            image.tile = [tile._replace(args=layout) for tile in image.tile]
+            parts.append(_planes(image))
+    if len(parts) == 1:
+        return parts[0].view(">u2").astype(np.uint16)
+    return parts[0].astype(np.uint16) << 8 | parts[1]
+
+
+def _with_key(codes: Codes, image: Any, scale: int) -> Codes:
+    """With alpha, if one colour is transparent; `scale` leads from its codes to these."""
+    if "transparency" not in image.info:
+        return codes
+    key = np.multiply(image.info["transparency"], scale)
+    opaque = (codes != key).any(axis=2, keepdims=True) * np.iinfo(codes.dtype).max
+    return np.concatenate([codes, opaque.astype(codes.dtype)], axis=2)
+
+
+def _planes(image: Any) -> Codes:
+    codes = np.asarray(image)
+    return codes[:, :, None] if codes.ndim == 2 else codes
+
+
+def _linear(codes: Codes, color: bool) -> Pixels:
+    most = np.iinfo(codes.dtype).max
+    scaled = np.arange(most + 1) / most
+    table = (decode_srgb(scaled) if color else scaled).astype(np.float32)
+    pixels = np.empty(codes.shape, np.float32)
+    for row, stored in zip(pixels, codes, strict=True):  # a row at a time: indices take 8 bytes
+        row[:] = table[stored]
+        if codes.shape[2] in (2, 4):
+            row[:, -1] = scaled[stored[:, -1]]
+    return pixels
+
+
+# What a file of each format begins with.
+_DECODERS: dict[bytes, Callable[[bytes, bool], Pixels]] = {
+    rb"\x89PNG\r\n\x1a\n": _decode_png,
+    rb"\xff\xd8\xff": _decode_jpeg,
+    rb"RIFF....WEBP": _decode_webp,
+    rb"#\?": decode_hdr,
+    rb"\x76\x2f\x31\x01": decode_exr,
+    rb"BM....\0\0\0\0": _decode_bmp,
+    rb".[\0\1][\1-\3\x09-\x0b]": _decode_tga,  # it has no mark of its own
+}

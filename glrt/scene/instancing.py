@@ -1,0 +1,70 @@
+"""Which meshes have a tree of their own: their triangles are kept once, wherever they stand.
+
+Rays take more work to enter such a tree, and a mesh that is moved has none built anew.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import Literal
+
+from glrt.scene.materials.kinds import Material
+from glrt.scene.shapes.mesh import Mesh
+
+# Those that are used more than once, where that saves much; large ones too, once one is moved; or
+# those and all large ones.
+Apart = Literal["repeated", "moved", "large"]
+
+LEAST_SAVED = 1_000_000  # triangles that copies would take: 90 MB (docs/results/speed.md)
+LEAST_LARGE = 20_000  # of a mesh: the tree of a smaller one is built at once where it is moved
+
+
+def with_own_tree(
+    meshes: Sequence[Mesh], materials: Mapping[str, Material], apart: Apart = "repeated"
+) -> tuple[int, ...]:
+    """Which of the visible meshes of a scene have a tree of their own: places in the list.
+
+    Lamps have none, for each of their triangles is sampled where it stands.
+    """
+    alike: dict[tuple[str | None, str | None], list[int]] = {}
+    for number, mesh in enumerate(meshes):
+        if not materials[mesh.material].emits:
+            alike.setdefault((mesh.file.sha256, mesh.part), []).append(number)
+    chosen: list[int] = []
+    for numbers in alike.values():
+        triangles = len(meshes[numbers[0]].triangles.faces)
+        is_repeated = triangles * (len(numbers) - 1) >= LEAST_SAVED
+        if is_repeated or (apart == "large" and triangles >= LEAST_LARGE):
+            chosen += numbers
+    return tuple(sorted(chosen))
+
+
+def after_moves(apart: Apart, before: Sequence[Mesh], after: Sequence[Mesh]) -> Apart:
+    """What holds after an edit of a scene that has these meshes: `moved` becomes `large`."""
+    if apart != "moved" or len(before) != len(after):
+        return apart
+    pairs = zip(before, after, strict=True)
+    is_moved = any(
+        (old.linear != new.linear).any() or (old.origin != new.origin).any()
+        for old, new in pairs
+        if old.file == new.file and old is not new
+        if len(new.triangles_of_file.faces) >= LEAST_LARGE
+    )
+    return "large" if is_moved else apart
+
+
+def distinct(meshes: Sequence[Mesh]) -> tuple[list[Mesh], list[int]]:
+    """The first mesh of each file and part, and for each mesh which of those it is like."""
+    numbers: dict[tuple[str | None, str | None], int] = {}
+    first: list[Mesh] = []
+    kinds: list[int] = []
+    for mesh in meshes:
+        kinds.append(numbers.setdefault((mesh.file.sha256, mesh.part), len(first)))
+        first += [mesh] if kinds[-1] == len(first) else []
+    return first, kinds
+
+
+def tree_sizes(meshes: Sequence[Mesh], own: Collection[int]) -> tuple[int, list[int]]:
+    """Triangles in the tree of the scene, and in each of the own trees of the meshes `own`."""
+    sizes = [len(mesh.triangles.faces) for mesh in meshes]
+    first = distinct([meshes[number] for number in own])[0]
+    shared = sum(sizes) - sum(sizes[number] for number in own)
+    return shared, [len(mesh.triangles.faces) for mesh in first]

@@ -1,0 +1,10 @@
+"""Load the files that a scene names.
+
+Modules, each importing only what stands above it:
+
+- file_contents: contents of named files
+- file_materials: materials in OBJ and glTF files
+- mesh_parts: meshes divided by the materials of their file
+- loading: a scene with all its files loaded
+- file_copies: copies of the files of a scene
+"""

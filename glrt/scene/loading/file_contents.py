@@ -1,0 +1,91 @@
+"""What the files hold that a scene names."""
+
+import numpy as np
+
+from glrt.core.errors import SceneError
+from glrt.scene.files.assets import Asset, AssetReader, folder_of
+from glrt.scene.files.named_files import container_of
+from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImage
+from glrt.scene.files.named_meshes import MeshFile
+from glrt.scene.images.image_files import decode_image
+from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.gltf.images import image_content
+from glrt.scene.model_files.mesh_formats import decode_mesh
+from glrt.scene.values import LARGEST
+
+BRIGHTEST = 65_504.0  # of a texture, the largest half float
+NamedContent = ImageFile | TextureImage | MeshFile
+
+
+def is_read(named: NamedContent) -> bool:
+    """Whether the content of a file is there."""
+    if isinstance(named, ImageFile):
+        return named.pixels is not None
+    return (named.texels if isinstance(named, TextureImage) else named.triangles) is not None
+
+
+def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedContent:
+    """A file with its content; raises `SceneError`, which begins with `where`."""
+    asset = reader.read(named.path, where)
+    if isinstance(named, MeshFile):
+        beside = Beside(asset, reader, where)
+        mesh = decode_mesh(asset.content, named.file, where, beside)
+        return named.read_as(asset.sha256, mesh, asset.origin).with_companions(beside.hashes)
+    if isinstance(named, TextureImage):
+        return _texture(named, asset, reader, where)
+    pixels = _colors(decode_image(asset.content, f"{where}: {named.file}"))
+    _check_brightness(pixels, LARGEST, f"{where}: {named.file}")
+    return named.read_as(asset.sha256, pixels, asset.origin)
+
+
+class Beside:
+    """Reads files by their paths from another one, and keeps their SHA-256 by path."""
+
+    def __init__(self, asset: Asset, reader: AssetReader, where: str) -> None:
+        """Beside an asset."""
+        self._asset, self._reader, self._where = asset, reader, where
+        self.hashes: dict[str, str] = {}
+
+    def __call__(self, path: str) -> bytes:
+        """The content; raises `SceneError`."""
+        spelled = self._reader.spelled(path, folder_of(self._asset.path))
+        found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
+        self.hashes[found.path] = found.sha256
+        return found.content
+
+
+def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str) -> TextureImage:
+    number, beside = container_of(named.file)[1], Beside(asset, reader, where)
+    content = asset.content
+    if number is not None:
+        try:
+            content = image_content(Document(content, beside), number)
+        except ValueError as error:
+            raise SceneError(f"{where}: {named.file}: {error}. Export the file again.") from None
+    place = f"{where}: {named.file}"
+    pixels = decode_image(content, place, color=named.is_color)
+    _check_brightness(pixels, BRIGHTEST, place)
+    found = named.read_as(asset.sha256, _texels(pixels), asset.origin)
+    return found.with_companions(beside.hashes)
+
+
+def _check_brightness(pixels: Pixels, most: float, where: str) -> None:
+    if pixels.max() > most:
+        raise SceneError(f"{where}: this image is brighter than {most:,g}; scale it down.")
+
+
+def _colors(pixels: Pixels) -> Pixels:
+    """(H, W, 3) of grey, grey and alpha, colours, or colours and alpha, which is left out."""
+    channels = pixels.shape[2]
+    planes = pixels[..., :1].repeat(3, axis=2) if channels < 3 else pixels[..., :3]
+    return np.ascontiguousarray(planes, np.float32)
+
+
+def _texels(pixels: Pixels) -> Texels:
+    """(H, W, 4): colours, and alpha or 1."""
+    found = np.ones((*pixels.shape[:2], 4), np.float16)
+    channels = pixels.shape[2]
+    found[..., :3] = pixels[..., :1] if channels < 3 else pixels[..., :3]
+    if channels in (2, 4):
+        found[..., 3] = pixels[..., -1]
+    return found

@@ -1,0 +1,197 @@
+"""The files that a scene names, read into it."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+
+from glrt.core.errors import SceneError
+from glrt.core.text import quoted
+from glrt.scene.files.assets import AssetFolder, AssetReader
+from glrt.scene.files.named_images import ImageFile, TextureImage
+from glrt.scene.instancing import tree_sizes, with_own_tree
+from glrt.scene.loading.file_contents import NamedContent, is_read, with_content
+from glrt.scene.loading.mesh_parts import lacks_material, part_problem, with_own_materials
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import Material, glass_of
+from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
+from glrt.scene.schema.fields import Contents
+from glrt.scene.shapes.mesh import Mesh
+
+SceneType = TypeVar("SceneType", bound=Contents)
+Files = Mapping[NamedContent, NamedContent]
+
+
+def files_of(scene: Contents) -> list[str]:
+    """The paths of the files that a scene names, each once."""
+    return list(dict.fromkeys(named.path for _, named in named_files(scene)))
+
+
+def hashes_of(scene: Contents) -> dict[str, str]:
+    """What recipes store: SHA-256 in hex by path, of the files that were read."""
+    found = dict[str, str]()
+    for _, named in named_files(scene):
+        if named.sha256:
+            found |= {named.path: named.sha256, **named.companions}
+    return found
+
+
+def sources_of(scene: Contents) -> dict[str, str]:
+    """The same with the MTL files that materials were taken from: those that recipes leave out."""
+    files = [shape.file for _, shape in _meshes(scene)]
+    return hashes_of(scene) | {path: sha for file in files for path, sha in file.libraries.items()}
+
+
+def with_files(
+    scene: SceneType, folder: AssetFolder, source: str, rest: Material | None = None
+) -> SceneType:
+    """The scene with the content of its files; the same one if it names none, or has all.
+
+    `rest` is the material of what has none in an OBJ file, which is refused without it. Raises
+    `SceneError`, as `source: key: ...`, for a file that is missing, too large, outside of
+    the folder, no image or mesh, or not as expected.
+    """
+    reader = AssetReader(folder)
+    scene = _read(scene, reader, source)
+    scene = _read(with_own_materials(scene, reader, source, rest), reader, source)
+    problem = next(mesh_problems(scene), None)
+    if problem:
+        raise SceneError(f"{source}: {problem}")
+    return scene
+
+
+def _read(scene: SceneType, reader: AssetReader, source: str) -> SceneType:
+    found = dict[NamedContent, NamedContent]()
+    for key, named in named_files(scene):
+        if not is_read(named) and named not in found:
+            found[named] = with_content(named, reader, f"{source}: {key}")
+    return _with(scene, found) if found else scene
+
+
+def with_hashes(scene: SceneType, hashes: Mapping[str, str]) -> SceneType:
+    """The scene of a recipe, which knows its files by their hashes alone."""
+    return _with(
+        scene,
+        {
+            named: named.model_copy(update={"sha256": hashes[named.path]})
+            for _, named in named_files(scene)
+            if named.path in hashes
+        },
+    )
+
+
+def with_files_of(scene: SceneType, other: Contents) -> SceneType:
+    """The scene with the content of those of its files that another scene has read."""
+    return _with(scene, {named: named for _, named in named_files(other)})
+
+
+def with_stand_ins(scene: SceneType) -> SceneType:
+    """The scene with a white pixel for each image that was not read: its kernel is the same."""
+    found = dict[NamedContent, NamedContent]()
+    for _, named in named_files(scene):
+        if isinstance(named, TextureImage) and not is_read(named):
+            found[named] = named.read_as("", np.ones((1, 1, 4), np.float16), None)
+        elif isinstance(named, ImageFile) and not is_read(named):
+            found[named] = named.read_as("", np.ones((1, 1, 3), np.float32), None)
+    return _with(scene, found) if found else scene
+
+
+def check_loaded(scene: Contents) -> None:
+    """Raise SceneError for a scene whose files were not read, or do not fit."""
+    for key, named in named_files(scene):
+        if not is_read(named):
+            raise SceneError(
+                f"{key}: the file {named.file} was not read: load the scene by glrt.load, or give "
+                "Scene.build the folder of its files."
+            )
+    for problem in mesh_problems(scene):
+        raise SceneError(problem)
+
+
+def mesh_problems(scene: Contents) -> Iterator[str]:
+    """What does not fit of meshes that were read, as `key: ...`."""
+    for index, shape in _meshes(scene):
+        key = f"objects[{index}].file: {shape.file.file}"
+        if problem := part_problem(shape):
+            yield f"{key}: {problem}"
+            continue
+        key += f": part {quoted(shape.part)}" if shape.part is not None else ""
+        if lacks_material(shape):
+            yield f"objects[{index}].material is missing: load the scene by glrt.load"
+        mesh = shape.triangles
+        glass = glass_of(scene.materials.get(shape.material))
+        if glass and mesh.opening and not glass.thin:
+            yield (
+                f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot be dielectric. "
+                "Close it in the program that it comes from, or use another material."
+            )
+    yield from _without_coordinates(scene)
+    yield from _too_many(scene)
+
+
+def _without_coordinates(scene: Contents) -> Iterator[str]:
+    """Meshes whose material has an image that could not lie anywhere on them."""
+    for index, shape in enumerate(scene.objects):
+        material = scene.materials.get(shape.material)
+        if not isinstance(material, Opaque) or not material.textures:
+            continue
+        if isinstance(shape, Mesh) and shape.triangles_of_file.uv is None:
+            yield (
+                f"objects[{index}].material: {quoted(shape.material)} has a texture, and "
+                f"{shape.file.file} has no texture coordinates. Export it with them, or use "
+                "another material."
+            )
+
+
+def _too_many(scene: Contents) -> Iterator[str]:
+    meshes = [shape for _, shape in _meshes(scene)]
+    if any(part_problem(mesh) or mesh.material not in scene.materials for mesh in meshes):
+        return
+    shared, own = tree_sizes(meshes, with_own_tree(meshes, scene.materials))
+    if (count := shared + sum(own)) > MOST_TRIANGLES:
+        yield (
+            f"objects: the meshes of this scene have {count:,} triangles, those of a file that is "
+            f"used more than once counted once, lamps apart, and it may have {MOST_TRIANGLES:,}. "
+            "Use meshes of fewer."
+        )
+
+
+def _with(scene: SceneType, known: Files) -> SceneType:
+    """The scene with other values in place of those that are equal to a key."""
+    image, objects = scene.background.image, scene.objects
+    images = {key: value for key, value in known.items() if isinstance(value, TextureImage)}
+    changes: dict[str, Any] = {}
+    if image is not None and image in known:
+        changes["background"] = scene.background.model_copy(update={"image": known[image]})
+    if any(shape.file in known for _, shape in _meshes(scene)):
+        changes["objects"] = tuple(
+            shape.model_copy(update={"file": known[shape.file]})
+            if isinstance(shape, Mesh) and shape.file in known
+            else shape
+            for shape in objects
+        )
+    materials = {
+        name: material.with_images(images) if isinstance(material, Opaque) else material
+        for name, material in scene.materials.items()
+    }
+    if any(material is not scene.materials[name] for name, material in materials.items()):
+        changes["materials"] = materials
+    return scene.model_copy(update=changes) if changes else scene
+
+
+def named_files(scene: Contents) -> Iterator[tuple[str, NamedContent]]:
+    """The files that a scene names, with the keys that name them."""
+    if scene.background.image is not None:
+        yield "background.image", scene.background.image
+    for index, shape in _meshes(scene):
+        yield f"objects[{index}].file", shape.file
+    for name, material in scene.materials.items():
+        for key, texture in material.textures.items() if isinstance(material, Opaque) else ():
+            if texture.image is not None:
+                yield f"materials.{name}.{key}.image", texture.image
+
+
+def _meshes(scene: Contents) -> Iterator[tuple[int, Mesh]]:
+    for index, shape in enumerate(scene.objects):
+        if isinstance(shape, Mesh):
+            yield index, shape

@@ -1,0 +1,102 @@
+"""What all materials have, and those that light does not pass."""
+
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import ConfigDict, Field, model_serializer, model_validator
+
+from glrt.scene.files.named_images import TextureImage
+from glrt.scene.lights.cone import Cone
+from glrt.scene.materials.textures import Texture, in_one_key, separated, together
+from glrt.scene.values import BLACK, WHITE, Color, Name, Radiance, Tagged, require_tag
+from glrt.settings import Cost, Editable
+
+# Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
+SMOOTHEST = 1e-8
+
+RADIANCE = "radiance at intensity 1, 0 or more each, from both sides of the surface"
+
+
+class Surface(Tagged):
+    """What every material has."""
+
+    type: str = Field(description="the kind of material")
+
+    is_transparent: ClassVar[bool]  # nothing is seen of it but by following light through it
+
+    @property
+    def emits(self) -> bool:
+        """Whether an object of this material is a lamp."""
+        return False
+
+
+def _schema(schema: dict[str, Any]) -> None:
+    require_tag(schema)
+    in_one_key(schema)
+
+
+class Opaque(Surface):
+    """What every material has that light does not pass.
+
+    A key `x` that may be a texture is the factor of a texture, which is `x_map`: both are one key
+    of a scene file.
+    """
+
+    model_config = ConfigDict(json_schema_extra=_schema)
+
+    color: Color | None = Field(description="share of light that is reflected")
+    emission: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
+        BLACK, description=f"{RADIANCE}; black: it is no lamp"
+    )
+    group: Name | None = Field(
+        None,
+        description="light group whose intensity its emission follows; default: the name of the "
+        "material",
+    )
+    cone: Annotated[Cone | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="directions that its emission lights, `{ axis, inner, outer }`; default: all",
+    )
+
+    is_transparent = False
+    textured: ClassVar[Mapping[str, bool]] = {}  # keys that may be; whether they are colors
+
+    @model_validator(mode="before")
+    @classmethod
+    def _has_textures(cls, data: Any) -> Any:
+        for name in cls.textured:
+            if isinstance(data, Mapping) and isinstance(data.get(f"{name}_map"), Mapping):
+                raise ValueError(f"{name}_map is no key; write {name} = {{ image = ... }}")
+        return separated(data, cls.textured)
+
+    @model_serializer(mode="wrap")
+    def _is_written(self, written: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
+        given = {name: getattr(self, name) for name in self.textured}
+        others = {name: value for name, value in given.items() if value not in (1.0, WHITE)}
+        return together(written(self), others)
+
+    @property
+    def textures(self) -> dict[str, Texture]:
+        """Those that it has, by key."""
+        found = {name: value for name, value in self if isinstance(value, Texture)}
+        return {name.removesuffix("_map"): texture for name, texture in found.items()}
+
+    def with_images(self, known: Mapping[Any, TextureImage]) -> Self:
+        """The same with other images in place of those that are keys."""
+        update = {
+            name: texture.model_copy(update={"image": known[texture.image]})
+            for name, texture in self
+            if isinstance(texture, Texture) and texture.image in known
+        }
+        return self.model_copy(update=update) if update else self
+
+    @property
+    def emits(self) -> bool:
+        """Whether some of its emission is not black."""
+        return any(self.emission)
+
+
+def alpha_of(roughness: float) -> float:
+    """The alpha of GGX; 0 for what a float32 cannot tell from a mirror."""
+    alpha = roughness**2
+    return alpha if alpha >= SMOOTHEST else 0.0

@@ -1,0 +1,79 @@
+"""What the facets of a principled surface reflect, by quadrature.
+
+The kernel looks it up: shaders_glsl/bsdfs/principled.glsl.
+"""
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glrt.scene.materials.facets import LEAST_LOSS, STEPS, mean_loss, visible_normals, weight
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class FacetShares(NamedTuple):
+    """The directional albedo of GGX facets is f0 `head_on` + f90 `grazing`: Schlick's reflectance.
+
+    At STEPS + 1 even steps of the root of the cosine, and of light that is as bright from
+    everywhere.
+    """
+
+    head_on: Array
+    grazing: Array
+    mean_head_on: float
+    mean_grazing: float
+
+    @classmethod
+    def of(cls, head_on: Array, grazing: Array) -> "FacetShares":
+        """Of the two arrays."""
+        return cls(head_on, grazing, 1 - mean_loss(head_on), 1 - mean_loss(grazing))
+
+    @property
+    def kept(self) -> float:
+        """Share of even light that white facets do not lose; 1 where they lose next to nothing."""
+        kept = self.mean_head_on + self.mean_grazing
+        return kept if kept < 1 - LEAST_LOSS else 1.0
+
+
+@lru_cache(maxsize=128)
+def facet_shares(alpha: float) -> FacetShares:
+    """Of facets that scatter light once."""
+    root = np.linspace(0, 1, STEPS + 1)
+    grazing = (1 - root**2) ** 5
+    head_on = 1 - grazing
+    if alpha > 0:
+        head_on, grazing = _rough(alpha, np.maximum(root**2, 1e-9))
+    return FacetShares.of(head_on, grazing)
+
+
+ROUGHNESS_STEPS = 255  # of roughness, where it is an image: shaders_glsl/textures/mapped.glsl
+_KNOTS = (*range(32), *range(32, 64, 4), *range(64, 256, 8), 255)  # steps that are integrated
+
+
+def shares_by_step() -> dict[str, Array]:
+    """`head_on` and `grazing` at each step of roughness, (256, STEPS + 1); linear between knots.
+
+    They differ from the integrals by 0.001 at most.
+    """
+    steps = np.arange(ROUGHNESS_STEPS + 1)
+    knots = [facet_shares((knot / ROUGHNESS_STEPS) ** 2) for knot in _KNOTS]
+    found = {}
+    for name in ("head_on", "grazing"):
+        rows = np.array([getattr(knot, name) for knot in knots])
+        columns = [np.interp(steps, _KNOTS, column) for column in rows.T]
+        found[name] = np.stack(columns, axis=1)
+    return found
+
+
+def _rough(alpha: float, cosine: Array) -> tuple[Array, Array]:
+    """The mean weights of samples by visible normals."""
+    cosine = cosine[:, None]
+    wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
+    normal = visible_normals(alpha, wo)
+    along = np.sum(wo * normal, axis=-1, keepdims=True)
+    wi = 2 * along * normal - wo
+    share = (wi[..., 2] > 0) * weight(alpha, wo[..., 2], np.abs(wi[..., 2]))
+    edge = (1 - along[..., 0]).clip(0) ** 5
+    return (share * (1 - edge)).mean(axis=1), (share * edge).mean(axis=1)

@@ -1,0 +1,170 @@
+"""glTF's metallic-roughness surface."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from glrt.scene.lights.cone import Cone
+from glrt.scene.materials.base import Opaque, alpha_of
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.textures import NormalTexture, Texture, data_texture
+from glrt.scene.values import BLACK, WHITE, Color, Fraction, Length, Number, Triple
+from glrt.settings import Cost, Editable
+
+
+class Principled(Opaque):
+    """glTF's metallic-roughness surface: a coat, over metal and dielectric facets, over matte.
+
+    Facets are GGX with Schlick's reflectance. docs/explanation/principled.md tells the formulas.
+    Color, emission, metallic, roughness, alpha and transmission may be textures.
+    """
+
+    type: Literal["principled"] = Field("principled", description="the kind of material")
+    color: Color = Field(WHITE, description="albedo of the base, and reflectance of what is metal")
+    metallic: Annotated[Fraction, Editable()] = Field(
+        0.0, description="share of the surface that is metal"
+    )
+    roughness: Annotated[Fraction, Editable()] = Field(
+        0.4, description="of metal and dielectric; 0: smooth; the alpha of GGX is its square"
+    )
+    ior: Annotated[float, Field(ge=1, le=1e3), Editable(slider=(1, 3))] = Field(
+        1.5, description="index of refraction of what is no metal"
+    )
+    specular: Annotated[Fraction, Editable()] = Field(
+        1.0, description="factor of what is reflected by what is no metal"
+    )
+    specular_color: Annotated[Color, Editable()] = Field(
+        WHITE, description="factor of the same, head-on"
+    )
+    transmission: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        0.0, description="share of what is no metal that is glass in place of matte, of its color"
+    )
+    attenuation_color: Annotated[Color | None, Editable(Cost.RECOMPILE)] = Field(
+        None, description="of the glass, as for the type dielectric"
+    )
+    attenuation_distance: Annotated[Length | None, Editable(Cost.RECOMPILE)] = Field(
+        None, description="of the glass, as for the type dielectric"
+    )
+    thin: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+        False, description="whether its glass is a pane, which has roughness 0"
+    )
+    alpha: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        1.0,
+        description="share of the surface that is there; light passes the rest; not of lamps",
+    )
+    clearcoat: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        0.0, description="weight of a clear coat of index 1.5; not with transmission"
+    )
+    clearcoat_roughness: Annotated[Fraction, Editable()] = Field(
+        0.1, description="of the coat; 0: smooth; the alpha of GGX is its square"
+    )
+    normal: Annotated[NormalTexture | None, BeforeValidator(data_texture)] = Field(
+        None, description="an image of normals in tangent space, `{ image, strength }`"
+    )
+    alpha_cutoff: Annotated[Fraction | None, Editable()] = Field(
+        None, description="the surface is there where alpha is at least this, and nowhere else"
+    )
+    color_map: Texture | None = None
+    emission_map: Texture | None = None
+    metallic_map: Texture | None = None
+    roughness_map: Texture | None = None
+    alpha_map: Texture | None = None
+    transmission_map: Texture | None = None
+
+    textured: ClassVar[Mapping[str, bool]] = {
+        "color": True,
+        "emission": True,
+        "metallic": False,
+        "roughness": False,
+        "alpha": False,
+        "transmission": False,
+    }
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            color: Triple | Texture = WHITE,
+            metallic: Number | Texture = 0.0,
+            roughness: Number | Texture = 0.4,
+            ior: Number = 1.5,
+            specular: Number = 1.0,
+            specular_color: Triple = WHITE,
+            transmission: Number | Texture = 0.0,
+            attenuation_color: Triple | None = None,
+            attenuation_distance: Number | None = None,
+            thin: bool = False,
+            alpha: Number | Texture = 1.0,
+            clearcoat: Number = 0.0,
+            clearcoat_roughness: Number = 0.1,
+            normal: NormalTexture | Mapping[str, Any] | None = None,
+            alpha_cutoff: Number | None = None,
+            emission: Triple | Texture = BLACK,
+            group: str | None = None,
+            cone: Cone | Mapping[str, Any] | None = None,
+        ) -> None: ...
+
+    @property
+    def facet_alpha(self) -> float:
+        """The alpha of GGX; 0 where a float32 cannot tell."""
+        return alpha_of(self.roughness)
+
+    @model_validator(mode="after")
+    def _has_glass_that_can_be(self) -> Self:
+        if self.transmission > 0 and self.clearcoat > 0:
+            raise ValueError("a coat over transmission is not known; leave one of the two out")
+        if self.has_holes and self.emits and not (self.is_unlit or self.emission_map):
+            raise ValueError("a lamp has no alpha; leave alpha or emission out")
+        if self.metallic_map and self.transmission > 0:
+            raise ValueError("metallic as a texture with transmission is not known; give a number")
+        _ = self.glass  # raises what does not fit
+        return self
+
+    @property
+    def glass(self) -> Dielectric | None:
+        """What light passes of it; its color, which tints light that crosses, comes beside."""
+        if not self.transmission:
+            return None
+        return Dielectric(
+            ior=self.ior,
+            roughness=self.roughness,
+            attenuation_color=self.attenuation_color,
+            attenuation_distance=self.attenuation_distance,
+            thin=self.thin,
+        )
+
+    @property
+    def is_unlit(self) -> bool:
+        """Whether it shows its emission and reflects nothing, as KHR_materials_unlit has it."""
+        return self.emits and not (any(self.color) or self.specular)
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether light passes it in part or in places."""
+        return self.alpha_map is not None or self.coverage < 1
+
+    @property
+    def coverage(self) -> float:
+        """Share of the surface that is there, or the factor of the image that says so."""
+        if self.alpha_cutoff is None or self.alpha_map is not None:
+            return self.alpha
+        return 1.0 if self.alpha >= self.alpha_cutoff else 0.0
+
+    @property
+    def glass_share(self) -> float:
+        """Share of its surface that is glass."""
+        return (1 - self.metallic) * self.transmission
+
+    @property
+    def coat_alpha(self) -> float:
+        """The same of the coat."""
+        return alpha_of(self.clearcoat_roughness)
+
+    @property
+    def head_on(self) -> Color:
+        """Reflectance at normal incidence of what is no metal: f0."""
+        share = ((self.ior - 1) / (self.ior + 1)) ** 2
+        red, green, blue = (min(share * tint, 1) * self.specular for tint in self.specular_color)
+        return red, green, blue

@@ -1,0 +1,8 @@
+"""Triangle meshes as arrays.
+
+Modules, each importing only what stands above it:
+
+- vertex_means: normals and tangents of vertices
+- repeated_triangles: triangles that a mesh holds twice
+- triangle_meshes: checked triangle meshes
+"""

@@ -1,0 +1,16 @@
+"""glTF 2.0 files: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
+
+Modules, each importing only what stands above it:
+
+- document: JSON and buffers of a file
+- accessors: arrays of a file
+- draco: meshes compressed by Draco
+- attributes: vertex attributes of primitives
+- nodes: placements of meshes, cameras and lights
+- skins: vertices moved by joints
+- primitives: triangles of primitives
+- images: embedded and external images
+- textures: textures, as those of a scene
+- materials: materials, as those of a scene
+- cameras_lights: cameras and lights, as those of a scene
+"""

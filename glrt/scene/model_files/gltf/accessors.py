@@ -1,0 +1,105 @@
+"""Arrays of a glTF file: accessors, sparse ones too."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.scene.model_files.gltf.document import Document, whole
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+MOST = 12_000_000  # elements of an accessor: three for each triangle of the largest scene
+_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+
+def floats(document: Document, index: Any, sizes: tuple[int, ...], where: str) -> Floats:
+    """(n, size) numbers of an accessor, of integers those that it stands for where normalized."""
+    rows, accessor = _rows(document, index, where)
+    if rows.shape[1] not in sizes:
+        raise ValueError(f"accessors[{index}] has {rows.shape[1]} numbers each, as {where}")
+    found = rows.astype(np.float64)
+    if accessor.get("normalized") is True and rows.dtype.kind in "iu":
+        found = np.maximum(found / np.iinfo(rows.dtype).max, -1.0)
+    return found
+
+
+def indices(document: Document, index: Any, where: str) -> Ints:
+    """(n,) whole numbers of an accessor."""
+    rows, _ = _rows(document, index, where)
+    if rows.shape[1] != 1 or rows.dtype.kind != "u":
+        raise ValueError(f"accessors[{index}], {where}, must be of whole numbers without a sign")
+    return rows[:, 0].astype(np.int64)
+
+
+def _rows(document: Document, index: Any, where: str) -> tuple[NDArray[Any], dict[str, Any]]:
+    accessor, here = document.item("accessors", index, where), f"accessors[{index}]"
+    count = whole(accessor.get("count"), f"{here}.count", least=1)
+    if count > MOST:
+        raise ValueError(f"{here}.count must be at most {MOST:,}, got {count:,}")
+    dtype, size = _kind(accessor, here)
+    if "bufferView" in accessor:
+        place = accessor["bufferView"], accessor.get("byteOffset", 0)
+        rows = _strided(document, place, dtype, size, count, here)
+    else:
+        rows = np.zeros((count, size), dtype)
+    if "sparse" in accessor:
+        sparse = document.table(accessor["sparse"], f"{here}.sparse")
+        rows = _replaced(document, rows, sparse, f"{here}.sparse")
+    return rows, accessor
+
+
+def _kind(accessor: dict[str, Any], here: str) -> tuple[np.dtype[Any], int]:
+    component, kind = accessor.get("componentType"), accessor.get("type")
+    if type(component) is not int or component not in _TYPES:
+        raise ValueError(f"{here}.componentType is none of {', '.join(map(str, _TYPES))}")
+    if not isinstance(kind, str) or kind not in _SIZES:
+        raise ValueError(f"{here}.type is none of {', '.join(_SIZES)}")
+    return np.dtype(_TYPES[component]), _SIZES[kind]
+
+
+def _strided(
+    document: Document,
+    place: tuple[Any, Any],
+    dtype: np.dtype[Any],
+    size: int,
+    count: int,
+    here: str,
+) -> NDArray[Any]:
+    """(count, size) from a view; rows may have something between them."""
+    content, stride = document.view(place[0], here)
+    offset, width = whole(place[1], f"{here}.byteOffset"), dtype.itemsize * size
+    step = stride or width
+    if step < width:
+        raise ValueError(f"{here} has rows of {width} bytes, and its view a byteStride of {stride}")
+    if offset + step * (count - 1) + width > len(content):
+        raise ValueError(f"{here} ends after its view, which has {len(content):,} bytes")
+    shape, strides = (count, size), (step, dtype.itemsize)
+    return np.ndarray(shape, dtype, content, offset, strides)
+
+
+def _replaced(
+    document: Document, rows: NDArray[Any], sparse: dict[str, Any], here: str
+) -> NDArray[Any]:
+    """The rows with some replaced."""
+    count = whole(sparse.get("count"), f"{here}.count", least=1)
+    if count > len(rows):
+        raise ValueError(f"{here}.count must be at most {len(rows):,}, got {count:,}")
+    parts = {name: document.table(sparse.get(name), f"{here}.{name}") for name in _PARTS}
+    at, by = (
+        (part.get("bufferView"), part.get("byteOffset", 0)) for part in (parts[n] for n in _PARTS)
+    )
+    dtype, _ = _kind({**parts["indices"], "type": "SCALAR"}, f"{here}.indices")
+    if dtype.kind != "u":
+        raise ValueError(f"{here}.indices must be of whole numbers without a sign")
+    numbers = _strided(document, at, dtype, 1, count, f"{here}.indices")[:, 0].astype(np.int64)
+    if numbers.max() >= len(rows):
+        raise ValueError(f"{here}.indices names row {numbers.max()}, of {len(rows):,} from 0")
+    found = rows.copy()
+    found[numbers] = _strided(document, by, rows.dtype, rows.shape[1], count, f"{here}.values")
+    return found
+
+
+_PARTS = ("indices", "values")

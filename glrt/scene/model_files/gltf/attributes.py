@@ -1,0 +1,78 @@
+"""What a primitive has of each vertex, from accessors or unpacked, in the shape of its morphs."""
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats, indices
+from glrt.scene.model_files.gltf.document import Document, number
+from glrt.scene.model_files.gltf.draco import unpacked
+
+
+class Attributes:
+    """The rows of a primitive by name."""
+
+    def __init__(
+        self,
+        document: Document,
+        primitive: dict[str, Any],
+        here: str,
+        weights: Sequence[float] = (),
+    ) -> None:
+        """`weights`: of its morph targets, which are added by them."""
+        self._document, self._primitive, self._here = document, primitive, here
+        self._named = document.table(primitive.get("attributes"), f"{here}.attributes")
+        self._packed = unpacked(document, primitive, here)
+        targets = document.list(primitive.get("targets", []), f"{here}.targets")
+        self._targets = [
+            (weight, document.table(target, f"{here}.targets[{place}]"), place)
+            for place, (weight, target) in enumerate(zip(weights, targets, strict=False))
+            if weight
+        ]
+
+    @cached_property
+    def points(self) -> Floats:
+        """(v, 3)."""
+        found = self.rows("POSITION", (3,))
+        if found is None:
+            raise ValueError(f"{self._here}.attributes has no POSITION")
+        return found
+
+    def rows(self, name: str, sizes: tuple[int, ...]) -> Floats | None:
+        """(v, one of sizes); None where the primitive has none."""
+        here = f"{self._here}.attributes.{name}"
+        if self._packed is not None and name in self._packed.rows:
+            found = self._packed.rows[name].copy()
+            if found.shape[1] not in sizes:
+                raise ValueError(f"{here} has {found.shape[1]} numbers each")
+        elif name in self._named:
+            found = floats(self._document, self._named[name], sizes, here)
+        else:
+            return None
+        for weight, target, place in self._targets:
+            if name in target:
+                where = f"{self._here}.targets[{place}].{name}"
+                widths = tuple(range(2, found.shape[1] + 1))
+                added = floats(self._document, target[name], widths, where)
+                if len(added) != len(found):
+                    raise ValueError(f"{where} has {len(added):,} rows, and {here} {len(found):,}")
+                found[:, : added.shape[1]] += weight * added
+        if name != "POSITION" and len(found) != len(self.points):
+            raise ValueError(
+                f"{self._here} has {len(self.points):,} places and {len(found):,} of {name}"
+            )
+        return found
+
+    def corners(self) -> Ints | None:
+        """(n,) numbers of vertices; None where they follow each other."""
+        if self._packed is not None:
+            return self._packed.corners
+        if "indices" not in self._primitive:
+            return None
+        return indices(self._document, self._primitive["indices"], f"{self._here}.indices")
+
+
+def weights_of(document: Document, node: dict[str, Any], mesh: dict[str, Any]) -> list[float]:
+    """Of the morph targets of a mesh where a node shows it, in the pose of the file."""
+    given = document.list(node.get("weights", mesh.get("weights", [])), "weights of morph targets")
+    return [number(weight, "a weight of a morph target", -1e6, 1e6) for weight in given]

@@ -1,0 +1,101 @@
+"""Cameras and lights of a glTF file as those of a scene."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from glrt.scene.model_files.gltf.document import Document, number, numbers
+from glrt.scene.model_files.gltf.nodes import Placed, placed_nodes
+
+LUMENS = 683.0  # of a watt at the most visible wavelength: by this, candela and lux become W
+LAMP_SIZE = 0.01  # radius of the sphere of a point light, of the radius of the model
+
+
+def camera_of(document: Document) -> tuple[dict[str, Any], float | None] | None:
+    """The table of the first camera with perspective, and its width over its height if stated."""
+    for placed in placed_nodes(document):
+        if "camera" not in placed.node:
+            continue
+        index = placed.node["camera"]
+        camera, here = document.item("cameras", index, "a node"), f"cameras[{index}]"
+        if camera.get("type") != "perspective":
+            continue
+        own = document.table(camera.get("perspective"), f"{here}.perspective")
+        fov = number(own.get("yfov"), f"{here}.perspective.yfov", 1e-3, 3.1)
+        aspect = own.get("aspectRatio")
+        if aspect is not None:
+            aspect = number(aspect, f"{here}.perspective.aspectRatio", 0.05, 20)
+        right_up_back = placed.matrix[:3, :3]
+        if abs(np.linalg.det(right_up_back)) == 0:
+            raise ValueError(f"{here} stands in a node whose transform is flat")
+        place, back = placed.matrix[:3, 3], right_up_back[:, 2]
+        table = {
+            "position": place,
+            "look_at": place - back / np.linalg.norm(back),
+            "up": right_up_back[:, 1] / np.linalg.norm(right_up_back[:, 1]),
+            "fov": math.degrees(fov),
+        }
+        return table, aspect
+    return None
+
+
+def left_out(camera: object, suns: int, document: Document) -> tuple[str, ...]:
+    """In words, what of cameras and lights no scene has."""
+    found = ["cameras without perspective"] if not camera and document.items("cameras") else []
+    return (*found, *(["directional lights but the first"] if suns > 1 else []))
+
+
+def lights_of(document: Document, size: float) -> dict[str, Any]:
+    """Materials and objects of the lights, and a sun, as tables of a scene; `size`: of the model.
+
+    A point light of I candela is a sphere of radius r with L = I / (683 pi r^2).
+    """
+    listed = document.extension(document.json, "KHR_lights_punctual", "the file") or {}
+    lights = document.list(listed.get("lights", []), "lights")
+    found: dict[str, Any] = {"materials": {}, "objects": [], "suns": []}
+    for placed in placed_nodes(document):
+        own = document.extension(placed.node, "KHR_lights_punctual", f"nodes[{placed.number}]")
+        if own is None:
+            continue
+        index = own.get("light")
+        if type(index) is not int or not 0 <= index < len(lights):
+            raise ValueError(f"nodes[{placed.number}] names a light that there is not")
+        here = f"lights[{index}]"
+        _add(found, document.table(lights[index], here), placed, size, here)
+    return found
+
+
+def _add(
+    found: dict[str, Any], light: dict[str, Any], placed: Placed, size: float, here: str
+) -> None:
+    color = numbers(light.get("color", [1, 1, 1]), 3, f"{here}.color", 0)
+    intensity = number(light.get("intensity", 1), f"{here}.intensity", 0)
+    back, kind = placed.matrix[:3, 2], light.get("type")
+    if kind not in ("point", "spot", "directional"):
+        raise ValueError(f"{here}.type is none of point, spot and directional")
+    if kind != "point" and not np.linalg.norm(back) > 0:
+        raise ValueError(f"{here} stands in a node whose transform is flat")
+    if kind == "directional":
+        watts = tuple(intensity / LUMENS * each for each in color)
+        found["suns"].append({"direction": back / np.linalg.norm(back), "irradiance": watts})
+        return
+    radius = LAMP_SIZE * size
+    radiance = intensity / LUMENS / (math.pi * radius**2)
+    name = f"light {placed.number}"
+    material: dict[str, Any] = {
+        "type": "light",
+        "emission": tuple(radiance * each for each in color),
+    }
+    if kind == "spot":
+        own = light.get("spot", {})
+        inner, outer = own.get("innerConeAngle", 0), own.get("outerConeAngle", math.pi / 4)
+        outer = math.degrees(number(outer, f"{here}.spot.outerConeAngle", 1e-3, math.pi / 2))
+        inner = math.degrees(number(inner, f"{here}.spot.innerConeAngle", 0, math.pi / 2))
+        axis = -back / np.linalg.norm(back)
+        cone = {"axis": axis, "inner": min(inner, outer), "outer": outer}
+        material["cone"] = cone
+    found["materials"][name] = material
+    place = placed.matrix[:3, 3]
+    sphere = {"shape": "sphere", "center": place, "radius": radius, "material": name}
+    found["objects"].append({**sphere, "name": name})

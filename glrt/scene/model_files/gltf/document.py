@@ -1,0 +1,222 @@
+"""The parts of a glTF file: JSON and buffers, each looked at as it is asked for."""
+
+import base64
+import binascii
+import json
+import struct
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
+from typing import Any
+from urllib.parse import unquote_to_bytes
+
+from glrt.core.text import quoted
+from glrt.scene.files.path_text import text_of_bytes
+
+Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
+
+KNOWN = {  # extensions that are read, or change nothing here
+    "KHR_draco_mesh_compression",
+    "KHR_mesh_quantization",
+    "KHR_materials_ior",
+    "KHR_materials_unlit",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+}
+_MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
+_LONGEST_JSON = 256 << 20  # bytes
+
+
+class Document:
+    """A file; what is wrong in it raises ValueError, which says where."""
+
+    def __init__(self, content: bytes, fetch: Fetch) -> None:
+        """Of the content of a .glb or .gltf file; other files come by `fetch`."""
+        text, self._binary = _chunks(content)
+        self._fetch, self._buffers = fetch, dict[int, bytes]()
+        self.json = _parsed(text)
+        version = self.table(self.json.get("asset", {}), "asset").get("version")
+        if not isinstance(version, str) or not version.startswith("2."):
+            raise ValueError(f"asset.version must be 2.0, got {_shown(version)}")
+        needed = self.json.get("extensionsRequired", [])
+        for name in needed if isinstance(needed, list) else []:
+            if name not in KNOWN:
+                raise ValueError(f"it requires the extension {_shown(name)}, which glrt lacks")
+
+    @cached_property
+    def unknown_extensions(self) -> list[str]:
+        """Those that it uses and glrt leaves out, without those that it requires."""
+        used = self.json.get("extensionsUsed", [])
+        names = [name for name in used if isinstance(name, str)] if isinstance(used, list) else []
+        return sorted(set(names) - KNOWN)
+
+    def items(self, name: str) -> list[Any]:
+        """The list of a name at the top, `nodes` or `meshes`; empty without it."""
+        return self.list(self.json.get(name, []), name)
+
+    def item(self, name: str, index: Any, where: str) -> dict[str, Any]:
+        """An item of such a list, a table."""
+        items = self.items(name)
+        if type(index) is not int or not 0 <= index < len(items):
+            there = f"there are {len(items)}, numbered from 0"
+            raise ValueError(f"{where} names {name}[{_shown(index)}], and {there}")
+        return self.table(items[index], f"{name}[{index}]")
+
+    @staticmethod
+    def list(value: Any, where: str) -> list[Any]:
+        """A list, which must be one."""
+        if not isinstance(value, list):
+            raise ValueError(f"{where} must be a list, got {_shown(value)}")
+        return value
+
+    @staticmethod
+    def table(value: Any, where: str) -> dict[str, Any]:
+        """A table, which must be one."""
+        if not isinstance(value, dict):
+            raise ValueError(f"{where} must be a table, got {_shown(value)}")
+        return value
+
+    def extension(self, table: Mapping[str, Any], name: str, where: str) -> dict[str, Any] | None:
+        """What a table says by an extension; None where it has none."""
+        extensions = self.table(table.get("extensions", {}), f"{where}.extensions")
+        if name not in extensions:
+            return None
+        return self.table(extensions[name], f"{where}.extensions.{name}")
+
+    def view(self, index: Any, where: str) -> tuple[memoryview, int]:
+        """The bytes of a view of a buffer, and the stride that it states or 0."""
+        view, here = self.item("bufferViews", index, where), f"bufferViews[{index}]"
+        buffer = self._buffer(view.get("buffer"), here)
+        start = whole(view.get("byteOffset", 0), f"{here}.byteOffset")
+        length = whole(view.get("byteLength"), f"{here}.byteLength")
+        if start + length > len(buffer):
+            raise ValueError(f"{here} ends after its buffer, which has {len(buffer):,} bytes")
+        stride = whole(view.get("byteStride", 0), f"{here}.byteStride")
+        return memoryview(buffer)[start : start + length], stride
+
+    def content(self, uri: Any, where: str) -> bytes:
+        """What a URI holds or names."""
+        if not isinstance(uri, str):
+            raise ValueError(f"{where} must be a text, got {_shown(uri)}")
+        if uri.startswith("data:"):
+            return _data(uri, where)
+        return self._fetch(path_of(uri, where))
+
+    def _buffer(self, index: Any, where: str) -> bytes:
+        if index not in self._buffers:
+            buffer, here = self.item("buffers", index, where), f"buffers[{index}]"
+            if "uri" in buffer:
+                content = self.content(buffer["uri"], f"{here}.uri")
+            elif self._binary is not None and index == 0:
+                content = self._binary
+            else:
+                raise ValueError(f"{here} has no uri, and there is no binary part for it")
+            length = whole(buffer.get("byteLength"), f"{here}.byteLength")
+            if length > len(content):
+                raise ValueError(f"{here} has {len(content):,} bytes, and states {length:,}")
+            self._buffers[index] = content
+        return self._buffers[index]
+
+
+def path_of(uri: str, where: str) -> str:
+    """The path that a URI stands for."""
+    if "://" in uri:
+        raise ValueError(f"{where} is a web address, and glrt loads nothing from there")
+    try:
+        return text_of_bytes(unquote_to_bytes(uri))
+    except UnicodeEncodeError:
+        raise ValueError(f"{where}: no file can have the name {quoted(uri)}") from None
+
+
+def whole(value: Any, where: str, least: int = 0) -> int:
+    """A whole number, which must be one."""
+    if type(value) is not int or not least <= value < 1 << 40:
+        raise ValueError(f"{where} must be a whole number of at least {least}, got {_shown(value)}")
+    return value
+
+
+def number(value: Any, where: str, low: float = -1e15, high: float = 1e15) -> float:
+    """A number in a range."""
+    if type(value) not in (int, float) or not low <= value <= high:
+        raise ValueError(f"{where} must be a number from {low:g} to {high:g}, got {_shown(value)}")
+    return float(value)
+
+
+def numbers(
+    value: Any, count: int, where: str, low: float = -1e15, high: float = 1e15
+) -> tuple[float, ...]:
+    """So many numbers in a range."""
+    if not isinstance(value, list) or len(value) != count:
+        raise ValueError(f"{where} must be a list of {count} numbers, got {_shown(value)}")
+    return tuple(number(each, f"{where}[{place}]", low, high) for place, each in enumerate(value))
+
+
+def _chunks(content: bytes) -> tuple[bytes, bytes | None]:
+    """The JSON and the binary part."""
+    if content[:4] != b"glTF":
+        return content, None
+    if len(content) < 12:
+        raise ValueError("it ends within its header")
+    _, version, length = struct.unpack_from("<III", content)
+    if version != 2:
+        raise ValueError(f"it is of version {version} of the binary format, and glrt reads 2")
+    if length > len(content):
+        raise ValueError(f"it has {len(content):,} bytes, and states {length:,}")
+    found = list(_parts(content[:length]))
+    if not found or found[0][0] != _JSON:
+        raise ValueError("its first part is not JSON")
+    binary = next((part for kind, part in found[1:] if kind == _BIN), None)
+    return found[0][1], binary
+
+
+def _parts(content: bytes) -> Iterator[tuple[int, bytes]]:
+    place = 12
+    while place + 8 <= len(content):
+        length, kind = struct.unpack_from("<II", content, place)
+        if place + 8 + length > len(content):
+            raise ValueError("a part of it ends after the file")
+        yield kind, content[place + 8 : place + 8 + length]
+        place += 8 + length
+
+
+def _parsed(text: bytes) -> dict[str, Any]:
+    if len(text) > _LONGEST_JSON:
+        raise ValueError(f"its JSON is longer than {_LONGEST_JSON >> 20} MiB")
+    try:
+        found = json.loads(text.rstrip(b"\0").decode("utf-8-sig"), parse_constant=_refused)
+    except RecursionError:
+        raise ValueError("its JSON is nested too deeply") from None
+    except UnicodeDecodeError:
+        raise ValueError("its JSON is not in UTF-8") from None
+    except json.JSONDecodeError as error:
+        raise ValueError(f"its JSON is wrong in line {error.lineno}: {error.msg}") from None
+    if not isinstance(found, dict):
+        raise ValueError("its JSON is no table")
+    return found
+
+
+def _refused(word: str) -> Any:
+    raise ValueError(f"its JSON holds {word}, which is no number")
+
+
+def _data(uri: str, where: str) -> bytes:
+    head, comma, body = uri.partition(",")
+    if not comma or not head.endswith(";base64"):
+        raise ValueError(f"{where} is a data URI without ';base64,'")
+    try:
+        plain = "".join(body.split()).rstrip("=")  # in lines, and without padding, as some write
+        return base64.b64decode(plain + "=" * (-len(plain) % 4), validate=True)
+    except binascii.Error:
+        raise ValueError(f"{where} is damaged base64") from None
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, str):
+        return quoted(value[:60])
+    if isinstance(value, list | dict):
+        return "a list" if isinstance(value, list) else "a table"
+    return "nothing" if value is None else f"{value!r}"[:40]

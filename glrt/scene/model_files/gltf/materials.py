@@ -1,0 +1,215 @@
+"""Materials of a glTF file as those of a scene."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.core.text import quoted
+from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
+from glrt.scene.model_files.gltf.document import Document, number, numbers
+from glrt.scene.model_files.gltf.primitives import material_names
+from glrt.scene.model_files.gltf.textures import TextureTables
+from glrt.scene.values import LARGEST
+
+_UNREAD = {  # textures that have no counterpart, by extension
+    "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
+    "KHR_materials_clearcoat": (
+        "clearcoatTexture",
+        "clearcoatRoughnessTexture",
+        "clearcoatNormalTexture",
+    ),
+}
+_ROUNDING = 1e-3  # how far out of its range a value may be by rounding
+_PLAIN = {"type": "principled", "color": (1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
+_GREY = {"type": "principled", "color": (0.8, 0.8, 0.8), "roughness": 0.5}
+
+
+@dataclass
+class Look:
+    """A material as a table of a scene, and what of it was left out."""
+
+    table: dict[str, Any]
+    unread: list[str] = field(default_factory=list)
+    is_unlit: bool = False
+
+    def number(self, value: Any, where: str, most: float = 1.0) -> float:
+        """A number, moved into 0 to `most`; what is moved by more than rounding was left out."""
+        given = number(value, where)
+        found = min(max(given, 0.0), most)
+        if abs(given - found) > _ROUNDING:
+            self.unread.append(f"the part of {where} outside 0 to {most:g}")
+        return found
+
+    def numbers(self, value: Any, count: int, where: str, most: float = 1.0) -> tuple[float, ...]:
+        """So many of them."""
+        return tuple(self.number(each, where, most) for each in numbers(value, count, where))
+
+
+def looks_of(document: Document, path: str) -> dict[str, Look]:
+    """The materials of a file by the names of `material_names`, and one for what has none."""
+    folder = path.rpartition("/")[0] + "/" if "/" in path else ""
+    textures = TextureTables(document, path, folder)
+    found = {
+        name: _look(document, textures, index)
+        for index, name in enumerate(material_names(document))
+    }
+    return {**found, NO_MATERIAL: Look(dict(_GREY))}
+
+
+def _look(document: Document, textures: TextureTables, index: int) -> Look:
+    here, given = f"materials[{index}]", document.items("materials")[index]
+    look = Look(dict(_PLAIN))
+    _metallic_roughness(document, textures, given, here, look)
+    _surface(document, textures, given, here, look)
+    is_unlit = document.extension(given, "KHR_materials_unlit", here) is not None
+    if not is_unlit:
+        _emission(document, textures, given, here, look)
+    _layers(document, textures, given, here, look)
+    look.is_unlit = is_unlit
+    if is_unlit:
+        _let_shine(look)
+    return look
+
+
+def _let_shine(look: Look) -> None:
+    """Let it emit its colour and reflect nothing: it looks the same in every light."""
+    shown = {"emission": look.table["color"], "color": (0.0, 0.0, 0.0), "specular": 0.0}
+    keys = ("type", "ior", "alpha", "alpha_cutoff")
+    kept = {key: look.table[key] for key in keys if key in look.table}
+    look.table.clear()
+    look.table.update(kept | shown | {"metallic": 0.0, "roughness": 1.0, "thin": True})
+
+
+def _metallic_roughness(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    here = f"{here}.pbrMetallicRoughness"
+    own = document.table(given.get("pbrMetallicRoughness", {}), here)
+    *color, alpha = look.numbers(own.get("baseColorFactor", [1, 1, 1, 1]), 4, f"{here}.color")
+    image = textures.table(own.get("baseColorTexture"), f"{here}.baseColorTexture")
+    look.table["color"] = {**image, "factor": tuple(color)} if image else tuple(color)
+    mode = given.get("alphaMode", "OPAQUE")
+    if mode not in ("OPAQUE", "MASK", "BLEND"):
+        raise ValueError(f"{here}: alphaMode is none of OPAQUE, MASK and BLEND")
+    if mode != "OPAQUE":
+        look.table["alpha"] = {**image, "channel": "a", "factor": alpha} if image else alpha
+    if mode == "MASK":
+        cutoff = number(given.get("alphaCutoff", 0.5), f"{here}: alphaCutoff", 0)
+        look.table["alpha_cutoff"] = min(cutoff, 1.0)
+    rest = textures.table(own.get("metallicRoughnessTexture"), f"{here}.metallicRoughnessTexture")
+    for key, channel in (("metallic", "b"), ("roughness", "g")):
+        factor = look.number(own.get(f"{key}Factor", 1), f"{here}.{key}Factor")
+        look.table[key] = {**rest, "channel": channel, "factor": factor} if rest else factor
+
+
+def _surface(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    image = textures.table(given.get("normalTexture"), f"{here}.normalTexture")
+    if image:
+        scale = number(given["normalTexture"].get("scale", 1), f"{here}.normalTexture.scale")
+        look.table["normal"] = {**image, "strength": min(max(scale, 0.0), 100.0)}
+
+
+def _emission(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    own = document.extension(given, "KHR_materials_emissive_strength", here) or {}
+    strength = look.number(own.get("emissiveStrength", 1), f"{here}: emissiveStrength", 1e9)
+    factor = look.numbers(given.get("emissiveFactor", [0, 0, 0]), 3, f"{here}.emissiveFactor", 1e6)
+    emission = tuple(min(value * strength, LARGEST) for value in factor)
+    if not any(emission):
+        return
+    image = textures.table(given.get("emissiveTexture"), f"{here}.emissiveTexture")
+    look.table["emission"] = {**image, "factor": emission} if image else emission
+    if not image and look.table.pop("alpha", None) is not None:  # a lamp has no holes
+        look.table.pop("alpha_cutoff", None)
+        look.unread.append("alphaMode of what emits")
+
+
+def _layers(
+    document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
+) -> None:
+    """What extensions of materials say."""
+
+    def own(name: str) -> dict[str, Any]:
+        found = document.extension(given, f"KHR_materials_{name}", here) or {}
+        look.unread += [key for key in _UNREAD.get(f"KHR_materials_{name}", ()) if key in found]
+        return found
+
+    def value(table: dict[str, Any], key: str, default: float, most: float = 1.0) -> float:
+        return look.number(table.get(key, default), f"{here}: {key}", most)
+
+    ior = value(own("ior"), "ior", 1.5, 1e3)
+    look.table["ior"] = ior if ior >= 1 else 1e3  # 0: what reflects everything
+    specular = own("specular")
+    look.table["specular"] = value(specular, "specularFactor", 1)
+    tint = numbers(specular.get("specularColorFactor", [1, 1, 1]), 3, f"{here}: specular", 0)
+    look.table["specular_color"] = tuple(min(each, 1.0) for each in tint)
+    crossed = own("transmission")
+    transmission = value(crossed, "transmissionFactor", 0)
+    volume = own("volume")
+    look.table["thin"] = value(volume, "thicknessFactor", 0, 1e15) == 0
+    distance = volume.get("attenuationDistance")
+    if distance is not None and not look.table["thin"]:
+        color = volume.get("attenuationColor", [1, 1, 1])
+        look.table["attenuation_color"] = look.numbers(color, 3, f"{here}: attenuationColor")
+        look.table["attenuation_distance"] = number(
+            distance, f"{here}: attenuationDistance", 1e-15, 1e15
+        )
+    coat = own("clearcoat")
+    look.table["clearcoat"] = value(coat, "clearcoatFactor", 0)
+    look.table["clearcoat_roughness"] = value(coat, "clearcoatRoughnessFactor", 0)
+    if transmission:
+        image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
+        factor = {**image, "channel": "r", "factor": transmission} if image else transmission
+        look.table["transmission"] = factor
+        _fit_glass(look)
+
+
+def _fit_glass(look: Look) -> None:
+    """Leave out what glass of a scene cannot have beside it."""
+    if look.table["clearcoat"]:
+        look.table["clearcoat"] = 0.0
+        look.unread.append("clearcoat over transmission")
+    if isinstance(look.table["metallic"], dict):
+        look.table["metallic"] = 0.0
+        look.unread.append("metallicRoughnessTexture beside transmission")
+    if look.table["thin"]:
+        make_pane(look)
+
+
+def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
+    """Multiply what is unlit by the colors of its vertices, (v, 3), where they are all the same.
+
+    Emission cannot vary from vertex to vertex: what has other colors is lit, and matte.
+    """
+    emission = look.table.pop("emission")
+    given = emission["factor"] if isinstance(emission, dict) else emission
+    if np.ptp(colors, axis=0).max() > _ROUNDING:
+        look.table["color"] = emission
+        look.unread.append("KHR_materials_unlit of what has colors of vertices")
+        return
+    factor = tuple(float(a * b) for a, b in zip(given, colors[0], strict=True))
+    dyed = {**emission, "factor": factor} if isinstance(emission, dict) else factor
+    look.table["emission"] = dyed
+
+
+def without_image(look: Look, key: str) -> None:
+    """Leave the image of a key out: its factor remains, but what glows in places emits nothing."""
+    table = look.table.pop(key)
+    look.unread.append(f"{key} {quoted(table['image'])}, which cannot be read")
+    if key not in ("normal", "emission"):
+        look.table[key] = table["factor"]
+
+
+def make_pane(look: Look) -> None:
+    """Let its glass be a pane, which is smooth and encloses nothing."""
+    for key in ("attenuation_color", "attenuation_distance"):
+        look.table.pop(key, None)
+    if look.table["roughness"] != 0.0:
+        look.table["roughness"] = 0.0
+        look.unread.append("roughness of thin glass")
+    look.table["thin"] = True

@@ -1,0 +1,77 @@
+"""Where the meshes, cameras and lights of a glTF file stand."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.scene.model_files.gltf.document import Document, numbers
+
+Matrix = NDArray[np.float64]  # (4, 4)
+
+
+class Placed(NamedTuple):
+    """A node of the scene."""
+
+    node: dict[str, Any]
+    number: int
+    matrix: Matrix  # from its coordinates to those of the file
+
+
+def placed_nodes(document: Document) -> Iterator[Placed]:
+    """The nodes of the scene that the file shows, parents before children.
+
+    Without scenes, all nodes. ValueError for a node that stands below itself, or below two others.
+    """
+    waiting = [(index, np.eye(4)) for index in reversed(_roots(document))]
+    seen = set[int]()
+    while waiting:
+        index, around = waiting.pop()
+        node, here = document.item("nodes", index, "a scene or a node"), f"nodes[{index}]"
+        if index in seen:
+            raise ValueError(f"{here} stands below itself, or in two places")
+        seen.add(index)
+        matrix = around @ _matrix(node, here)
+        if not np.isfinite(matrix).all():
+            raise ValueError(f"{here}: its transforms lead beyond all numbers")
+        yield Placed(node, index, matrix)
+        children = document.list(node.get("children", []), f"{here}.children")
+        waiting += [(child, matrix) for child in reversed(children)]
+
+
+def _roots(document: Document) -> list[Any]:
+    if not document.items("scenes"):
+        nodes = document.items("nodes")
+        below = {
+            child
+            for node in nodes
+            if isinstance(node, dict)
+            for child in node.get("children", [])
+            if type(child) is int
+        }
+        return [index for index in range(len(nodes)) if index not in below]
+    shown = document.item("scenes", document.json.get("scene", 0), "scene")
+    return document.list(shown.get("nodes", []), "nodes of the scene")
+
+
+def _matrix(node: dict[str, Any], here: str) -> Matrix:
+    if "matrix" in node:  # column by column
+        return np.array(numbers(node["matrix"], 16, f"{here}.matrix")).reshape(4, 4).T
+    move = numbers(node.get("translation", [0, 0, 0]), 3, f"{here}.translation")
+    x, y, z, w = numbers(node.get("rotation", [0, 0, 0, 1]), 4, f"{here}.rotation")
+    scale = numbers(node.get("scale", [1, 1, 1]), 3, f"{here}.scale")
+    length = (x * x + y * y + z * z + w * w) ** 0.5
+    if length == 0:
+        raise ValueError(f"{here}.rotation must not be zero")
+    x, y, z, w = (value / length for value in (x, y, z, w))
+    turned = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    found = np.eye(4)
+    found[:3, :3], found[:3, 3] = turned * np.array(scale), move
+    return found

@@ -1,0 +1,118 @@
+"""A scene as a TOML file, on request with the comments, order and formatting of another one."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from glrt.core.errors import SceneError, UsageError
+from glrt.core.files import write_whole
+from glrt.scene.loading.file_copies import copy_files
+from glrt.scene.loading.loading import hashes_of, with_hashes
+from glrt.scene.scene import Scene
+from glrt.scene.scenefile.toml import parse_scene
+from glrt.scene.scenefile.toml_lists import with_as_many
+from glrt.scene.schema.tables import scene_to_dict, short_tables, toml_lines, toml_text
+from glrt.settings import RenderSettings, Settings
+
+MOST_LETTERS = 500_000  # of a file, which takes seconds: beyond, its comments go
+
+Table = Mapping[str, Any]
+
+
+def scene_with(scene: Scene, settings: Settings) -> Scene:
+    """The scene with these settings as its own wishes."""
+    wishes = {name: getattr(settings, name) for name in RenderSettings.model_fields}
+    return scene.model_copy(update={"render": RenderSettings(**wishes)})
+
+
+def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
+    """Write a file that `read_scene` reads back as the same scene, and copies of its files.
+
+    `model` is a scene file whose comments, order and formatting it is to have; returns whether that
+    could be. It appears whole or not at all: raises `RenderError` if it cannot be written,
+    `UsageError` if a copy would replace another file.
+    """
+    copy_files(scene, path.parent)
+    text = _with_comments(_text(model), scene) if model else None
+    content = (toml_text(scene) if text is None else text).encode("utf-8")
+    write_whole(path, lambda file: _write(file, content))
+    return text is not None
+
+
+def _text(path: Path) -> str:
+    """Of a file, with the ends of its lines; of one that is no text, something that is no scene."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return "?"
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.write_bytes(content)
+
+
+def _with_comments(text: str, scene: Scene) -> str | None:
+    """The text of a scene file, made to say `scene`; None where that cannot be done.
+
+    What has not changed stands as it did. UsageError if the library for that is not installed.
+    """
+    if len(text) > MOST_LETTERS:
+        return None
+    try:
+        before = scene_to_dict(parse_scene(tomllib.loads(text), ""))
+        after, short = scene_to_dict(scene), short_tables(scene)
+        texts = ["\n".join(toml_lines({"objects": [it]})) + "\n" for it in short.get("objects", [])]
+        text, before["objects"] = with_as_many(text, before["objects"], after["objects"], texts)
+        new = _changed(text, before, after, short)
+        told = with_hashes(parse_scene(tomllib.loads(new), ""), hashes_of(scene))
+        return new if told == scene else None
+    except (ValueError, SceneError):
+        return None
+
+
+def _changed(text: str, before: Table, after: Table, short: Table) -> str:
+    """Make the text say `after`; `short` is that without defaults, as what is new is written.
+
+    ValueError if the library cannot make the change.
+    """
+    try:
+        import tomlkit
+    except ModuleNotFoundError:
+        raise UsageError(
+            "keeping the comments of a scene file needs the Python package tomlkit: type `pip "
+            "install 'glrt[view]'`, or save under another name."
+        ) from None
+    try:
+        document = tomlkit.parse(text)
+        _follow(document, before, after, short)
+        return tomlkit.dumps(document)
+    except (LookupError, TypeError, AttributeError) as error:  # ways to write TOML are many
+        raise ValueError(str(error)) from error
+
+
+def _follow(table: Any, before: Table, after: Table, short: Table) -> None:
+    """Make the same changes to a table of the document as lead from one table to another."""
+    for key in before.keys() - after.keys():
+        table.pop(key, None)
+    for key, value in after.items():
+        old, brief = before.get(key), short.get(key, value)
+        if value == old:
+            continue
+        if old is None and isinstance(value, dict):
+            _follow(table.setdefault(key, {}), {}, brief, brief)
+        elif isinstance(value, dict):
+            _follow(table.setdefault(key, {}), old or {}, value, brief)
+        elif key in table and isinstance(old, list) and len(old) == len(value):
+            _follow_items(table[key], old, value)
+        else:
+            table[key] = brief
+
+
+def _follow_items(items: Any, before: list[Any], after: list[Any]) -> None:
+    """The same for a list, whose items may be tables."""
+    for index, (old, value) in enumerate(zip(before, after, strict=True)):
+        if isinstance(value, dict) and value != old:
+            _follow(items[index], old, value, {})
+        elif value != old:
+            items[index] = value

@@ -1,0 +1,87 @@
+"""The parts of a scene as plain tables, and tables as TOML."""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from glrt.scene.schema.fields import Contents
+from glrt.settings import RenderSettings
+
+_NO_LISTS = (str, Mapping)  # though they can be iterated over
+
+
+def to_tables(**parts: Any) -> dict[str, Any]:
+    """The fields of a scene, as models, tables or arrays, as tables; what is None is absent."""
+    given = {key: _table(value) for key, value in parts.items() if value is not None}
+    if isinstance(materials := given.get("materials"), Mapping):
+        given["materials"] = {name: _table(item) for name, item in materials.items()}
+    if isinstance(objects := given.get("objects"), Iterable) and not isinstance(objects, _NO_LISTS):
+        given["objects"] = [_table(item) for item in objects]
+    return given
+
+
+def _table(value: Any) -> Any:
+    """A model as a table; what is none stays."""
+    if isinstance(value, RenderSettings):  # of all settings, a scene takes some: those alone fit
+        return value.model_dump(exclude_unset=True)
+    if isinstance(value, BaseModel):
+        return {key: item for key, item in value if item is not None}
+    return value
+
+
+def scene_to_dict(scene: Contents) -> dict[str, Any]:
+    """The scene as plain tables, lists, numbers and strings that `parse_scene` reads back.
+
+    Defaults are written out, so that a recipe keeps its meaning; what was left open is absent.
+    """
+    return scene.model_dump(mode="json", exclude_none=True)
+
+
+def toml_text(scene: Contents) -> str:
+    """A scene file, to its last line; what has its default is left out."""
+    return "\n".join(toml_lines(short_tables(scene))).strip() + "\n"
+
+
+def short_tables(scene: Contents) -> dict[str, Any]:
+    """`scene_to_dict` without defaults, but for format and kinds of materials and shapes."""
+    found = scene.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+    for name, material in scene.materials.items():
+        found["materials"][name] = {"type": material.type, **found["materials"][name]}
+    for table, thing in zip(found.get("objects", []), scene.objects, strict=True):
+        kind = {"shape": thing.shape}
+        table.update({**kind, **{key: table.pop(key) for key in list(table) if key != "shape"}})
+    title = {"title": scene.title} if scene.title else {}
+    return {**title, "format": scene.format, **found}
+
+
+def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:
+    """The lines of a table: its values, then its tables, then its lists of tables."""
+    for key, value in table.items():
+        if not isinstance(value, Mapping) and not _is_list_of_tables(value):
+            yield f"{_key(key)} = {_value(value)}"
+    for key, value in table.items():
+        name = ".".join(map(_key, (*path, key)))
+        if isinstance(value, Mapping):
+            lines = list(toml_lines(value, (*path, key)))
+            yield from (["", f"[{name}]", *lines] if lines and lines[0] else lines)
+        elif _is_list_of_tables(value):
+            for item in value:
+                yield from ("", f"[[{name}]]", *toml_lines(item, (*path, key)))
+
+
+def _is_list_of_tables(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(item, Mapping) for item in value)
+
+
+def _key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "a").replace("-", "a").isalnum()
+    return key if bare else _value(key)
+
+
+def _value(value: Any) -> str:
+    """A number, a truth, a text or a list of them; JSON's texts are TOML's."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    return json.dumps(value, ensure_ascii=False)

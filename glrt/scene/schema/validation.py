@@ -1,0 +1,287 @@
+"""Plain tables into models, and mistakes in them told in the terms of a scene file.
+
+pydantic says what does not validate, in its own terms; here its reports become sentences.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeGuard, TypeVar
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from glrt.core.errors import SceneError
+from glrt.core.text import nearest, number, shortened, unknown
+from glrt.scene.camera import Camera
+from glrt.scene.lights.background import Background
+from glrt.scene.lights.cone import Cone
+from glrt.scene.lights.sun import Sun
+from glrt.scene.materials.kinds import TYPES
+from glrt.scene.materials.textures import NormalTexture, Texture
+from glrt.scene.probes import Probes
+from glrt.scene.schema.fields import Contents
+from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.values import SMALLEST, plain
+from glrt.settings import RenderSettings
+
+MOST_PROBLEMS_NAMED = 3
+MOST_MISTAKES = 1 << 17  # that are worth being told apart: each takes a kilobyte
+
+Model = TypeVar("Model", bound=BaseModel)
+Place = tuple[int | str, ...]
+
+_TABLES: dict[str, type[BaseModel]] = {
+    "camera": Camera,
+    "render": RenderSettings,
+    "background": Background,
+    "sun": Sun,
+    "probes": Probes,
+}
+_KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
+
+
+class MisfitError(ValueError):
+    """Valid parts of a scene that do not fit together: pairs of place and advice."""
+
+    def __init__(self, problems: list[tuple[Place, str]]) -> None:
+        self.problems = problems
+        super().__init__(" ".join(f"{'.'.join(map(str, at))}: {text}" for at, text in problems))
+
+
+def validated(model: type[Model], data: Mapping[str, Any], source: str) -> Model:
+    """A scene or a part of one in plain tables; `source` is what messages call it.
+
+    Raises `SceneError` with one paragraph that begins with `source`.
+    """
+    tables = plain(data)
+    try:
+        return model.model_validate(tables, strict=True)
+    except ValidationError as error:
+        if (count := error.error_count()) > MOST_MISTAKES:
+            raise scene_error(source, f"not a scene: it has {count:,} mistakes") from None
+        raise scene_error(source, " ".join(advice(error, tables))) from None
+
+
+def scene_error(source: str, text: str) -> SceneError:
+    """An error about a scene that messages call `source`."""
+    return SceneError(sentence(f"{source}: {text}"))
+
+
+def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
+    """A sentence for each of the first problems, and the number of the others."""
+    problems = _problems(error)
+    for place, detail in problems[:MOST_PROBLEMS_NAMED]:
+        path = _path(place[:-1] if _is_extra(detail) else place, data)
+        text = detail if isinstance(detail, str) else _wording(place, detail)
+        separator = " " if text.startswith(("must ", "is ")) else ": "
+        yield sentence(path + separator + text if path else text)
+    others = len(problems) - MOST_PROBLEMS_NAMED
+    if others > 0:
+        yield f"There {'is 1 other problem' if others == 1 else f'are {others} other problems'}."
+
+
+def sentence(text: str) -> str:
+    """The text with a full stop, unless it ends with a mark of its own."""
+    return text if text.endswith((".", "?")) else text + "."
+
+
+def _problems(error: ValidationError) -> list[tuple[Place, ErrorDetails | str]]:
+    """What is wrong, each place once: ready advice, or details that are still to be worded."""
+    found: dict[Place, ErrorDetails | str] = {}
+    for detail in error.errors(include_url=False):
+        cause = detail.get("ctx", {}).get("error")
+        if isinstance(cause, MisfitError):
+            found.update(cause.problems)
+        else:
+            found.setdefault(_place(detail), detail)
+    return _without_consequences(found)
+
+
+def _without_consequences(
+    found: dict[Place, ErrorDetails | str],
+) -> list[tuple[Place, ErrorDetails | str]]:
+    """A misspelt key is one problem: the right key, missing for that reason, is not another."""
+    meant = {
+        (*place[:-1], nearest(str(place[-1]), _keys(detail)))
+        for place, detail in found.items()
+        if _is_extra(detail)
+    }
+    return [(place, detail) for place, detail in found.items() if place not in meant]
+
+
+def _place(detail: ErrorDetails) -> Place:
+    """Keys and indices from the top of the file, without the tags that pydantic mixes in."""
+    place: Place = detail["loc"]
+    is_key = place[-1:] == ("[key]",) and not _is_extra(detail)  # an extra may be called so
+    if is_key or detail["type"] == "invalid_key" or _is_short_vector(detail):
+        place = place[:-1]
+    if place[:1] in (("objects",), ("materials",)):
+        place = place[:2] + place[3:]
+        place = (*place[:2], *(_without_map(step) for step in place[2:]))
+    if detail["type"].startswith("union_tag"):
+        place = (*place, detail["ctx"]["discriminator"].strip("'"))
+    return place
+
+
+def _without_map(step: int | str) -> int | str:
+    """A texture `x_map` is a key `x` of scene files."""
+    return step.removesuffix("_map") if isinstance(step, str) else step
+
+
+def _is_short_vector(detail: ErrorDetails) -> bool:
+    return detail["type"] == "missing" and isinstance(detail["loc"][-1], int)
+
+
+def _is_extra(detail: ErrorDetails | str) -> TypeGuard[ErrorDetails]:
+    return not isinstance(detail, str) and detail["type"] == "extra_forbidden"
+
+
+def _model(location: Place) -> type[BaseModel]:
+    """The model that a key belongs to, by the location that pydantic gives it."""
+    table = str(location[0])
+    if len(location) == 1:
+        return Contents
+    if table not in _KINDS:
+        return _TABLES[table]
+    if location[3:-1] == ("cone",):
+        return Cone
+    if len(location) > 4 and str(location[3]).endswith(("_map", "normal")):
+        return NormalTexture if location[3] == "normal" else Texture
+    model: type[BaseModel] = _KINDS[table][str(location[2])]
+    return model
+
+
+def _keys(detail: ErrorDetails) -> tuple[str, ...]:
+    return tuple(key for key in _model(detail["loc"]).model_fields if not key.endswith("_map"))
+
+
+def _path(place: Place, data: Mapping[str, Any]) -> str:
+    """A place as users write it: objects[2] ("left ball").radius."""
+    path = ""
+    for depth, step in enumerate(place):
+        if isinstance(step, int) and (depth > 1 or place[0] == "objects"):
+            path += f"[{step}]" + (_object_name(data["objects"][step]) if depth == 1 else "")
+        else:
+            name = str(step)  # Python code may have numbers as names
+            key = name if re.fullmatch(r"[\w-]{1,60}", name) else f'"{shortened(name)}"'
+            path += f".{key}" if path else key
+    return path
+
+
+def _object_name(item: Any) -> str:
+    name = item.get("name") if isinstance(item, Mapping) else None
+    return f' ("{shortened(name)}")' if isinstance(name, str) else ""
+
+
+def _plain(place: Place, detail: ErrorDetails) -> str:
+    shown = f", got {_shown(detail['input'])}"
+    if detail["type"] not in _PLAIN or place in _HEADINGS:
+        return _HEADINGS.get(place, "must be a table") + shown
+    limits = {key: _shown(limit) for key, limit in detail.get("ctx", {}).items()}
+    subject = "its name " if detail["loc"][-1] == "[key]" else ""
+    return subject + _PLAIN[detail["type"]].format(**limits) + shown
+
+
+_PLAIN = {
+    "int_type": "must be a whole number",
+    "float_type": "must be a number",
+    "finite_number": "must be a finite number",
+    "string_type": "must be text in quotes",
+    "string_unicode": "must be text that UTF-8 can hold",
+    "invalid_key": "must have keys that are text",
+    "string_too_short": "must not be empty",
+    "string_pattern_mismatch": "must be one line, without control characters",
+    "greater_than": "must be greater than {gt}",
+    "greater_than_equal": "must be at least {ge}",
+    "less_than": "must be less than {lt}",
+    "less_than_equal": "must be at most {le}",
+    "tuple_type": "must be a list of three numbers",
+}
+_HEADINGS: dict[Place, str] = {
+    (): "a scene must be a table",
+    ("camera",): "must be a table headed [camera]",
+    ("render",): "must be a table headed [render]",
+    ("background",): "must be a table headed [background]",
+    ("sun",): "must be a table headed [sun]",
+    ("probes",): "must be a table headed [probes]",
+    ("lights",): "must be a table headed [lights]",
+    ("materials",): "must be a table of tables, each headed [materials.NAME]",
+    ("objects",): "must be a list of tables, each headed [[objects]]",
+}
+
+
+def _own_words(_place: Place, detail: ErrorDetails) -> str:
+    return str(detail["ctx"]["error"])
+
+
+def _missing(place: Place, detail: ErrorDetails) -> str:
+    if _is_short_vector(detail):
+        return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
+    description = _model(detail["loc"]).model_fields[str(place[-1])].description
+    return f"is missing; add it: {description}"
+
+
+def _missing_kind(place: Place, _detail: ErrorDetails) -> str:
+    return f"is missing; it must be one of: {', '.join(_KINDS[str(place[0])])}"
+
+
+def _too_long(place: Place, detail: ErrorDetails) -> str:
+    if place != ("objects",):
+        return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
+    return f"must be at most {detail['ctx']['max_length']:,} shapes, got {len(detail['input']):,}"
+
+
+def _too_small(place: Place, detail: ErrorDetails) -> str:
+    if detail["ctx"]["ge"] == SMALLEST and detail["input"] <= 0:
+        return f"must be greater than 0, got {_shown(detail['input'])}"
+    return _plain(place, detail)
+
+
+def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
+    model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
+    kind = "scene" if model is Contents else model.__name__.lower()
+    owner = f"[{table}]" if table in _TABLES else f"a {kind}"
+    text = unknown("key", key, _keys(detail), f"Keys of {owner}")
+    if model is not Contents and key in Contents.model_fields:
+        text += f" The {key} of the scene itself must stand above the first [table]."
+    return text
+
+
+def _unknown_choice(place: Place, detail: ErrorDetails) -> str:
+    key, context, value = str(place[-1]), detail["ctx"], detail["input"]
+    choices = re.findall(r"'([^']*)'", context.get("expected_tags") or context["expected"])
+    word = value[key] if detail["type"] == "union_tag_invalid" else value
+    if not isinstance(word, str):
+        return f"must be one of: {', '.join(choices)}, got {_shown(word)}"
+    return unknown(key, word, choices, "It must be one of")
+
+
+_WORDINGS: dict[str, Callable[[Place, ErrorDetails], str]] = {
+    "value_error": _own_words,
+    "missing": _missing,
+    "union_tag_not_found": _missing_kind,
+    "too_long": _too_long,
+    "greater_than_equal": _too_small,
+    "extra_forbidden": _unknown_key,
+    "union_tag_invalid": _unknown_choice,
+    "literal_error": _unknown_choice,
+}
+
+
+def _wording(place: Place, detail: ErrorDetails) -> str:
+    return _WORDINGS.get(detail["type"], _plain)(place, detail)
+
+
+def _shown(value: Any) -> str:
+    """A value of a scene file, short enough for a message."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int):
+        return str(value) if abs(value) < 10**20 else "a number of more than 20 digits"
+    if isinstance(value, float):
+        return number(value)
+    if isinstance(value, str):
+        return f'"{shortened(value)}"'
+    if isinstance(value, list | tuple):
+        return f"a list of {len(value)}"
+    return "a table" if isinstance(value, Mapping) else f"a {type(value).__name__}"

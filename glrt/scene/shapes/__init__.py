@@ -1,0 +1,17 @@
+"""Shapes with their geometry on the host, one file for each kind.
+
+Modules, each importing only what stands above it:
+
+- base: base classes of shapes
+- box: boxes
+- mesh: placed triangle meshes
+- cylinder: cylinders, with caps or open
+- flat_polygons: flat surfaces of objects as polygons
+- disk: flat disks
+- plane: infinite planes
+- quad: parallelograms
+- sphere: spheres
+- kinds: all kinds of shapes
+- texture_axes: texture coordinates of flat shapes
+- flat_faces: solids that share a part of a plane
+"""

@@ -1,0 +1,249 @@
+"""Triangle meshes in a scene: which, where, and with which normals."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+
+from glrt.scene.files.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.shapes.base import Array, Sided, along_and_rest
+from glrt.scene.shapes.box import rotation
+from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Name, Number, Triple, Vector
+from glrt.settings import Cost, Editable
+
+
+def _three(value: Any) -> Any:
+    return (value, value, value) if isinstance(value, float | int) else value
+
+
+def _without_zeros(value: Vector) -> Vector:
+    if min(map(abs, value)) < SMALLEST:
+        raise ValueError(
+            f"must be numbers of at least {SMALLEST:g}, or below -{SMALLEST:g} to mirror: 0 makes "
+            "the mesh flat"
+        )
+    return value
+
+
+_NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
+_FACTORS = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems": 3, "maxItems": 3}]}
+Factors = Annotated[
+    Vector,
+    BeforeValidator(_three),
+    AfterValidator(_without_zeros),
+    WithJsonSchema(_FACTORS),
+]
+
+
+def _with_a_volume(rows: Any) -> Any:
+    if rows[3] != (0, 0, 0, 1):
+        raise ValueError("must end with the row 0, 0, 0, 1")
+    lengths = np.linalg.norm(np.array(rows)[:3, :3], axis=0)
+    if lengths.min() < SMALLEST or abs(np.linalg.det(np.array(rows)[:3, :3] / lengths)) < _FLATTEST:
+        raise ValueError("must not make the mesh flat: its columns lie in a plane")
+    return rows
+
+
+_FLATTEST = 1e-9  # volume between unit columns
+_Row = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
+Matrix = Annotated[tuple[_Row, _Row, _Row, _Row], AfterValidator(_with_a_volume)]
+
+
+class Mesh(Sided):
+    """Triangles of a file: taken by its matrix, then scaled, then turned, then moved.
+
+    Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, colors=None,
+    uv=None, material=...)`: places of vertices, (v, 3); the numbers of those of each triangle,
+    (n, 3), counter-clockwise seen from outside; normals at the vertices, (v, 3); linear colours
+    there, (v, 3) of 0 to 1, by which that of the material is multiplied; and texture coordinates
+    there, (v, 2), (0, 0) in the upper left of an image. Such a mesh is saved beside its scene.
+    """
+
+    shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
+    file: NamedMesh = Field(description="path of a model, .glb, .gltf, .obj, .ply or .stl")
+    material: str = Field(
+        "",
+        pattern=r"^[^\x00-\x1f\x7f]*$",
+        description="name of one of the materials; default: those of the file, which OBJ and glTF "
+        "files have",
+    )
+    part: Name | None = Field(
+        None,
+        description="name of a material of the file, whose triangles alone are taken; default: all",
+    )
+    translate: Vector = Field((0.0, 0.0, 0.0), description="where the origin of the file lies")
+    rotate: Vector = Field(
+        (0.0, 0.0, 0.0),
+        description="angles in degrees about the x, then the y, then the z axis, through that "
+        "origin",
+    )
+    scale: Factors = Field(
+        (1.0, 1.0, 1.0),
+        description="a factor of its size, or one along each axis of the file; negative: mirrored",
+    )
+    matrix: Matrix | None = Field(
+        None,
+        description="four rows of four numbers, by which points of the file are multiplied, as "
+        "columns, before they are scaled; default: they stay as they are",
+    )
+    smooth: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+        True,
+        description="whether normals are interpolated across triangles, those of the file or, "
+        "where it has none, means at each vertex; false: flat facets",
+    )
+
+    has_inside = True
+    anchor = "translate"
+    extents = ("scale",)
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            vertices: Any = None,
+            faces: Any = None,
+            normals: Any = None,
+            colors: Any = None,
+            uv: Any = None,
+            *,
+            file: MeshFile | str | None = None,
+            translate: Triple = (0, 0, 0),
+            rotate: Triple = (0, 0, 0),
+            scale: Number | Triple = 1,
+            matrix: Sequence[Sequence[Number]] | Array | None = None,
+            smooth: bool = True,
+            material: str = "",
+            part: str | None = None,
+            name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
+            emission_side: Literal["both", "front"] = "both",
+        ) -> None: ...
+
+    else:
+
+        def __init__(self, vertices=None, faces=None, normals=None, colors=None, uv=None, **fields):
+            """Raises ValueError, which says what is wrong with which row of an array."""
+            if vertices is not None or faces is not None:
+                if "file" in fields:
+                    raise ValueError("a mesh is given by arrays or by a file, not by both")
+                fields["file"] = mesh_of_arrays(vertices, faces, normals, colors, uv)
+            super().__init__(**fields)
+
+    @property
+    def triangles(self) -> TriangleMesh:
+        """In the coordinates of the file; ValueError before it is read, or without the part."""
+        mesh = self.triangles_of_file
+        if self.part is None:
+            return mesh
+        if self.part not in mesh.parts:
+            raise ValueError(f"the file {self.file.file} has no part {self.part}")
+        return mesh.parts[self.part]
+
+    @property
+    def triangles_of_file(self) -> TriangleMesh:
+        """Those of all parts; ValueError before the file is read."""
+        if self.file.triangles is None:
+            raise ValueError(f"the file {self.file.file} was not read")
+        return self.file.triangles
+
+    @property
+    def linear(self) -> Array:
+        """(3, 3): from the axes of the file to those of the scene."""
+        turned: Array = self._turned() @ self._given()[:, :3]
+        return turned
+
+    @property
+    def origin(self) -> Array:
+        """(3,): where the origin of the file lies."""
+        moved: Array = self._turned() @ self._given()[:, 3] + np.array(self.translate)
+        return moved
+
+    def _turned(self) -> Array:
+        turned: Array = rotation(self.rotate) * np.array(self.scale)
+        return turned
+
+    def _given(self) -> Array:
+        return np.eye(4)[:3] if self.matrix is None else np.array(self.matrix)[:3]
+
+    @property
+    def world_vertices(self) -> Array:
+        """(v, 3), in scene units."""
+        vertices: Array = self.triangles.vertices @ self.linear.T + self.origin
+        return vertices
+
+    @property
+    def world_normals(self) -> Array:
+        """(v, 3), of any length: normals turn by the inverse, transposed; outwards as they were."""
+        turned: Array = self.triangles.shading_normals @ np.linalg.inv(self.linear)
+        return turned
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether it is not mirrored."""
+        return bool(np.linalg.det(self.linear) > 0)
+
+    @property
+    def middle(self) -> Vector:
+        """The middle of the box around it, in its own axes; before it is read, its origin."""
+        center = self.origin
+        if self.file.triangles is not None:
+            low, high = self.triangles.box
+            center = self.linear @ ((low + high) / 2) + center
+        x, y, z = (float(value) for value in center)
+        return (x, y, z)
+
+    @property
+    def reach(self) -> float:
+        """To the farthest corner of that box."""
+        if self.file.triangles is None:
+            return 0.0
+        low, high = self.triangles.box
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        corners = (signs * (high - low) / 2) @ self.linear.T
+        return float(np.linalg.norm(corners, axis=1).max())
+
+    @property
+    def row(self) -> list[float]:
+        """Middle and radius of a ball that holds it."""
+        return [*self.middle, self.reach]
+
+    def outline(self, about: Array) -> Array:
+        """Its triangles, (n, 9), each from its lowest corner on."""
+        corners = self.polygons - about
+        order = np.lexsort(corners.transpose(2, 0, 1), axis=-1)
+        rows: Array = np.take_along_axis(corners, order[..., None], axis=1).reshape(-1, 9)
+        return rows
+
+    @property
+    def polygons(self) -> Array:
+        """Its triangles."""
+        corners: Array = self.world_vertices[self.triangles.faces]
+        return corners
+
+    @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of the ball."""
+        return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """To where rays enter the ball, 0 from inside: see `distance` for the triangles."""
+        along, rest = along_and_rest(rows, origin, direction)
+        return np.where(along + rest > 0, np.maximum(along - rest, 0), math.inf)
+
+    def distance(self, origin: Array, direction: Array) -> float:
+        """How far a ray goes to the nearest triangle; inf for a miss."""
+        inverse = np.linalg.inv(self.linear)
+        start, along = inverse @ (origin - self.origin), inverse @ direction
+        mesh = self.triangles
+        a, b, c = (mesh.vertices[mesh.faces[:, k]] - start for k in range(3))
+        u, v, w = (np.cross(x, y) @ along for x, y in ((c, b), (a, c), (b, a)))
+        with np.errstate(all="ignore"):
+            normal = np.cross(b - a, c - a)
+            t = (a * normal).sum(axis=1) / (normal @ along)
+            same = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
+            return float(np.where(same & (t > 0), t, math.inf).min())

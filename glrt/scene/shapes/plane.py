@@ -1,0 +1,71 @@
+"""Infinite planes."""
+
+import math
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from pydantic import Field
+
+from glrt.scene.shapes.base import (
+    Array,
+    Cornerless,
+    to_planes,
+    unsigned,
+)
+from glrt.scene.values import Direction, Triple, Vector
+
+
+class Plane(Cornerless):
+    """An infinite plane; the inside of a dielectric is the half-space behind the normal."""
+
+    shape: Literal["plane"] = Field("plane", description="the kind of shape")
+    point: Vector = Field(description="any point on the plane, x y z in scene units")
+    normal: Direction = Field(description="normal of the plane, of any length above 0")
+
+    has_inside = True
+    anchor = "point"
+    extents = ()
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            point: Triple,
+            normal: Triple,
+            material: str,
+            name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
+        ) -> None: ...
+
+    @property
+    def middle(self) -> Vector:
+        """The point that it is given by."""
+        return self.point
+
+    @property
+    def reach(self) -> float:
+        """No ball holds a plane."""
+        return math.inf
+
+    @property
+    def row(self) -> list[float]:
+        """Point and normal."""
+        return [*self.point, *self.normal]
+
+    def outline(self, about: Array) -> Array:
+        """Normal and height."""
+        normal = unsigned(self.normal)
+        return np.array([[*normal, normal @ (np.array(self.point) - about)]])
+
+    @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Infinite."""
+        endless = np.full((len(rows), 3), math.inf)
+        return -endless, endless
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """From either side."""
+        return to_planes(rows[:, :3], rows[:, 3:], origin, direction)

@@ -1,0 +1,100 @@
+"""Parallelograms."""
+
+import math
+from typing import TYPE_CHECKING, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from glrt.scene.shapes.base import (
+    Array,
+    Sided,
+    to_planes,
+)
+from glrt.scene.values import Direction, Triple, Vector, are_parallel
+
+
+class Quad(Sided):
+    """A parallelogram; its normal is along edge_u x edge_v."""
+
+    shape: Literal["quad"] = Field("quad", description="the kind of shape")
+    corner: Vector = Field(description="one of its corners, x y z in scene units")
+    edge_u: Direction = Field(description="vector from the corner to the next, in scene units")
+    edge_v: Direction = Field(
+        description="vector from the corner to the one before, in scene units"
+    )
+
+    has_inside = False
+    anchor = "corner"
+    extents = ("edge_u", "edge_v")
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            corner: Triple,
+            edge_u: Triple,
+            edge_v: Triple,
+            material: str,
+            name: str | None = None,
+            group: str | None = None,
+            hidden: bool = False,
+            emission_side: Literal["both", "front"] = "both",
+        ) -> None: ...
+
+    @model_validator(mode="after")
+    def _has_an_area(self) -> Self:
+        if are_parallel(self.edge_u, self.edge_v):
+            raise ValueError(
+                "edge_u and edge_v are parallel: the quad has no area; change one of them"
+            )
+        return self
+
+    @property
+    def middle(self) -> Vector:
+        """Where its diagonals cross."""
+        x, y, z = np.array(self.corner) + np.add(self.edge_u, self.edge_v) / 2
+        return (float(x), float(y), float(z))
+
+    @property
+    def reach(self) -> float:
+        """Half of the longer diagonal."""
+        diagonals = np.add(self.edge_u, self.edge_v), np.subtract(self.edge_u, self.edge_v)
+        return float(max(np.linalg.norm(diagonal) for diagonal in diagonals)) / 2
+
+    @property
+    def row(self) -> list[float]:
+        """Corner and edges."""
+        return [*self.corner, *self.edge_u, *self.edge_v]
+
+    def outline(self, about: Array) -> Array:
+        """Its corners."""
+        corners: Array = self.polygons[0] - about
+        return corners
+
+    @property
+    def polygons(self) -> Array:
+        """Itself."""
+        u, v = np.array(self.edge_u), np.array(self.edge_v)
+        corners: Array = np.array(self.corner) + np.array([[0 * u, u, u + v, v]])
+        return corners
+
+    @staticmethod
+    def bounds(rows: Array) -> tuple[Array, Array]:
+        """Of its corners."""
+        u, v = rows[:, 3:6], rows[:, 6:]
+        corners = rows[:, :3] + np.stack([0 * u, u, v, u + v])
+        return corners.min(axis=0), corners.max(axis=0)
+
+    @staticmethod
+    def distances(rows: Array, origin: Array, direction: Array) -> Array:
+        """From either side."""
+        corner, u, v = rows[:, :3], rows[:, 3:6], rows[:, 6:]
+        normal = np.cross(u, v)
+        distance = to_planes(corner, normal, origin, direction)
+        offset = origin + distance[:, None] * direction - corner
+        square = np.square(normal).sum(axis=1)
+        a = (np.cross(offset, v) * normal).sum(axis=1) / square
+        b = (np.cross(u, offset) * normal).sum(axis=1) / square
+        return np.where((a >= 0) & (a <= 1) & (b >= 0) & (b <= 1), distance, math.inf)

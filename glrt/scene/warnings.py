@@ -1,0 +1,284 @@
+"""Warnings about scenes that exceed float32 or the model: rendered, but not to be trusted.
+
+docs/explanation/correctness.md says how far each limit was measured.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.core.text import counted, number, quoted
+from glrt.scene.coincidence import coincidence_of
+from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
+from glrt.scene.images.texture_sizes import MOST_TEXELS, sizes_of
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import glass_of
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+from glrt.scene.shapes.sphere import Sphere
+from glrt.scene.summary import few
+from glrt.scene.twins import twins
+from glrt.settings import Settings
+
+ROUNDING = 2.0**-24  # of a float32, as a share of it
+HUGE = 1e4  # heights of the camera over a ball, or radii of one that it touches, in its radius
+LIKELY_IOR = 1.7  # below that of a gem: as liquids and glass have it against air
+DENSE_IOR = 1.9  # above that of nearly all glass
+FINEST_PIXEL = 4 * ROUNDING  # radians: directions are known to one or two roundings
+
+Floats = NDArray[np.float64]
+
+
+def cautions(scene: Scene, settings: Settings) -> list[str]:
+    """A paragraph for each limit overstepped: where, by how much, and what to do."""
+    found = (
+        _narrow_pixels(scene, settings),
+        _huge_ball(scene),
+        *_glass(scene),
+        _walled_in(scene),
+        _dark(scene),
+        _twins(scene),
+        _shared_places(scene),
+        *_repeated(scene),
+        *_unread(scene),
+        _large_images(scene),
+    )
+    return [text for text in found if text]
+
+
+def _narrow_pixels(scene: Scene, settings: Settings) -> str:
+    angle = 2 * math.tan(math.radians(scene.camera.fov) / 2) / settings.height
+    if angle >= FINEST_PIXEL:
+        return ""
+    return (
+        f"camera.fov {number(scene.camera.fov)} at {settings.height} rows makes pixels of "
+        f"{angle:.1g} radians, finer than float32 resolves directions ({FINEST_PIXEL:.1g}): "
+        "neighbouring pixels may be equal. Use fewer rows, or move the camera closer."
+    )
+
+
+def _huge_ball(scene: Scene) -> str:
+    """The surface of a ball has the rounding error of its radius, however close the camera is."""
+    balls = _balls(scene)
+    ratio, worst = max(_size_ratios(scene, balls), default=(0.0, 0))
+    if ratio <= HUGE:
+        return ""
+    share = float(f"{100 * ratio * ROUNDING:.1g}")
+    return (
+        f"{_name(scene, balls[worst])}: its radius is {ratio:.1g} times the distance of the camera "
+        "from its surface, or the radius of a ball that touches it; float32 resolves the surface "
+        f"to {share:g} % of that at best. Use a plane or a smaller ball."
+    )
+
+
+def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
+    """Of large balls, the radius over the smallest thing that the surface is near to.
+
+    Those are left out that are not HUGE beside the smallest ball, nor seen from near.
+    """
+    center, radius = _places(scene, balls)
+    heights = np.abs(np.linalg.norm(center, axis=1) - radius)
+    largest = np.argsort(-radius)[:MOST_COMPARED]
+    least = np.minimum(heights, radius.min(initial=math.inf))
+    for ball in largest[radius[largest] > HUGE * least[largest]]:
+        gap = np.abs(np.linalg.norm(center - center[ball], axis=1) - radius[ball])
+        touching = radius[(gap <= 2 * radius) & (np.arange(len(radius)) != ball)]
+        nearest = float(min([heights[ball], *touching]))
+        yield float(radius[ball]) / max(nearest, float(radius[ball]) * ROUNDING), int(ball)
+
+
+def _glass(scene: Scene) -> list[str]:
+    """A paragraph for each way in which glass lies to glass that is seldom meant."""
+    glass = [
+        i
+        for i, thing in enumerate(scene.objects)
+        if _is_solid_glass(scene, thing) and not isinstance(thing, Mesh) and not thing.hidden
+    ]
+    eye = np.array(scene.camera.position, np.float64)
+    texts: dict[str, str] = {}
+    for relation, (first, second) in relations([scene.objects[i] for i in glass], eye):
+        ordered = all(_glass_of(scene, glass[k]).priority is not None for k in (first, second))
+        if not texts.get(relation) and not ordered:
+            texts[relation] = _glass_to_glass(scene, relation, glass[first], glass[second])
+    return list(texts.values())
+
+
+def _glass_to_glass(scene: Scene, relation: Relation, first: int, second: int) -> str:
+    if relation == "inside":
+        return _dense_inside(scene, first, second)
+    names = " and ".join(_name(scene, index) for index in sorted((first, second)))
+    if relation == "share a face":
+        return (
+            f"{names} are glass and share a part of a flat face: a ray meets only one of the two "
+            "there, so light is refracted wrongly. Leave a hair between them, such as a thousandth "
+            "of their size."
+        )
+    return (
+        f"{names} are glass and cross: light that leaves one inside the other is refracted as if "
+        "it entered air. Separate them, put one inside the other, a hair apart, or give both a "
+        "priority."
+    )
+
+
+def _dense_inside(scene: Scene, inner: int, outer: int) -> str:
+    """Where `ior` looks as if it were given against air, and not against the glass around."""
+    own, around = (_glass_of(scene, index).ior for index in (inner, outer))
+    if not 1 < own < LIKELY_IOR or own * around < DENSE_IOR:
+        return ""
+    return (
+        f"{_name(scene, inner)} lies inside {_name(scene, outer)}: ior is that of an inside over "
+        f"that of the glass around it, so its {number(own)} is {own * around:.3g} against air. If "
+        f"{number(own)} is meant against air, write {number(own)} / {number(around)} = "
+        f"{own / around:.3g}."
+    )
+
+
+def _is_solid_glass(scene: Scene, thing: Shape) -> bool:
+    glass = glass_of(scene.materials[thing.material])
+    return glass is not None and not glass.thin
+
+
+def _glass_of(scene: Scene, index: int) -> Dielectric:
+    glass = glass_of(scene.materials[scene.objects[index].material])
+    assert glass
+    return glass
+
+
+def _walled_in(scene: Scene) -> str:
+    """A camera in a ball that is not glass; a lamp that may be in it too makes it a room."""
+    walls = [i for i in _balls(scene) if _kind(scene, i) != "dielectric"]
+    center, radius = _places(scene, walls)
+    around = np.flatnonzero(np.linalg.norm(center, axis=1) < radius)
+    lamps = [thing for thing in scene.visible if any(scene.emission_of(thing))]
+    for index in [walls[i] for i in around]:
+        ball = scene.objects[index]
+        assert isinstance(ball, Sphere)
+        if not any(_reaches_into(ball, lamp) for lamp in lamps):
+            return (
+                f"{_name(scene, index)}: the camera is inside this ball, which "
+                "is not glass and has no lamp inside: nothing outside is visible, and paths find "
+                "no light. Move the camera out, or put a lamp inside."
+            )
+    return ""
+
+
+def is_dark(scene: Scene) -> bool:
+    """Whether nothing emits: the picture is black, and sure of it."""
+    emits = any(any(scene.emission(finish)) for finish in scene.finishes)
+    return not (emits or any(map(any, (scene.sun_radiance, *scene.background_colors))))
+
+
+def _dark(scene: Scene) -> str:
+    if not is_dark(scene):
+        return ""
+    lamps = any(finish.group for finish in scene.finishes)
+    remedy = (
+        "Raise the emission of a lamp, or the intensity of its group under [lights] or with --light"
+        if lamps
+        else 'Give an object a material of type "light", or add a [background] with a color'
+    )
+    return (
+        "there is no light in this scene: no lamp emits and the background is black, so the "
+        f"picture is black, with an estimated error of 0 %. {remedy}."
+    )
+
+
+def _twins(scene: Scene) -> str:
+    """Objects that are left out, as another one has their place."""
+    pairs = [(twin.unseen, twin.seen) for twin in twins(scene.objects, scene.materials)]
+    if not pairs:
+        return ""
+    left_out = few(f"{_name(scene, a)} (in the place of {_name(scene, b)})" for a, b in pairs)
+    return (
+        f"{left_out}: an object of the same geometry covers {'it' if len(pairs) == 1 else 'each'} "
+        "from both sides, so it is left out and emits nothing. Delete one of each pair, or move it."
+    )
+
+
+def _shared_places(scene: Scene) -> str:
+    """Flat lamps that overlap other surfaces in one plane."""
+    pairs = coincidence_of(scene).pairs
+    if not pairs:
+        return ""
+    overlaps = few(
+        f"{_name(scene, a)} overlaps {_name(scene, b) if a != b else 'itself'}" for a, b in pairs
+    )
+    return (
+        f"{overlaps} in one plane, and one of the two emits. A place shows one surface there: the "
+        "one that emits towards the ray, or else the one of the lower number. The scene renders "
+        "faster if you move one of them by a thousandth of its size."
+    )
+
+
+def _repeated(scene: Scene) -> Iterator[str]:
+    """Triangles that stand in a file twice."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file in dict.fromkeys(mesh.file for mesh in meshes):
+        if file.triangles is not None and (count := file.triangles.repeated):
+            verb = "repeats another one" if count == 1 else "repeat others"
+            yield f"{file.file}: {counted(count, 'triangle')} {verb}, and each is there once."
+
+
+def _unread(scene: Scene) -> Iterator[str]:
+    """What files of models say that no scene has."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
+        where = ", ".join(file.libraries) or file.file
+        yield (
+            f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
+            "what is read; with a `material` of the scene its object has another look."
+        )
+
+
+def _large_images(scene: Scene) -> str:
+    """Images that are made smaller."""
+    opaque = [it for it in scene.materials.values() if isinstance(it, Opaque)]
+    images = {t.image for it in opaque for t in it.textures.values() if t.image is not None}
+    texels = {image.file: image.texels.shape[:2] for image in images if image.texels is not None}
+    sizes = sizes_of(list(texels.values()))
+    smaller = [file for file, size in zip(texels, sizes, strict=True) if texels[file] != size]
+    if not smaller:
+        return ""
+    return (
+        f"the images of this scene have more than {MOST_TEXELS >> 20} million pixels together: "
+        f"{few(smaller)} {'is' if len(smaller) == 1 else 'are'} made smaller. Use smaller ones."
+    )
+
+
+def _reaches_into(ball: Sphere, lamp: Shape) -> bool:
+    """Whether some of a lamp's surface may lie in a ball, or on it."""
+    middle = np.array(ball.center)
+    if isinstance(lamp, Plane):
+        normal = np.array(lamp.normal) / np.linalg.norm(lamp.normal)
+        return bool(abs((middle - lamp.point) @ normal) < ball.radius)
+    apart = float(np.linalg.norm(np.subtract(lamp.middle, middle)))
+    if isinstance(lamp, Sphere):
+        return abs(apart - lamp.radius) <= ball.radius
+    return apart < ball.radius + lamp.reach
+
+
+def _balls(scene: Scene) -> list[int]:
+    things = enumerate(scene.objects)
+    return [index for index, thing in things if isinstance(thing, Sphere) and not thing.hidden]
+
+
+def _places(scene: Scene, balls: list[int]) -> tuple[Floats, Floats]:
+    """Centres relative to the camera, (n, 3), and radii, (n,)."""
+    found = [thing for i in balls if isinstance(thing := scene.objects[i], Sphere)]
+    eye = np.array(scene.camera.position, np.float64)
+    center = np.array([ball.center for ball in found], np.float64).reshape(-1, 3) - eye
+    return center, np.array([ball.radius for ball in found], np.float64)
+
+
+def _kind(scene: Scene, index: int) -> str:
+    return scene.materials[scene.objects[index].material].type
+
+
+def _name(scene: Scene, index: int) -> str:
+    name = scene.objects[index].name
+    return f"objects[{index}]" + (f" {quoted(name)}" if name else "")

@@ -1,0 +1,173 @@
+"""What a widget needs to know of a value, read from the models: range, unit, help, cost.
+
+Nothing here draws. A model's field says all of it once; see `glrt.settings` and
+the models in `glrt.scene`.
+"""
+
+import types
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+from glrt.core.errors import UsageError
+from glrt.settings import Cost, editable_of
+
+Model = TypeVar("Model", bound=BaseModel)
+Kind = Literal["integer", "number", "choice", "switch", "color", "vector"]
+
+MEANING = {
+    Cost.FREE: "changes only the display; no sample is lost",
+    Cost.RELIGHT: "reweights the accumulated light; no sample is lost",
+    Cost.RESTART: "restarts the picture",
+    Cost.RECOMPILE: "compiles another kernel and restarts the picture",
+}
+
+
+@dataclass(frozen=True)
+class Control:
+    """One value of a model: `low` and `high` are its range, `slider` is a useful part of it."""
+
+    name: str
+    kind: Kind
+    help: str
+    cost: Cost
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+    slider: tuple[float, float] | None = None
+    choices: tuple[str, ...] = ()
+    told: tuple[str, ...] = ()  # of each choice, what it is, where its word does not say it
+    reach: tuple[float, Cost] | None = None  # up to which an edit has this cost; and that beyond
+
+    @property
+    def label(self) -> str:
+        """The name in words."""
+        return self.name.replace("_", " ")
+
+    def named(self, name: str) -> "Control":
+        """The same control under another name."""
+        return replace(self, name=name)
+
+    def costing(self, cost: Cost, reach: tuple[float, Cost] | None = None) -> "Control":
+        """The same control where an edit costs something else at present."""
+        return replace(self, cost=cost, reach=reach)
+
+    @property
+    def costs(self) -> tuple[tuple[Cost, str], ...]:
+        """What an edit costs, and which edit: where that depends on the value."""
+        if not self.reach or (self.high is not None and self.high <= self.reach[0]):
+            return ((self.cost, ""),)
+        return (self.cost, f"up to {self.reach[0]:g}"), (self.reach[1], "above")
+
+    @property
+    def is_logarithmic(self) -> bool:
+        """Whether the range of the slider spans several magnitudes."""
+        low, high = self.slider or (0, 0)
+        return low > 0 and high / low > 100
+
+
+def controls_of(model: type[BaseModel], leave_out: tuple[str, ...] = ()) -> tuple[Control, ...]:
+    """A control for each field of a model that a widget can edit, in its order."""
+    fields = ((n, f) for n, f in model.model_fields.items() if n not in leave_out)
+    return tuple(control for name, field in fields if (control := _control(name, field)))
+
+
+def control_of_items(model: type[BaseModel], field: str) -> Control:
+    """The control for any one value of a field that maps names to values."""
+    whole = model.model_fields[field]
+    item = FieldInfo.from_annotation(get_args(whole.annotation)[1])
+    item.description = whole.description
+    item.metadata = [*item.metadata, editable_of(whole)]
+    control = _control(field, item)
+    assert control
+    return control
+
+
+def switch(name: str, help_text: str, cost: Cost) -> Control:
+    """A control for what is on or off, and is no field of a model."""
+    return Control(name, "switch", help_text, cost)
+
+
+def choice(name: str, help_text: str, cost: Cost, choices: tuple[str, ...] = ()) -> Control:
+    """A control for one of several words, which is no field of a model."""
+    return Control(name, "choice", help_text, cost, choices=choices)
+
+
+def replaced(value: Model, **changes: Any) -> Model:
+    """A frozen model with other values of some fields; UsageError says what does not fit."""
+    return made(type(value), {**dict(value), **changes})
+
+
+def made(model: type[Model], values: Mapping[str, Any]) -> Model:
+    """A frozen model of these values; UsageError says what does not fit."""
+    try:
+        return model.model_validate(values)
+    except ValidationError as error:
+        problem = error.errors(include_url=False, include_input=False)[0]
+        text = str(problem["msg"]).removeprefix("Value error, ")
+        place = ".".join(str(part) for part in problem["loc"])
+        raise UsageError(f"{place}: {text}" if place else text) from None
+
+
+def _control(name: str, field: FieldInfo) -> Control | None:
+    plain, limits = _unwrapped(field.annotation, list(field.metadata))
+    kind = _kind(plain)
+    if kind is None:
+        return None
+    declared = editable_of(field)
+    if kind == "color":
+        limits = _unwrapped(get_args(plain)[0], [])[1]
+    low, high = _bound(limits, "ge", "gt"), _bound(limits, "le", "lt")
+    slider = declared.slider
+    return Control(
+        name,
+        kind,
+        field.description or "",
+        declared.cost,
+        declared.unit,
+        low,
+        high,
+        slider or (None if low is None or high is None or high > 1e6 else (low, high)),
+        get_args(plain) if kind == "choice" else (),
+    )
+
+
+def _unwrapped(annotation: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
+    """The plain type below Annotated and Optional, and all limits met on the way."""
+    if get_origin(annotation) is Annotated:
+        plain, *more = get_args(annotation)
+        inner = [part for item in more for part in _limits(item)]
+        return _unwrapped(plain, limits + inner)
+    if get_origin(annotation) in (Union, types.UnionType):
+        rest = [part for part in get_args(annotation) if part is not type(None)]
+        if len(rest) == 1:
+            return _unwrapped(rest[0], limits)
+    return annotation, limits
+
+
+def _limits(item: Any) -> Iterator[Any]:
+    if isinstance(item, FieldInfo):
+        yield from item.metadata
+    else:
+        yield item
+
+
+def _kind(plain: Any) -> Kind | None:
+    kinds: dict[Any, Kind] = {bool: "switch", int: "integer", float: "number"}
+    if plain in kinds:
+        return kinds[plain]
+    parts = get_args(plain)
+    if get_origin(plain) is Literal and len(parts) > 1:
+        return "choice"
+    if get_origin(plain) is tuple and len(parts) == 3:
+        low = _bound(_unwrapped(parts[0], [])[1], "ge", "gt")
+        return "color" if low == 0 else "vector"
+    return None
+
+
+def _bound(limits: list[Any], *names: str) -> float | None:
+    found = [getattr(item, name) for item in limits for name in names if hasattr(item, name)]
+    return float(found[0]) if found else None

@@ -1,0 +1,11 @@
+"""Edits of a scene and its settings, with undo.
+
+Modules, each importing only what stands above it:
+
+- scene_edits: objects and materials added, copied, renamed, removed
+- new_objects: new objects and their placement
+- edited_state: the value that undo restores
+- state_differences: differences of two states, in words
+- history: undo and redo
+- editing: current and earlier states
+"""

@@ -1,0 +1,200 @@
+"""What the window edits of a scene, by pure functions: a scene in, the edited one out.
+
+Raises `UsageError` where the result would be no valid scene.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import TYPES, Material
+from glrt.scene.materials.lambertian import Lambertian
+from glrt.scene.materials.metal import Metal
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.kinds import Shape
+from glrt.view.controls import made, replaced
+
+_STARTS: dict[str, Any] = {  # of what another type of material does not say
+    "color": (0.7, 0.7, 0.7),
+    "emission": (8.0, 8.0, 8.0),
+}
+_WAYS_OF_METAL = ("preset", "ior", "k")  # a metal that changed its type has a colour
+
+
+def with_object(scene: Scene, index: int, shape: Shape) -> Scene:
+    """Another shape in the place of one."""
+    objects = (*scene.objects[:index], shape, *scene.objects[index + 1 :])
+    return replaced(scene, objects=objects)
+
+
+def with_object_of(scene: Scene, index: int, material: str) -> Scene:
+    """Another material of the scene for an object."""
+    return with_object(scene, index, replaced(scene.objects[index], material=material))
+
+
+def with_added(scene: Scene, shape: Shape, material: Material | None = None) -> Scene:
+    """One more shape, behind all others, and its material if the scene lacks that."""
+    new = {} if material is None else {shape.material: material}
+    return replaced(scene, objects=(*scene.objects, shape), materials={**scene.materials, **new})
+
+
+def with_duplicate(scene: Scene, index: int, moved: Shape | None = None) -> Scene:
+    """A copy of an object behind all others, under a name of its own: `moved` is it elsewhere."""
+    shape = moved or scene.objects[index]
+    if shape.name:
+        shape = replaced(shape, name=free_name(shape.name, _names(scene)))
+    return with_added(scene, shape)
+
+
+def without_object(scene: Scene, index: int) -> Scene:
+    """One object less; its material stays."""
+    return replaced(scene, objects=(*scene.objects[:index], *scene.objects[index + 1 :]))
+
+
+def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
+    """Other values of a material."""
+    return _with_materials(scene, {name: replaced(scene.materials[name], **changes)})
+
+
+def with_retyped(scene: Scene, name: str, kind: str) -> Scene:
+    """Another type of a material, which keeps the values that both types have."""
+    return _with_materials(scene, {name: retyped(scene.materials[name], kind)})
+
+
+def retyped(material: Material, kind: str) -> Material:
+    """A material of another type, with the values that both types have."""
+    if kind == material.type:
+        return material
+    model = TYPES[kind]
+    fields = model.model_fields
+    kept = {key: value for key, value in _kept(material, kind).items() if key in fields}
+    needed = {key: start for key, start in _STARTS.items() if _is_needed(model, key)}
+    result: Material = made(model, {**needed, **kept})
+    return result
+
+
+def _kept(material: Material, kind: str) -> dict[str, Any]:
+    """What a material says that one of another type may say, too."""
+    kept = {key: value for key, value in material if key != "type" and value is not None}
+    if "metal" in (kind, material.type):
+        kept = {key: value for key, value in kept.items() if key not in _WAYS_OF_METAL}
+    if isinstance(material, Metal):
+        kept["color"] = material.head_on
+    if not material.emits or material.type == "light":  # what is no lamp any more does not shine
+        kept.pop("emission", None)
+    if not any(kept.get("color", ())):
+        kept.pop("color", None)
+    return kept
+
+
+def _is_needed(model: type[Material], key: str) -> bool:
+    """Whether a type of material must be given a value: of metal, one of several."""
+    field = model.model_fields.get(key)
+    return field is not None and (field.is_required() or (model is Metal and key == "color"))
+
+
+def with_own_material(scene: Scene, index: int) -> Scene:
+    """A copy of its material for one object alone; the others keep theirs."""
+    shape = scene.objects[index]
+    name = free_name(shape.material, scene.materials)
+    copied = _with_materials(scene, {name: scene.materials[shape.material]})
+    return with_object(copied, index, replaced(shape, material=name))
+
+
+def with_new_material(scene: Scene, index: int) -> Scene:
+    """A matte material of its own for an object."""
+    name = free_name("material", scene.materials)
+    matte = Lambertian(color=_STARTS["color"])
+    shape = replaced(scene.objects[index], material=name)
+    objects = (*scene.objects[:index], shape, *scene.objects[index + 1 :])
+    return replaced(scene, objects=objects, materials={**scene.materials, name: matte})
+
+
+def with_renamed_material(scene: Scene, old: str, new: str) -> Scene:
+    """A material under another name, in its place; objects and its light group follow."""
+    if new == old:
+        return scene
+    new = free_name(new, scene.materials)
+    materials = {new if name == old else name: m for name, m in scene.materials.items()}
+    objects = tuple(
+        replaced(shape, material=new) if shape.material == old else shape for shape in scene.objects
+    )
+    lights = dict(scene.lights)
+    material = scene.materials[old]
+    if isinstance(material, Opaque) and material.group is None and old in lights:
+        lights[new] = lights.pop(old)
+    return replaced(scene, materials=materials, objects=objects, lights=lights)
+
+
+def without_unused_materials(scene: Scene) -> Scene:
+    """The materials that objects have, and intensities of their groups."""
+    used = {shape.material for shape in scene.objects}
+    kept = {name: m for name, m in scene.materials.items() if name in used}
+    groups = scene.model_copy(update={"materials": kept}).light_groups
+    lights = {group: value for group, value in scene.lights.items() if group in groups}
+    return replaced(scene, materials=kept, lights=lights)
+
+
+def unused_materials(scene: Scene) -> list[str]:
+    """Names of materials that no object has."""
+    used = {shape.material for shape in scene.objects}
+    return [name for name in scene.materials if name not in used]
+
+
+def with_own_group(scene: Scene, index: int) -> Scene:
+    """A light group for the emission of one object alone."""
+    shape = scene.objects[index]
+    name = free_name(shape.name or shape.material, scene.light_groups)
+    return with_object(scene, index, replaced(shape, group=name))
+
+
+def found_again(
+    before: tuple[Shape, ...], after: tuple[Shape, ...], selected: int | None
+) -> int | None:
+    """The number of the selected object in other objects; of none, the one that came back."""
+    if selected is not None and selected < len(before):
+        if len(before) == len(after):
+            return selected
+        return next((n for n, shape in enumerate(after) if shape is before[selected]), None)
+    known = set(map(id, before))
+    new = [number for number, shape in enumerate(after) if id(shape) not in known]
+    return new[0] if len(after) == len(before) + 1 and len(new) == 1 else None
+
+
+def free_name(wanted: str, taken: Iterable[str]) -> str:
+    """The name, with a number behind it where it is taken: "ball", "ball 2", "ball 3"."""
+    names = set(taken)
+    stem, _, last = wanted.rpartition(" ")
+    stem, number = (stem, int(last)) if stem and last.isdecimal() else (wanted, 1)
+    name = wanted
+    while name in names:
+        number += 1
+        name = f"{stem} {number}"
+    return name
+
+
+def _names(scene: Scene) -> set[str]:
+    return {shape.name for shape in scene.objects if shape.name}
+
+
+def _with_materials(scene: Scene, changed: Mapping[str, Material]) -> Scene:
+    return replaced(scene, materials={**scene.materials, **changed})
+
+
+def with_texture(scene: Scene, name: str, key: str, changes: dict[str, Any]) -> Scene:
+    """Other values of a texture of a material."""
+    material = scene.materials[name]
+    field = key if key == "normal" else f"{key}_map"
+    return with_material(scene, name, **{field: replaced(getattr(material, field), **changes)})
+
+
+def with_cone(scene: Scene, name: str, changes: dict[str, Any]) -> Scene:
+    """Another cone of a material: neither half angle passes the other."""
+    material = scene.materials[name]
+    if not isinstance(material, Opaque) or material.cone is None:
+        return scene
+    if "inner" in changes:
+        changes = {"outer": max(material.cone.outer, changes["inner"]), **changes}
+    elif "outer" in changes:
+        changes = {"inner": min(material.cone.inner, changes["outer"]), **changes}
+    return with_material(scene, name, cone=replaced(material.cone, **changes))

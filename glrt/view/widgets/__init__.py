@@ -1,0 +1,9 @@
+"""Widgets that several panels use.
+
+Modules, each importing only what stands above it:
+
+- slider_text: text of a slider
+- steady_widget: keeps the last used widget in place
+- cost_badges: badges that show the cost of an edit
+- fields: one widget for each kind of field
+"""

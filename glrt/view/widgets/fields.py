@@ -1,0 +1,276 @@
+"""Widgets for controls, with what an edit costs beside them: a value in, the edited one out."""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+from imgui_bundle import ImVec2, hello_imgui, imgui
+
+from glrt.settings import Cost
+from glrt.view.controls import MEANING, Control
+from glrt.view.state.explanations import explanation_of
+from glrt.view.widgets.cost_badges import tag, tags, tags_start
+from glrt.view.widgets.slider_text import Slider, beside_grip, share_of
+from glrt.view.widgets.steady_widget import ANCHOR
+
+Drawn = TypeVar("Drawn")
+
+_MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
+LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
+WORDS = 7.0  # the same of one that shows a word or a name
+_MOST_ROWS = 14  # of a list that need no scrolling
+_TIP = 28.0  # letters' heights across, of a tooltip
+_TOLD = 8.0  # letters' heights from the left edge of a list to what its words are
+_NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
+_LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
+
+
+def edited(control: Control, value: Any, name: str = "") -> Any:
+    """Draw the widget of a control; the new value, or None if it was not touched.
+
+    `name` distinguishes controls of one label: those of two lamps, say.
+    """
+    label = f"{control.label}##{name}" if name else control.label
+    least = hello_imgui.em_size(WORDS if control.kind == "choice" else LEAST)
+    is_narrow = control.kind != "switch" and _room_beside(control.label) < least
+    changed, new = (_drawn_below if is_narrow else _drawn_beside)(control, label, value)
+    return _clamped(control, new) if changed else None
+
+
+def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    imgui.set_next_item_width(_width_beside(control.label))
+    drawn = _draw(control, label, value)
+    tooltip(control, label)
+    tags(control)
+    return drawn
+
+
+def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """Below its label, which the widget has too, so that its name is the same, but cut off."""
+    imgui.text(control.label)
+    tags(control)
+    drawn = _clipped(lambda: _draw(control, label, value))
+    tooltip(control, label)
+    return drawn
+
+
+def _clipped(draw: Callable[[], Drawn]) -> Drawn:
+    """A widget as wide as the panel, whose own label is cut off."""
+    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
+    imgui.set_next_item_width(room)
+    drawn = draw()
+    imgui.pop_clip_rect()
+    return drawn
+
+
+def button(label: str, is_enabled: bool = True) -> bool:
+    """A button, grey where it would do nothing; whether it was pressed."""
+    imgui.begin_disabled(not is_enabled)
+    pressed = imgui.button(label)
+    ANCHOR.note()
+    imgui.end_disabled()
+    return pressed
+
+
+def named(label: str, value: str, name: str) -> str:
+    """A box for a name; the new one once it is typed to its end, else ""."""
+    flags = imgui.InputTextFlags_.auto_select_all.value
+
+    def draw() -> tuple[str, bool]:
+        _, text = imgui.input_text(f"{label}##{name}", value, flags)
+        return text, imgui.is_item_deactivated_after_edit()
+
+    if _room_beside(label) < hello_imgui.em_size(WORDS):
+        imgui.text(label)
+        tag(Cost.FREE)
+        text, is_done = _clipped(draw)
+        ANCHOR.note()
+    else:
+        imgui.set_next_item_width(_width_beside(label))
+        text, is_done = draw()
+        ANCHOR.note()
+        tag(Cost.FREE)
+    return text.strip() if is_done and text.strip() != value else ""
+
+
+def beside(text: str) -> None:
+    """Go on in this line if a button with this text has room there."""
+    imgui.same_line()
+    width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
+
+
+def room_for(label: str, usual: float) -> float:
+    """The width of a widget that leaves room for a label beside it, in pixels."""
+    beside = imgui.calc_text_size(label).x + imgui.get_style().item_inner_spacing.x
+    return max(hello_imgui.em_size(3.5), min(usual, imgui.get_content_region_avail().x - beside))
+
+
+def tip(text: str, widget: int = 0) -> None:
+    """Explain the item drawn last, when the mouse rests on it: in lines that are easily read.
+
+    `widget`: see `Anchor.note`.
+    """
+    ANCHOR.note(widget)
+    if imgui.begin_item_tooltip():
+        imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
+        imgui.text_unformatted(text)
+        imgui.pop_text_wrap_pos()
+        imgui.end_tooltip()
+
+
+def tooltip(control: Control, label: str) -> None:
+    """Tell what the item drawn last, of this label, does, and what it costs."""
+    help_text = control.help[:1].upper() + control.help[1:]
+    unit = f" [{control.unit}]" if control.unit else ""
+    costs = (
+        f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
+    )
+    why = explanation_of(control)
+    told = "\n".join([f"{help_text}{unit}", *costs, *(["", why] if why else [])])
+    tip(told, imgui.get_id(label))
+
+
+def _width_beside(label: str) -> float:
+    """The width of a widget that leaves room for its label and its tag."""
+    usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
+    return max(hello_imgui.em_size(3.5), min(usual, _room_beside(label)))
+
+
+def _room_beside(label: str) -> float:
+    """The width that a label and a tag leave in a line."""
+    beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
+    return tags_start() - imgui.get_cursor_pos_x() - beside
+
+
+def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.kind == "switch":
+        return imgui.checkbox(label, value)
+    if control.kind == "choice":
+        if control.told:
+            return _told_choice(control, label, value)
+        names = list(control.choices)
+        changed, index = imgui.combo(label, names.index(value), names, min(len(names), _MOST_ROWS))
+        return changed, control.choices[index]
+    if control.kind == "color":
+        return _color(control, label, value)
+    if control.kind == "vector":
+        changed, parts = imgui.drag_float3(label, list(value), 0.01, format="%.3f")
+        return changed, tuple(parts)
+    return _number(control, label, value)
+
+
+def _told_choice(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """A list that tells beside each word what it is."""
+    chosen = value
+    if not imgui.begin_combo(label, str(value), imgui.ComboFlags_.height_large.value):
+        return False, value
+    for word, told in zip(control.choices, control.told, strict=True):
+        imgui.push_id(word)
+        if imgui.selectable(word, word == value)[0]:
+            chosen = word
+        if word == value and imgui.is_window_appearing():
+            imgui.set_item_default_focus()
+        imgui.same_line(max(0.0, hello_imgui.em_size(_TOLD)))
+        imgui.text_disabled(told)
+        imgui.pop_id()
+    imgui.end_combo()
+    return chosen != value, chosen
+
+
+def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.high is None or control.high > 1:
+        return _radiance(label, value)
+    changed, parts = imgui.color_edit3(label, list(value), imgui.ColorEditFlags_.float.value)
+    return changed, tuple(parts)
+
+
+def _radiance(label: str, value: Any) -> tuple[bool, Any]:
+    """Three numbers of any size, and a patch of their hue; a click on it chooses another hue."""
+    name, brightest = label.partition("##")[0], max(*value, 0.0) or 1.0
+    patch, room = imgui.get_frame_height(), imgui.get_style().item_inner_spacing.x
+    imgui.push_id(label)
+    imgui.begin_group()
+    imgui.set_next_item_width(imgui.calc_item_width() - patch - room)
+    changed, parts = imgui.drag_float3(
+        f"##{name}", list(value), 0.005 * brightest, 0.0, 0.0, "%.3g"
+    )
+    imgui.same_line(0.0, room)
+    if hue := _hue([part / brightest for part in value]):
+        changed, parts = True, [brightest * part for part in hue]
+    imgui.same_line(0.0, room)
+    imgui.text(name)
+    imgui.end_group()
+    imgui.pop_id()
+    return changed, tuple(parts)
+
+
+def _hue(hue: list[float]) -> list[float] | None:
+    """A patch of a colour, and what is picked after a click on it: its largest part is 1."""
+    if imgui.color_button("hue", [*hue, 1.0], _NO_TOOLTIP):
+        imgui.open_popup("picker")
+    picked = False
+    if imgui.begin_popup("picker"):
+        picked, hue = imgui.color_picker3("##picker", hue, imgui.ColorEditFlags_.float.value)
+        imgui.end_popup()
+    return [part / max(*hue, 1e-6) for part in hue] if picked else None
+
+
+def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    """A slider over the range worth dragging; Ctrl and a click take any valid number."""
+    flags = _LOGARITHMIC if control.is_logarithmic else 0
+    if control.slider is None:
+        return _free_number(control, label, value)
+    low, high = control.slider
+    if control.kind == "integer":
+        form = _beside_grip(control, "%d", value)
+        return imgui.slider_int(label, value, int(low), int(high), form, flags)
+    form = _beside_grip(control, "%.3g", value)
+    return imgui.slider_float(label, value, float(low), float(high), form, flags)
+
+
+def _beside_grip(control: Control, form: str, value: float) -> str:
+    low, high = control.slider or (0.0, 1.0)
+    width, grip = imgui.calc_item_width(), imgui.get_style().grab_min_size
+    if control.kind == "integer":
+        grip = max(grip, width / (high - low + 1))
+    share = share_of(value, low, high, control.is_logarithmic)
+    text, space = (imgui.calc_text_size(part).x for part in (form % value, " "))
+    return beside_grip(form, Slider(width, grip, share), text, space)
+
+
+def _free_number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    if control.kind == "integer":
+        return _typed_integer(label, value)
+    return imgui.drag_float(label, value, max(abs(value) * 0.005, 1e-6), format="%.4g")
+
+
+def _typed_integer(label: str, value: int) -> tuple[bool, int]:
+    """A text box: the integers of Dear ImGui end at 2^31."""
+    flags = imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
+    changed, text = imgui.input_text(label, str(value), int(flags))
+    digits = text[:_MOST_DIGITS]
+    return changed and text.isdecimal(), int(digits) if digits.isdecimal() else value
+
+
+def _clamped(control: Control, value: Any) -> Any:
+    """The nearest valid value: one that was typed may be anything."""
+    if isinstance(value, tuple):
+        return tuple(_clamped(control, part) for part in value)
+    if isinstance(value, bool | str):
+        return value
+    low = -math.inf if control.low is None else control.low
+    high = math.inf if control.high is None else control.high
+    near = max(low, min(value, high))
+    return int(near) if isinstance(value, int) else float(str(np.float32(near)))
+
+
+def edited_fields(
+    controls: tuple[Control, ...], values: Mapping[str, Any], name: str = ""
+) -> dict[str, Any]:
+    """Draw the widgets of several fields; those that were edited, with their new values."""
+    drawn = {c.name: edited(c, values[c.name], name) for c in controls}
+    return {field: value for field, value in drawn.items() if value is not None}
