@@ -24,7 +24,7 @@ from glrt.core.errors import GlrtError, RenderError
 from glrt.image.image import Image
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.loading.file_copies import copy_files
-from glrt.scene.loading.loading import files_of, hashes_of, with_files
+from glrt.scene.loading.scene_files import files_of, hashes_of, with_files
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
 

@@ -34,7 +34,7 @@ from bench.entries import (
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from bench.turns import Command, Entry, Pace, complaints, installed, started, taking_turns, verdict
 from glrt.core import files
-from glrt.scene.loading.loading import files_of
+from glrt.scene.loading.scene_files import files_of
 from glrt.scene.scene import Scene
 from glrt.settings import BLOCKS
 

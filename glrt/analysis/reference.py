@@ -34,7 +34,7 @@ from glrt.plan.facts import contents_of
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
-from glrt.scene.loading.loading import hashes_of
+from glrt.scene.loading.scene_files import hashes_of
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal

@@ -12,7 +12,7 @@ from glrt.plan.facts import contents_of
 from glrt.plan.omissions import left_out, omissions
 from glrt.process.command import file_names, peak_bytes, print_figures
 from glrt.rendering.renderer import Renderer
-from glrt.scene.loading.loading import sources_of
+from glrt.scene.loading.scene_files import sources_of
 
 
 class Done(NamedTuple):

@@ -23,7 +23,7 @@ from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
 from glrt.scene.instancing import Apart
-from glrt.scene.loading.loading import with_files_of
+from glrt.scene.loading.scene_files import with_files_of
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import MAX_SAMPLES, Cost, Settings, settings_for
 

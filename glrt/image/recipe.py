@@ -11,7 +11,7 @@ from glrt.core.errors import SceneError
 from glrt.denoise.filters import least_samples
 from glrt.image.partition import Partition
 from glrt.plan.plan import Layering, Plan, Weights, are_trivial
-from glrt.scene.loading.loading import hashes_of, with_hashes
+from glrt.scene.loading.scene_files import hashes_of, with_hashes
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import LARGEST, parse_scene, scene_to_dict
 from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for

@@ -13,7 +13,7 @@ from glrt.core.text import escaped
 from glrt.image.image import read_recipe
 from glrt.image.recipe import Recipe
 from glrt.scene.files.assets import AssetFolder
-from glrt.scene.loading.loading import files_of, with_files
+from glrt.scene.loading.scene_files import files_of, with_files
 from glrt.scene.model_scene import is_model, model_scene
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import PICTURES, find

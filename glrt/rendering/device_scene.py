@@ -41,7 +41,7 @@ from glrt.rendering.pipelines import (
 )
 from glrt.rendering.schedule import DispatchRange, stride_of
 from glrt.scene.glasses import around_camera
-from glrt.scene.loading.loading import check_loaded
+from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 
 SLOTS = block_of("Slot")

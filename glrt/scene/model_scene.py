@@ -12,7 +12,7 @@ from glrt.scene.files.assets import Asset, AssetFolder, AssetReader
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import text_of
 from glrt.scene.loading.file_contents import Beside, with_content
-from glrt.scene.loading.loading import with_files
+from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.gltf.cameras_lights import camera_of, left_out, lights_of

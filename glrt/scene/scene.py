@@ -15,8 +15,8 @@ from glrt.scene.lights.background import Background
 from glrt.scene.lights.sky_image import SkyPicture, sky_picture
 from glrt.scene.lights.sun import Sun
 from glrt.scene.loading.file_copies import copy_files
-from glrt.scene.loading.loading import with_files
 from glrt.scene.loading.mesh_parts import lacks_material
+from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.nesting import nesting_problems

@@ -21,7 +21,7 @@ from tests.wgsl.device import Device
 SERVER = """
 import os, sys
 import numpy as np
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from glrt import Image
 from bench.peer import Request, serve
 

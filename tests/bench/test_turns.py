@@ -103,7 +103,7 @@ def test_short_turns_are_reported_whatever_the_rates() -> None:
 
 BUSY = """
 import os, threading
-from glrt.errors import SceneError
+from glrt.core.errors import SceneError
 from bench.peer import serve
 
 def spin():

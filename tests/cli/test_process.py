@@ -14,7 +14,8 @@ def told(code: str) -> str:
 
 def test_the_command_looks_for_garbage_in_what_comes_after_its_imports() -> None:
     code = (
-        "import gc; from glrt.cli.process import loading; loaded = loading(); loaded.__enter__(); "
+        "import gc; from glrt.process.command import loading; loaded = loading(); "
+        "loaded.__enter__(); "
         "off = not gc.isenabled(); imported = []; loaded.__exit__(None, None, None); later = []; "
         "found = gc.get_objects(); "
         "has = [any(f is each for f in found) for each in (imported, later)]; "

@@ -11,7 +11,7 @@ from glrt.cli.main import main
 from glrt.image.image import read_recipe
 from glrt.image.sources import load
 from glrt.scene.files.path_text import name_of, text_of
-from glrt.scene.loading.loading import files_of
+from glrt.scene.loading.scene_files import files_of
 from glrt.scene.scene import Scene
 from glrt.view.edits.new_objects import with_model
 from glrt.view.state.recent import load_recent, save_recent, with_opened

@@ -51,7 +51,7 @@ def test_closed_streams_leave_the_exit_code() -> None:
 def test_a_picture_does_not_get_the_number_of_a_closed_stream() -> None:
     """Else what a driver says on stderr would be written into it."""
     probe = (
-        f'"{sys.executable}" -c "import os; from glrt.cli.process import open_missing; '
+        f'"{sys.executable}" -c "import os; from glrt.process.command import open_missing; '
         "open_missing(); "
         "print(os.open('/dev/null', os.O_RDONLY))\" <&- 2>&-"
     )

@@ -130,7 +130,7 @@ def test_an_error_ends_a_silence(capfd: pytest.CaptureFixture[str]) -> None:
 
 def test_closed_streams_stay_closed() -> None:
     code = (
-        "import os; from glrt.silence import silenced\n"
+        "import os; from glrt.process.silence import silenced\n"
         "os.close(1); os.close(2)\n"
         "with silenced(): pass\n"
         "os._exit(os.open('/dev/null', os.O_RDONLY))"

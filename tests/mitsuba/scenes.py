@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from glrt.scene.files.assets import AssetFolder
-from glrt.scene.loading.loading import with_files
+from glrt.scene.loading.scene_files import with_files
 from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.gltf_files import png

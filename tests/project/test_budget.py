@@ -17,7 +17,7 @@ pytest_plugins = ["tests.support.budget"]
 TESTS = """
 import time
 import pytest
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.gpu.context import open_context
 from glrt.gpu.evaluate import Probe
 from glrt.gpu.program import Kernel

@@ -76,7 +76,7 @@ def run(tree: Path, program: str) -> "subprocess.CompletedProcess[str]":
 ANNULUS = """
 import math
 import glrt
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 from glrt.view.viewport.pick import pick
 from glrt.view.viewport.transform import scaled, shifted
 
@@ -119,7 +119,7 @@ assert (big.center, big.inner, big.outer) == ((1.0, 0.0, 0.0), 1.0, 2.0)
 # Under an even sky, from 60 degrees off the normal: (1 - cos) / 3 of it.
 VELVET = """
 import glrt
-from glrt.scene.toml import parse_scene
+from glrt.scene.scenefile.toml import parse_scene
 
 scene = parse_scene({
     "camera": {"position": [0.0, 0.5, 0.8660254], "look_at": [0.0, 0.0, 0.0], "fov": 0.1},

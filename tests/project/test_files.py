@@ -86,7 +86,7 @@ FULL_DISK = """
 import resource, sys
 from pathlib import Path
 import numpy as np
-from glrt.errors import RenderError
+from glrt.core.errors import RenderError
 from glrt.image.image import Image
 pixels = np.random.default_rng(1).random((64, 64, 3), np.float32)
 image = Image(pixels, pixels, 1)

@@ -27,7 +27,7 @@ def test_package_as_a_wheel_installs_it_keeps_them_inside(tmp_path: Path) -> Non
     for name in ("shaders_glsl", "scenes"):
         shutil.copytree(folder(name), tmp_path / "glrt" / name, ignore=skipped)
     code = (
-        "import sys; sys.path.insert(0, '.'); import glrt, glrt.resources as r; "
+        "import sys; sys.path.insert(0, '.'); import glrt, glrt.core.resources as r; "
         "assert str(r.folder('scenes')).startswith(sys.argv[1]), r.folder('scenes'); "
         "glrt.render(glrt.load('cornell'), samples=1, width=8, height=8).save('a.png')"
     )

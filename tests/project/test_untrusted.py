@@ -28,7 +28,7 @@ MEMORY = 2 << 30  # bytes of address space
 HELD_DOWN = f"""
 import resource, sys
 from pathlib import Path
-from glrt.errors import UsageError
+from glrt.core.errors import UsageError
 from glrt.image.sources import load
 resource.setrlimit(resource.RLIMIT_AS, ({MEMORY}, {MEMORY}))
 for source in sys.argv[1:]:

@@ -7,7 +7,7 @@ import pytest
 
 from glrt.core.errors import SceneError
 from glrt.scene.glasses import around_camera, glasses_of, holds
-from glrt.scene.loading.loading import mesh_problems
+from glrt.scene.loading.scene_files import mesh_problems
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import (

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.loading.loading import files_of
+from glrt.scene.loading.scene_files import files_of
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene

@@ -11,7 +11,7 @@ from PIL import Image as Pillow
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.loading.loading import hashes_of
+from glrt.scene.loading.scene_files import hashes_of
 from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.principled import Principled

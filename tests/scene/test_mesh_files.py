@@ -13,7 +13,7 @@ import glrt
 from glrt.cli.main import main
 from glrt.core.errors import SceneError
 from glrt.scene.files.named_meshes import mesh_of_arrays
-from glrt.scene.loading.loading import files_of
+from glrt.scene.loading.scene_files import files_of
 from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.support.meshes import box, icosphere
 

@@ -9,8 +9,7 @@ from glrt import Renderer
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.scene.loading import loading
-from glrt.scene.loading.loading import hashes_of
+from glrt.scene.loading.scene_files import hashes_of
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.gltf_files import COLORS, png, textured_square
@@ -112,7 +111,7 @@ def test_too_many_triangles_of_all_meshes_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Each file alone has room; those that are kept once count once."""
-    monkeypatch.setattr(loading, "MOST_TRIANGLES", 5)
+    monkeypatch.setattr(scene_files, "MOST_TRIANGLES", 5)
     (tmp_path / "thing.glb").write_bytes(textured_square().glb())
     camera = "[camera]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n"
     one = '[[objects]]\nshape = "mesh"\nfile = "thing.glb"\n'

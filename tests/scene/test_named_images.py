@@ -8,7 +8,7 @@ import pytest
 import glrt
 from glrt.core.errors import SceneError, UsageError
 from glrt.image.sources import load
-from glrt.scene.loading.loading import files_of, hashes_of
+from glrt.scene.loading.scene_files import files_of, hashes_of
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
 from glrt.scene.scenefile.toml_writer import write_scene

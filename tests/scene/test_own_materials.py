@@ -11,7 +11,7 @@ from glrt.core.errors import SceneError
 from glrt.image.image import Image, read_recipe
 from glrt.plan.facts import contents_of
 from glrt.scene.files.assets import AssetFolder
-from glrt.scene.loading.loading import with_files
+from glrt.scene.loading.scene_files import with_files
 from glrt.scene.model_files.mesh_formats import decode_mesh, libraries
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml_writer import write_scene

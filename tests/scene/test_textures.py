@@ -11,7 +11,7 @@ import glrt
 from glrt.core.errors import SceneError
 from glrt.image.sources import load
 from glrt.scene.images.texture_sizes import reduced, sizes_of
-from glrt.scene.loading.loading import files_of, hashes_of
+from glrt.scene.loading.scene_files import files_of, hashes_of
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.principled import Principled
 from glrt.scene.materials.textures import Texture

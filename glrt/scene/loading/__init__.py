@@ -5,6 +5,6 @@ Modules, each importing only what stands above it:
 - file_contents: contents of named files
 - file_materials: materials in OBJ and glTF files
 - mesh_parts: meshes divided by the materials of their file
-- loading: a scene with all its files loaded
+- scene_files: a scene with all its files loaded
 - file_copies: copies of the files of a scene
 """

@@ -10,7 +10,7 @@ from glrt.core.files import write_whole
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import name_of
 from glrt.scene.loading.file_contents import NamedContent
-from glrt.scene.loading.loading import named_files
+from glrt.scene.loading.scene_files import named_files
 from glrt.scene.schema.fields import Contents
 
 

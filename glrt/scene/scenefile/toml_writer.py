@@ -8,7 +8,7 @@ from typing import Any
 from glrt.core.errors import SceneError, UsageError
 from glrt.core.files import write_whole
 from glrt.scene.loading.file_copies import copy_files
-from glrt.scene.loading.loading import hashes_of, with_hashes
+from glrt.scene.loading.scene_files import hashes_of, with_hashes
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene
 from glrt.scene.scenefile.toml_lists import with_as_many

@@ -20,7 +20,7 @@ from glrt.image.recipe import Recipe
 from glrt.plan.plan import Layering
 from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
-from glrt.scene.loading.loading import with_stand_ins
+from glrt.scene.loading.scene_files import with_stand_ins
 from glrt.settings import Settings, settings_for
 
 _ROUTES: tuple[Choice, ...] = ("egl", "window")
