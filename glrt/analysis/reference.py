@@ -30,7 +30,7 @@ from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read, shader_files
 from glrt.image.image import Image
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
@@ -133,7 +133,7 @@ def closed_form(scene: Scene) -> float | None:
     scaled inside glass, rough metal loses the light of multiple scattering between microfacets,
     interpolated normals lose some near the silhouette, and colours of vertices are not looked at.
     """
-    found = contents_of(scene)
+    found = facts_of(scene)
     if scene.sun or scene.background.is_pictured or found.is_smooth or found.is_colored:
         return None
     levels = {level for color in scene.background_colors for level in color}

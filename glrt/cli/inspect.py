@@ -8,7 +8,7 @@ from glrt.core.errors import UsageError
 from glrt.core.text import counted
 from glrt.image.sources import recipe_of, shown
 from glrt.plan.explanation import explain
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.plan.omissions import left_out, omissions
 from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
@@ -74,7 +74,7 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     if missing := omissions(scene, settings):
         print(f"\n{left_out(settings, missing)}")
     rounds = iterations_per_sample(scene, settings)
-    most = "about" if contents_of(scene).has_trees else "up to"
+    most = "about" if facts_of(scene).has_trees else "up to"
     print(
         f"\nA sample takes {most} {rounds:,} loop iterations; "
         f"llvmpipe in Mesa 22 ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}; "

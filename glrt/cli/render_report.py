@@ -8,7 +8,7 @@ from glrt.cli.warnings import clipped, doubt, too_dark
 from glrt.core.text import counted
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.plan.omissions import left_out, omissions
 from glrt.process.command import file_names, peak_bytes, print_figures
 from glrt.rendering.renderer import Renderer
@@ -113,6 +113,6 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "denoised_error_high": denoised.error_high if denoised else None,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
-        "triangles": contents_of(renderer.scene).triangles,
+        "triangles": facts_of(renderer.scene).triangles,
         "assets": sources_of(renderer.scene),
     }

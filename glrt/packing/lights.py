@@ -15,7 +15,7 @@ from glrt.packing.emission_cones import Aims, aims_of, around_all
 from glrt.packing.kernel_structs import CONSTANTS
 from glrt.packing.lamp_bounds import LAMPS, Bodies, bodies_of, joined, triangle_bodies
 from glrt.packing.scene_tree import SceneTree
-from glrt.plan.facts import MOST_NEAR, Contents, is_sampled
+from glrt.plan.facts import MOST_NEAR, SceneFacts, is_sampled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.base import Object
 from glrt.scene.shapes.kinds import Shape
@@ -37,7 +37,7 @@ class Lamps(NamedTuple):
 
 
 def lamps_of(
-    scene: Scene, shapes: Sequence[Shape], contents: Contents, tree: SceneTree | None
+    scene: Scene, shapes: Sequence[Shape], facts: SceneFacts, tree: SceneTree | None
 ) -> Lamps:
     """The lamps among the shapes that can be sampled; their number is their place in the list.
 
@@ -51,7 +51,7 @@ def lamps_of(
     lamps: list[Shape] = [shapes[number] for number in found]
     bodies = bodies_of(lamps)
     flux = bodies.area * np.array([radiance(scene, lamp) for lamp in lamps])
-    if tree and contents.lamp_triangles:
+    if tree and facts.lamp_triangles:
         bright = _bright_triangles(scene, shapes, tree)
         triangles = triangle_bodies(tree.corner_positions(bright))
         meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
@@ -68,7 +68,7 @@ def lamps_of(
     ]
     order = np.concatenate([np.arange(0), *chain(*clusters)])
     ends = accumulate(len(part) for part in chain(*clusters))
-    aims = aims_of(scene, lamps, bodies.normal) if contents.is_aimed else None
+    aims = aims_of(scene, lamps, bodies.normal) if facts.is_aimed else None
     return Lamps(
         [found[index] for index in order],
         probability[order],

@@ -19,7 +19,7 @@ from glrt.packing.scene_tree import SceneTree, frame_fields, pack_tree, tree_of
 from glrt.packing.shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.packing.texture_maps import pack_coordinates, pack_maps
 from glrt.packing.triangles import pack_tints
-from glrt.plan.facts import Contents, contents_of
+from glrt.plan.facts import SceneFacts, facts_of
 from glrt.plan.particles import Ball
 from glrt.plan.probe_grid import Grid
 from glrt.scene.camera import Camera
@@ -34,7 +34,7 @@ Array = np.ndarray[Any, Any]
 
 def pack_scene(
     scene: Scene,
-    contents: Contents | None = None,
+    facts: SceneFacts | None = None,
     known: Array | None = None,
     tree: SceneTree | None = None,
 ) -> dict[str, Array]:
@@ -43,7 +43,7 @@ def pack_scene(
     `contents` and `tree` are those of the scene, if they are there already. `known` are the nodes
     of a scene with the same objects: their tree is not built again.
     """
-    found = contents or contents_of(scene)
+    found = facts or facts_of(scene)
     shapes = in_order(scene)
     eye = np.array(scene.camera.position, np.float64)
     tree = tree or tree_of(scene, found)

@@ -25,7 +25,7 @@ from glrt.packing.instances import (
 from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.packing.shapes import in_order
 from glrt.packing.triangles import Triangles, pack_triangles, triangles_of
-from glrt.plan.facts import ENDLESS, MESH, Contents
+from glrt.plan.facts import ENDLESS, MESH, SceneFacts
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
 
@@ -89,20 +89,20 @@ class SceneTree(NamedTuple):
         return rows
 
 
-def tree_of(scene: Scene, contents: Contents, before: SceneTree | None = None) -> SceneTree | None:
+def tree_of(scene: Scene, facts: SceneFacts, before: SceneTree | None = None) -> SceneTree | None:
     """The tree that rays find shapes by; None where they are compared one by one.
 
     Own trees that stand in the tree from `before` are not built again.
     """
-    boxes = list(_boxes(scene, contents))
-    if not boxes and not contents.shapes[MESH]:
+    boxes = list(_boxes(scene, facts))
+    if not boxes and not facts.shapes[MESH]:
         return None
     meshes = scene.meshes
-    joined = [mesh for number, mesh in enumerate(meshes) if number not in contents.instances]
-    placed = [meshes[number] for number in contents.instances]
+    joined = [mesh for number, mesh in enumerate(meshes) if number not in facts.instances]
+    placed = [meshes[number] for number in facts.instances]
     own = own_trees(placed, before.own if before else None)
-    check_numbers(len(placed), contents.instance_bits, len(scene.objects))
-    instances = instances_of(meshes, contents.instances, own)
+    check_numbers(len(placed), facts.instance_bits, len(scene.objects))
+    instances = instances_of(meshes, facts.instances, own)
     fixed = [instances.boxes] if placed else []
     corners = [(some.lower, some.upper) for some in (*boxes, *fixed)]
     corners += [(points, points) for points in (mesh.world_vertices for mesh in joined)]
@@ -112,7 +112,7 @@ def tree_of(scene: Scene, contents: Contents, before: SceneTree | None = None) -
     )
     del corners
     count = sum(len(mesh.triangles.faces) for mesh in joined)
-    found = partial(triangles_of, meshes, contents.instances)
+    found = partial(triangles_of, meshes, facts.instances)
     parts = _built((*boxes, *fixed), found, count, grid, MOST_HEIGHT - own.height)
     slots = parts["slots"]
     bases = Bases(len(slots), len(parts["corners"]), len(parts["triangles"]))
@@ -173,12 +173,12 @@ def _room_for(shapes: int, triangles: int) -> int:
     return math.ceil(SLOTS_OF_SHAPE * shapes + SLOTS_OF_TRIANGLE * triangles + few)
 
 
-def _boxes(scene: Scene, contents: Contents) -> Iterator[Boxes]:
+def _boxes(scene: Scene, facts: SceneFacts) -> Iterator[Boxes]:
     """Of the shapes that are not compared one by one, a kind at a time."""
-    shapes, first = in_order(scene) if contents.tree_kinds else [], 0
+    shapes, first = in_order(scene) if facts.tree_kinds else [], 0
     for kind in KINDS.values():
         some = [shape for shape in shapes if type(shape) is kind]
-        if some and some[0].shape in contents.tree_kinds:
+        if some and some[0].shape in facts.tree_kinds:
             rows = np.array([shape.row for shape in some], np.float64)
             yield Boxes(kind.__name__, first, *kind.bounds(rows))
         first += len(some)

@@ -10,7 +10,7 @@ import numpy as np
 
 from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.packing.triangles import corner_meshes
-from glrt.plan.facts import Contents
+from glrt.plan.facts import SceneFacts
 from glrt.scene.images.texture_sizes import sizes_of
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.principled import Principled
@@ -85,19 +85,19 @@ def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
 
 
 def pack_coordinates(
-    scene: Scene, shapes: Sequence[Shape], contents: Contents, eye: Array
+    scene: Scene, shapes: Sequence[Shape], facts: SceneFacts, eye: Array
 ) -> dict[str, Array]:
     """Rows of the structs Axes, of planes, quads and disks, and Uv and Tangent, of corners.
 
     None where there are no images; Tangent where there are none of normals.
     """
-    is_mapped, is_bumpy = bool(contents.mapped), "normal" in contents.mapped
+    is_mapped, is_bumpy = bool(facts.mapped), "normal" in facts.mapped
     flat = [axes for shape in shapes if (axes := texture_axes(shape)) is not None]
     axes_rows = np.zeros(len(flat) if is_mapped else 0, STRUCTS["Axes"])
     for row, axes in zip(axes_rows, flat, strict=False):
         row["origin"], row["u"], row["v"] = axes.origin - eye, axes.u, axes.v
-    meshes = corner_meshes(scene, contents) if is_mapped else []
-    own = len(scene.meshes) - len(contents.instances)  # from here on, each in its own frame
+    meshes = corner_meshes(scene, facts) if is_mapped else []
+    own = len(scene.meshes) - len(facts.instances)  # from here on, each in its own frame
     count = sum(len(mesh.triangles.vertices) for mesh in meshes)
     uv_rows = np.zeros(count, STRUCTS["Uv"])
     tangents = np.zeros(count if is_bumpy else 0, STRUCTS["Tangent"])

@@ -12,8 +12,8 @@ from glrt.plan.facts import (
     SAMPLED,
     SPHERES_FROM,
     TREE_FROM,
-    Contents,
-    contents_of,
+    SceneFacts,
+    facts_of,
 )
 from glrt.plan.features import WITHOUT_OWN_FLAG, Needs, needs_of
 from glrt.plan.methods import CLASSIC, METHODS
@@ -44,7 +44,7 @@ class Feature(NamedTuple):
 
 def explain(scene: Scene, settings: Settings) -> list[Feature]:
     """Every feature of the kernel: in or out, and what in the scene decides that."""
-    found = contents_of(scene)
+    found = facts_of(scene)
     needs = needs_of(scene, settings, found)
     used = found.materials
 
@@ -104,7 +104,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
     ]
 
 
-def _by_settings(needs: Needs, settings: Settings, found: Contents) -> list[Feature]:
+def _by_settings(needs: Needs, settings: Settings, found: SceneFacts) -> list[Feature]:
     return [
         Feature("probes", needs.has_probes, f"method {settings.method}"),
         Feature("final gather", needs.final_gather, f"method {settings.method}"),
@@ -117,7 +117,7 @@ def _by_settings(needs: Needs, settings: Settings, found: Contents) -> list[Feat
     ]
 
 
-def _resampling(settings: Settings, found: Contents) -> str:
+def _resampling(settings: Settings, found: SceneFacts) -> str:
     method = f"method {settings.method}"
     if METHODS[settings.method].resamples and found.holed:
         return f"{method}, {_made_of(found.holed, 'alpha below 1')}: then it is gather"
@@ -136,7 +136,7 @@ def _links(needs: Needs, settings: Settings) -> str:
     return f"{text}, {counted(needs.linked.bit_count(), 'sphere')}" if needs.linked else text
 
 
-def _aims(needs: Needs, found: Contents) -> list[Feature]:
+def _aims(needs: Needs, found: SceneFacts) -> list[Feature]:
     return [
         Feature("cones", needs.has_cone, _lamps_with("a cone", found.cones)),
         Feature("one-sided lamps", needs.has_one_sided, _lamps_with("one side", found.one_sided)),
@@ -150,7 +150,7 @@ def _coincident(scene: Scene) -> str:
     return f"{counted(pairs, 'pair')} of a lamp and another object overlap in one plane"
 
 
-def _textures(needs: Needs, found: Contents) -> list[Feature]:
+def _textures(needs: Needs, found: SceneFacts) -> list[Feature]:
     """A row for each kind of texture, and one for holes."""
     rows = [
         Feature(name, getattr(needs, constant), _mapped(keys, found))
@@ -159,12 +159,12 @@ def _textures(needs: Needs, found: Contents) -> list[Feature]:
     return [*rows, Feature("holes", needs.has_hole, _made_of(found.holed, "alpha below 1"))]
 
 
-def _mapped(keys: tuple[str, ...], found: Contents) -> str:
+def _mapped(keys: tuple[str, ...], found: SceneFacts) -> str:
     there = [key for key in keys if key in found.mapped]
     return f"{' and '.join(there or keys)} by {'a texture' if there else 'no texture'}"
 
 
-def _kinds_of_glass(needs: Needs, found: Contents) -> list[Feature]:
+def _kinds_of_glass(needs: Needs, found: SceneFacts) -> list[Feature]:
     return [
         Feature("rough glass", needs.has_rough_glass, _made_of(found.rough_glasses, "rough glass")),
         Feature("panes", needs.has_pane, _made_of(found.panes, "thin glass")),
@@ -185,7 +185,7 @@ def _of(count: str, least: int) -> str:
     return f"{count}; it pays from {least} on"
 
 
-def _tree(found: Contents) -> str:
+def _tree(found: SceneFacts) -> str:
     if found.tree_kinds or found.triangles:
         listed = [counted(found.shapes[kind], kind) for kind in found.tree_kinds]
         listed += [counted(found.triangles, "triangle")] if found.triangles else []
@@ -197,11 +197,11 @@ def _tree(found: Contents) -> str:
     return _of(counted(found.count_of(rest), "bounded shape"), TREE_FROM)
 
 
-def _smooth(found: Contents) -> str:
+def _smooth(found: SceneFacts) -> str:
     return "a mesh has smooth = true" if found.is_smooth else "no mesh has smooth = true"
 
 
-def _colored(found: Contents) -> str:
+def _colored(found: SceneFacts) -> str:
     return "a mesh has colours" if found.is_colored else "no mesh has colours"
 
 
@@ -241,7 +241,7 @@ def _roulette(settings: Settings) -> str:
     return "turned on; for paths whose throughput is below 1/4"
 
 
-def _lamps(found: Contents) -> str:
+def _lamps(found: SceneFacts) -> str:
     named = (
         counted(count, f"{kind} lamp") + ("" if kind in found.sampled else " (by scattering alone)")
         for kind, count in found.lamps.items()

@@ -24,7 +24,7 @@ MESH = "mesh"  # the kind whose triangles rays always find by a tree
 
 
 @dataclass(frozen=True)
-class Contents:
+class SceneFacts:
     """What is in a scene, counted once for all that ask."""
 
     shapes: dict[str, int]  # how many of each kind
@@ -174,7 +174,7 @@ class Contents:
         return min(self.sampled_lamps, MOST_NEAR)
 
 
-def contents_of(scene: Scene, apart: Apart = "repeated") -> Contents:
+def facts_of(scene: Scene, apart: Apart = "repeated") -> SceneFacts:
     """Count what is in a scene; `apart` are the meshes with trees of their own."""
     shapes = dict.fromkeys(KINDS, 0)
     lamps = dict.fromkeys(KINDS, 0)
@@ -186,7 +186,7 @@ def contents_of(scene: Scene, apart: Apart = "repeated") -> Contents:
     instances = with_own_tree(meshes, scene.materials, apart)
     shared, own = tree_sizes(meshes, instances)
     finishes = tuple(scene.finishes)
-    return Contents(
+    return SceneFacts(
         shapes,
         {finish.material: scene.materials[finish.material] for finish in finishes},
         finishes,

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-from glrt.plan.facts import SAMPLED, Contents, contents_of
+from glrt.plan.facts import SAMPLED, SceneFacts, facts_of
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
 from glrt.plan.particles import (
     caster_bits,
@@ -134,9 +134,9 @@ _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
 
-def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None) -> Needs:
+def needs_of(scene: Scene, settings: Settings, facts: SceneFacts | None = None) -> Needs:
     """The features that this scene, rendered with these settings, makes use of."""
-    found, traits = contents or contents_of(scene), METHODS[settings.method]
+    found, traits = facts or facts_of(scene), METHODS[settings.method]
     is_lit = traits.uses_lamps and found.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
     sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
@@ -196,7 +196,7 @@ def needs_of(scene: Scene, settings: Settings, contents: Contents | None = None)
     )
 
 
-def _of_probes(settings: Settings, found: Contents) -> dict[str, Any]:
+def _of_probes(settings: Settings, found: SceneFacts) -> dict[str, Any]:
     """The features of methods with probes."""
     traits = METHODS[settings.method]
     resamples = traits.resamples and not found.holed  # a ray sees through holes at random
@@ -211,7 +211,7 @@ def _of_probes(settings: Settings, found: Contents) -> dict[str, Any]:
     }
 
 
-def _types(found: Contents, follows: bool) -> frozenset[str]:
+def _types(found: SceneFacts, follows: bool) -> frozenset[str]:
     types = {m.type for m in found.materials.values() if not m.is_transparent}
     return frozenset(types | ({"dielectric"} if follows and found.solid_glasses else set()))
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.plan.methods import CLASSIC, METHODS, reuses_points
 from glrt.plan.probe_grid import grid_of
 from glrt.scene.materials.kinds import glass_of
@@ -26,7 +26,7 @@ def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
     gathers = METHODS[settings.method].gathers
     if settings.bounces < 2 + gathers or not scene.visible:
         return
-    kinds = {material.type for material in contents_of(scene).materials.values()}
+    kinds = {material.type for material in facts_of(scene).materials.values()}
     if "lambertian" not in kinds:
         return
     cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(scene, settings).cell)
@@ -41,8 +41,8 @@ def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
 
 def _omissions(scene: Scene, method: str) -> Iterator[str]:
     """From what usually weighs most to what weighs least."""
-    contents = contents_of(scene)
-    materials = contents.materials.values()
+    facts = facts_of(scene)
+    materials = facts.materials.values()
     kinds = {material.type for material in materials}
     metals = [material for material in materials if material.type == "metal"]
     is_local = not METHODS[method].follows
@@ -64,14 +64,14 @@ def _omissions(scene: Scene, method: str) -> Iterator[str]:
         yield "hard shadows: lamps are points"
     if not traits.has_rough and any(metal.alpha > 0 for metal in metals):
         yield "rough metal is a mirror"
-    if not is_local and not traits.has_rough and contents.rough_glasses:
+    if not is_local and not traits.has_rough and facts.rough_glasses:
         yield "rough glass is smooth"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
     if "principled" in kinds and len(scene.visible) > 1:
         yield "principled surfaces reflect lamps alone"
     for kind in KINDS:
-        if kind in lamps and kind not in contents.sampled:
+        if kind in lamps and kind not in facts.sampled:
             yield f"{kind} lamps light nothing"
     has_sky = any(map(any, scene.background_colors))
     if has_sky and scene.background.is_pictured:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from glrt.plan.facts import Contents, contents_of, is_sampled
+from glrt.plan.facts import SceneFacts, facts_of, is_sampled
 from glrt.plan.methods import METHODS
 from glrt.scene.glasses import around_camera, glasses_of, holds
 from glrt.scene.materials.dielectric import Dielectric
@@ -116,7 +116,7 @@ def caster_bits(scene: Scene) -> int:
     many that rays find them by a tree.
     """
     spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
-    known = [] if contents_of(scene).has_sphere_tree else spheres[:BITS]
+    known = [] if facts_of(scene).has_sphere_tree else spheres[:BITS]
     return sum(1 << n for n, it in enumerate(known) if makes_caustics(scene.materials[it.material]))
 
 
@@ -181,7 +181,7 @@ def refusal(scene: Scene, settings: Settings) -> str | None:
 
 
 def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
-    found = contents_of(scene)
+    found = facts_of(scene)
     if not METHODS[settings.method].weighs_particles:
         yield f"particles are weighed by the method mis alone, not by {settings.method}"
     sends = emitters_of(scene) or sun_sends_particles(scene) or sky_sends_particles(scene)
@@ -198,7 +198,7 @@ def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
         yield "the camera is in glass with a priority, where nothing is linked to it"
 
 
-def _beyond(found: Contents) -> dict[str, bool]:
+def _beyond(found: SceneFacts) -> dict[str, bool]:
     return {
         "some surfaces have holes": bool(found.holed),
     }

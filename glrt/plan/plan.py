@@ -10,7 +10,7 @@ from typing import Literal
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.plan.facts import Contents, contents_of
+from glrt.plan.facts import SceneFacts, facts_of
 from glrt.plan.features import needs_of
 from glrt.scene.instancing import Apart, after_moves
 from glrt.scene.materials.base import Opaque
@@ -40,9 +40,9 @@ class Plan:
     apart: Apart = "repeated"  # which meshes have trees of their own
 
     @property
-    def contents(self) -> Contents:
+    def facts(self) -> SceneFacts:
         """What is in its scene."""
-        return contents_of(self.scene, self.apart)
+        return facts_of(self.scene, self.apart)
 
     @property
     def layers(self) -> int:
@@ -74,7 +74,7 @@ class Plan:
         if relit := self.relit(scene, settings, layering):
             return Cost.FREE if relit == self else Cost.RELIGHT
         after = self.followed_by(scene, settings, layering, self.first_sample)
-        needs = (needs_of(plan.scene, plan.settings, plan.contents) for plan in (self, after))
+        needs = (needs_of(plan.scene, plan.settings, plan.facts) for plan in (self, after))
         is_same = len(set(needs)) == 1 and self.constants() == after.constants()
         return Cost.RESTART if is_same else Cost.RECOMPILE
 

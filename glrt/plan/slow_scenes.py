@@ -1,7 +1,7 @@
 """Why a scene is slow, where the user can change it."""
 
 from glrt.core.text import counted
-from glrt.plan.facts import MOST_LAMPS, contents_of
+from glrt.plan.facts import MOST_LAMPS, facts_of
 from glrt.plan.methods import CLASSIC, METHODS
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -23,7 +23,7 @@ def slow_because(scene: Scene, settings: Settings) -> list[str]:
 
 def _one_by_one(scene: Scene) -> str:
     """Shapes that no tree holds."""
-    planes = contents_of(scene).shapes["plane"]
+    planes = facts_of(scene).shapes["plane"]
     if planes <= MOST_PLANES:
         return ""
     return (
@@ -34,7 +34,7 @@ def _one_by_one(scene: Scene) -> str:
 
 def _unsampled(scene: Scene, settings: Settings) -> str:
     """Triangles that emit, and are too many to be sampled."""
-    found = contents_of(scene)
+    found = facts_of(scene)
     if not METHODS[settings.method].uses_lamps or found.bright_triangles == found.lamp_triangles:
         return ""
     return (

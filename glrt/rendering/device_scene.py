@@ -21,7 +21,7 @@ from glrt.packing.scene_tree import SceneTree, tree_of
 from glrt.packing.sky_table import SkyTable
 from glrt.packing.texel_texture import TexelTexture
 from glrt.packing.texture_maps import images_of, textures_of
-from glrt.plan.facts import Contents
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.particles import ball_around, sky_sends_particles
 from glrt.plan.plan import Plan
@@ -76,22 +76,22 @@ class DeviceScene:
         The same scene as `before` is not packed again. RenderError if the driver has no room.
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
-        contents = plan.contents
+        facts = plan.facts
         start = time.perf_counter()
-        self._tree = _tree(plan.scene, contents, before)
+        self._tree = _tree(plan.scene, facts, before)
         built = time.perf_counter()
-        packed = _packed(plan.scene, contents, self._tree, before)
+        packed = _packed(plan.scene, facts, self._tree, before)
         self._arrays = with_particles(packed, plan.scene, plan.settings)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
-        self._glass = around_camera(plan.scene, contents.finishes)
-        needs = needs_of(plan.scene, plan.settings, contents)
+        self._glass = around_camera(plan.scene, facts.finishes)
+        needs = needs_of(plan.scene, plan.settings, facts)
         sends = needs.has_sun or sky_sends_particles(plan.scene)
         self._bounds = ball_around(plan.scene) if needs.has_particles and sends else None
         self.grid = grid_of(plan.scene, plan.settings) if needs.has_probes else None
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**needs.constants(), **plan.constants(), **stack, **variant}
-        self._has_tree = contents.has_trees  # without one none are lost
+        self._has_tree = facts.has_trees  # without one none are lost
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
@@ -261,27 +261,27 @@ def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTab
 
 
 def _texel_texture(context: Context, plan: Plan, known: TexelTexture | None) -> TexelTexture | None:
-    images = images_of(textures_of(plan.scene, plan.contents.finishes))
+    images = images_of(textures_of(plan.scene, plan.facts.finishes))
     if not images:
         return None
     return known.shared() if known and known.holds(images) else TexelTexture(context, images)
 
 
-def _tree(scene: Scene, contents: Contents, before: DeviceScene | None) -> SceneTree | None:
+def _tree(scene: Scene, facts: SceneFacts, before: DeviceScene | None) -> SceneTree | None:
     """The tree of a scene; the one from before if nothing has moved since."""
     if before and before._scene.objects == scene.objects:
         return before._tree
-    return tree_of(scene, contents, before._tree if before else None)
+    return tree_of(scene, facts, before._tree if before else None)
 
 
 def _packed(
-    scene: Scene, contents: Contents, tree: SceneTree | None, before: DeviceScene | None
+    scene: Scene, facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | None
 ) -> Arrays:
     """The arrays of a scene; nodes of spheres from before are not built again."""
     if before and before._scene == scene:
         return before._arrays
     nodes = before._arrays["Node"] if before and before._scene.objects == scene.objects else None
-    return pack_scene(scene, contents, nodes, tree)
+    return pack_scene(scene, facts, nodes, tree)
 
 
 def _equal(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:

@@ -16,7 +16,7 @@ from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.packing.kernel_structs import CONSTANTS
-from glrt.plan.facts import MESH, Contents, contents_of
+from glrt.plan.facts import MESH, SceneFacts, facts_of
 from glrt.plan.features import NEAR, has_image
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
 from glrt.plan.particles import caster_bits, link_bits, sky_sends_particles, targets_of
@@ -63,7 +63,7 @@ def iterations_per_sample(
     others. Of many, the parts of a cluster are weighed so too, and their sum for the density of the
     lamp that is sampled, and of the one that is met.
     """
-    found = contents_of(scene)
+    found = facts_of(scene)
     search = rounds_of_search(scene, tree_rounds, found)
     traits = METHODS[settings.method]
     if traits.model and not traits.chooses_lights:
@@ -80,7 +80,7 @@ def rounds_for_particles(scene: Scene, settings: Settings) -> int:
     """Rounds beside those: paths weighed against aimed particles, and links through spheres."""
     if settings.caustics == "off":
         return 0
-    found = contents_of(scene)
+    found = facts_of(scene)
     spheres = 1 + found.shapes["sphere"]
     weighed = 2 * spheres if settings.aimed and caster_bits(scene) else 0
     if settings.aimed and (targets := targets_of(scene)):
@@ -109,7 +109,7 @@ def _levels_of_sky(scene: Scene) -> int:
     return int(max(width, height + 1) - 1).bit_length()
 
 
-def _passed(scene: Scene, found: Contents) -> int:
+def _passed(scene: Scene, found: SceneFacts) -> int:
     """Holes, and surfaces inside other glass, that a segment may pass; of more it is a guess."""
     passed = {*found.media, *found.holed}
     return (
@@ -118,14 +118,14 @@ def _passed(scene: Scene, found: Contents) -> int:
 
 
 def rounds_of_search(
-    scene: Scene, tree_rounds: float = TREE_ROUNDS, contents: Contents | None = None
+    scene: Scene, tree_rounds: float = TREE_ROUNDS, facts: SceneFacts | None = None
 ) -> int:
     """Rounds of the loops that find what one ray meets; `contents` are those of the scene.
 
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
     it finds that there are no more. With a tree it is a guess.
     """
-    found = contents or contents_of(scene)
+    found = facts or facts_of(scene)
     in_trees = [*found.tree_kinds, *(["sphere"] if found.has_sphere_tree else [])]
     counts = [
         found.count_of(found.tree_kinds) + len(found.instances) + found.triangles,
@@ -137,12 +137,12 @@ def rounds_of_search(
     return sum(single) + len(single) + by_tree
 
 
-def _rounds_of_choice(found: Contents) -> int:
+def _rounds_of_choice(found: SceneFacts) -> int:
     parts = 4 * PARTS + 2 if found.has_many_lights else 0
     return 2 * found.clusters + parts
 
 
-def _rounds_of_shading(found: Contents, settings: RenderSettings, search: int) -> int:
+def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int) -> int:
     """Segments over mirrors and glass, then all lamps, each with a shadow ray or a highlight."""
     lamps = sum(found.lamps.values())
     if METHODS[settings.method].follows:

@@ -18,7 +18,7 @@ from glrt.packing.shapes import NUMBERED
 from glrt.packing.sky_table import sky_sampling, tree_texture
 from glrt.packing.texel_texture import texture_of as texels_of
 from glrt.packing.texture_maps import images_of, textures_of
-from glrt.plan.facts import Contents, contents_of
+from glrt.plan.facts import SceneFacts, facts_of
 from glrt.plan.features import everything
 from glrt.plan.methods import METHODS
 from glrt.plan.particles import ball_around
@@ -50,16 +50,16 @@ def evaluate(
     otherwise; `apart` are meshes with trees of their own; the frame is of `settings`, or of what
     the scene wishes. The context must be current.
     """
-    contents = contents_of(scene, apart) if scene else None
-    tree = tree_of(scene, contents) if scene and contents else None
+    facts = facts_of(scene, apart) if scene else None
+    tree = tree_of(scene, facts) if scene and facts else None
     stack = {"TREE_STACK": tree.stack if tree else 0}
     prelude = {
         **everything(),
-        **(_choice(contents) if contents else {}),
+        **(_choice(facts) if facts else {}),
         **stack,
         **(constants or {}),
     }
-    arrays = pack_scene(scene, contents, tree=tree) if scene else no_rows()
+    arrays = pack_scene(scene, facts, tree=tree) if scene else no_rows()
     if scene and settings:
         arrays = with_particles(arrays, scene, settings)
     texts = {FILE: scene_text(gl, arrays, "generic")}
@@ -102,7 +102,7 @@ def resources_of(
     return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 
 
-def _choice(found: Contents) -> dict[str, bool | int]:
+def _choice(found: SceneFacts) -> dict[str, bool | int]:
     aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
     aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.conductors)}
     return {

@@ -20,7 +20,7 @@ from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.nesting import nesting_problems
-from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.tables import to_tables, toml_text
 from glrt.scene.schema.validation import MisfitError, Place, validated
 from glrt.scene.shapes.base import Object
@@ -42,7 +42,7 @@ class Finish(NamedTuple):
     is_one_sided: bool = False  # emits from its front alone
 
 
-class Scene(Contents):
+class Scene(SceneFields):
     """The contents of a scene file."""
 
     @classmethod

@@ -22,7 +22,7 @@ DISPLAYS = [
     *("bring_models", "reconstruct", "predict", "predictions"),
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
-TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa", "ataa")  # by tests/temporal
+TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa", "ataa")  # by tests/rendering/history
 PROBES = {  # by tests/shaders/test_probe_kernels.py
     *("probe_rays.comp", "probe_light.comp", "probe_distances.comp", "probe_place.comp"),
     *("probes/blend.glsl", "probes/first_met.glsl", "probes/place.glsl", "probes/solids.glsl"),

@@ -15,7 +15,7 @@ import pytest
 import glrt
 from glrt.core.errors import RenderError, SceneError, UsageError
 from glrt.scene.scenefile.toml import parse_scene
-from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.fields import SceneFields
 from tests.project.test_readme import blocks
 from tests.scene.test_toml import assert_is_one_paragraph
 from tests.support.bad_scenes import GOOD_SCENE
@@ -267,7 +267,7 @@ def test_the_mistake_of_the_page_is_told_so() -> None:
 def test_the_schema_of_scene_files_knows_nothing_of_python() -> None:
     schema = glrt.Scene.model_json_schema()
     assert (schema["title"], schema["description"]) == ("Scene", glrt.Scene.__doc__)
-    assert list(schema["properties"]) == list(Contents.model_fields)
+    assert list(schema["properties"]) == list(SceneFields.model_fields)
     radiance = {"maximum": 1e15, "minimum": 0, "type": "number"}
     assert schema["$defs"]["Light"]["properties"]["emission"]["prefixItems"] == [radiance] * 3
     assert "numpy" not in json.dumps(schema)

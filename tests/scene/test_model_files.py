@@ -9,6 +9,7 @@ from glrt import Renderer
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.scene.loading import scene_files
 from glrt.scene.loading.scene_files import hashes_of
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for

@@ -11,7 +11,7 @@ import numpy as np
 from glrt.core.errors import SceneError
 from glrt.gpu.structs import read_constants, record
 from glrt.packing.scene_arrays import pack_camera, pack_scene
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.wgsl.text import read, struct
@@ -47,7 +47,7 @@ def settings_buffer(scene: Scene, settings: Settings) -> bytes:
     kinds = [shape.shape for shape in scene.objects]
     if scene.background.horizon or not {"sphere", "plane", "quad"}.issuperset(kinds):
         raise SceneError("a horizon, or a shape: WGSL has spheres, planes and quads alone.")
-    if contents_of(scene).mapped:
+    if facts_of(scene).mapped:
         raise SceneError("a texture: WGSL has none.")
     bottom, top = scene.background_colors
     values = {

@@ -13,7 +13,7 @@ from glrt.analysis.chart.rays import SAMPLES, counting_variant
 from glrt.gpu.context import Context
 from glrt.gpu.program import TILE, tile_count
 from glrt.packing.kernel_structs import CONSTANTS
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS, reuses_points
 from glrt.rendering.probe_tracer import LOOKS, RAYS, UPDATES
@@ -62,7 +62,7 @@ def work_per_sample(counter: Renderer, bounces: int, check: Check) -> float:
     weights = float(counter.render(SAMPLES, check).image().radiance.mean(dtype=float))
     traits = METHODS[counter.settings.method]
     loops_over_lamps = bool(traits.model) and not traits.chooses_lights
-    lamps = contents_of(counter.scene).sampled_lamps if loops_over_lamps else 0
+    lamps = facts_of(counter.scene).sampled_lamps if loops_over_lamps else 0
     points = RESAMPLED * reuses_points(counter.settings)
     return weights - CAMERA + LAMP * lamps + points
 

@@ -11,7 +11,7 @@ from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import name_of
 from glrt.scene.loading.file_contents import NamedContent
 from glrt.scene.loading.scene_files import named_files
-from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.fields import SceneFields
 
 
 class _Source(NamedTuple):
@@ -23,7 +23,7 @@ class _Source(NamedTuple):
     content: bytes | None
 
 
-def copy_files(scene: Contents, folder: Path) -> None:
+def copy_files(scene: SceneFields, folder: Path) -> None:
     """Put copies of the files that a scene names where a scene file in `folder` finds them.
 
     A file that is there already stays. Raises `UsageError` if it has other content, or if the one
@@ -46,7 +46,7 @@ def copy_files(scene: Contents, folder: Path) -> None:
         write_whole(target, lambda file, data=content: file.write_bytes(data))  # type: ignore[misc]
 
 
-def _sources(scene: Contents) -> Iterator[_Source]:
+def _sources(scene: SceneFields) -> Iterator[_Source]:
     for _, named in named_files(scene):
         content = named.content if isinstance(named, MeshFile) else None
         yield _Source(named.path, named.sha256, named.origin, content)

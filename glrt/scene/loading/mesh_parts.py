@@ -12,11 +12,11 @@ from glrt.scene.loading.file_materials import REMEDY, of_gltf, of_mtl
 from glrt.scene.materials.kinds import Material
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.mesh_formats import GLTF
-from glrt.scene.schema.fields import MAX_OBJECTS, Contents
+from glrt.scene.schema.fields import MAX_OBJECTS, SceneFields
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
 
-SceneType = TypeVar("SceneType", bound=Contents)
+SceneType = TypeVar("SceneType", bound=SceneFields)
 
 
 def lacks_material(shape: Any) -> bool:

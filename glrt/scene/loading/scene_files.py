@@ -15,19 +15,19 @@ from glrt.scene.loading.mesh_parts import lacks_material, part_problem, with_own
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
-from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.mesh import Mesh
 
-SceneType = TypeVar("SceneType", bound=Contents)
+SceneType = TypeVar("SceneType", bound=SceneFields)
 Files = Mapping[NamedContent, NamedContent]
 
 
-def files_of(scene: Contents) -> list[str]:
+def files_of(scene: SceneFields) -> list[str]:
     """The paths of the files that a scene names, each once."""
     return list(dict.fromkeys(named.path for _, named in named_files(scene)))
 
 
-def hashes_of(scene: Contents) -> dict[str, str]:
+def hashes_of(scene: SceneFields) -> dict[str, str]:
     """What recipes store: SHA-256 in hex by path, of the files that were read."""
     found = dict[str, str]()
     for _, named in named_files(scene):
@@ -36,7 +36,7 @@ def hashes_of(scene: Contents) -> dict[str, str]:
     return found
 
 
-def sources_of(scene: Contents) -> dict[str, str]:
+def sources_of(scene: SceneFields) -> dict[str, str]:
     """The same with the MTL files that materials were taken from: those that recipes leave out."""
     files = [shape.file for _, shape in _meshes(scene)]
     return hashes_of(scene) | {path: sha for file in files for path, sha in file.libraries.items()}
@@ -80,7 +80,7 @@ def with_hashes(scene: SceneType, hashes: Mapping[str, str]) -> SceneType:
     )
 
 
-def with_files_of(scene: SceneType, other: Contents) -> SceneType:
+def with_files_of(scene: SceneType, other: SceneFields) -> SceneType:
     """The scene with the content of those of its files that another scene has read."""
     return _with(scene, {named: named for _, named in named_files(other)})
 
@@ -96,7 +96,7 @@ def with_stand_ins(scene: SceneType) -> SceneType:
     return _with(scene, found) if found else scene
 
 
-def check_loaded(scene: Contents) -> None:
+def check_loaded(scene: SceneFields) -> None:
     """Raise SceneError for a scene whose files were not read, or do not fit."""
     for key, named in named_files(scene):
         if not is_read(named):
@@ -108,7 +108,7 @@ def check_loaded(scene: Contents) -> None:
         raise SceneError(problem)
 
 
-def mesh_problems(scene: Contents) -> Iterator[str]:
+def mesh_problems(scene: SceneFields) -> Iterator[str]:
     """What does not fit of meshes that were read, as `key: ...`."""
     for index, shape in _meshes(scene):
         key = f"objects[{index}].file: {shape.file.file}"
@@ -129,7 +129,7 @@ def mesh_problems(scene: Contents) -> Iterator[str]:
     yield from _too_many(scene)
 
 
-def _without_coordinates(scene: Contents) -> Iterator[str]:
+def _without_coordinates(scene: SceneFields) -> Iterator[str]:
     """Meshes whose material has an image that could not lie anywhere on them."""
     for index, shape in enumerate(scene.objects):
         material = scene.materials.get(shape.material)
@@ -143,7 +143,7 @@ def _without_coordinates(scene: Contents) -> Iterator[str]:
             )
 
 
-def _too_many(scene: Contents) -> Iterator[str]:
+def _too_many(scene: SceneFields) -> Iterator[str]:
     meshes = [shape for _, shape in _meshes(scene)]
     if any(part_problem(mesh) or mesh.material not in scene.materials for mesh in meshes):
         return
@@ -179,7 +179,7 @@ def _with(scene: SceneType, known: Files) -> SceneType:
     return scene.model_copy(update=changes) if changes else scene
 
 
-def named_files(scene: Contents) -> Iterator[tuple[str, NamedContent]]:
+def named_files(scene: SceneFields) -> Iterator[tuple[str, NamedContent]]:
     """The files that a scene names, with the keys that name them."""
     if scene.background.image is not None:
         yield "background.image", scene.background.image
@@ -191,7 +191,7 @@ def named_files(scene: Contents) -> Iterator[tuple[str, NamedContent]]:
                 yield f"materials.{name}.{key}.image", texture.image
 
 
-def _meshes(scene: Contents) -> Iterator[tuple[int, Mesh]]:
+def _meshes(scene: SceneFields) -> Iterator[tuple[int, Mesh]]:
     for index, shape in enumerate(scene.objects):
         if isinstance(shape, Mesh):
             yield index, shape

@@ -16,7 +16,7 @@ from glrt.settings import Cost, Editable, Frozen, RenderSettings
 MAX_OBJECTS = 65_536
 
 
-class Contents(Frozen):
+class SceneFields(Frozen):
     """The fields of a scene: whether they fit together is for `Scene` to say."""
 
     title: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]*$")] | None = Field(

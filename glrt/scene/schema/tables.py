@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.fields import SceneFields
 from glrt.settings import RenderSettings
 
 _NO_LISTS = (str, Mapping)  # though they can be iterated over
@@ -31,7 +31,7 @@ def _table(value: Any) -> Any:
     return value
 
 
-def scene_to_dict(scene: Contents) -> dict[str, Any]:
+def scene_to_dict(scene: SceneFields) -> dict[str, Any]:
     """The scene as plain tables, lists, numbers and strings that `parse_scene` reads back.
 
     Defaults are written out, so that a recipe keeps its meaning; what was left open is absent.
@@ -39,12 +39,12 @@ def scene_to_dict(scene: Contents) -> dict[str, Any]:
     return scene.model_dump(mode="json", exclude_none=True)
 
 
-def toml_text(scene: Contents) -> str:
+def toml_text(scene: SceneFields) -> str:
     """A scene file, to its last line; what has its default is left out."""
     return "\n".join(toml_lines(short_tables(scene))).strip() + "\n"
 
 
-def short_tables(scene: Contents) -> dict[str, Any]:
+def short_tables(scene: SceneFields) -> dict[str, Any]:
     """`scene_to_dict` without defaults, but for format and kinds of materials and shapes."""
     found = scene.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     for name, material in scene.materials.items():

@@ -19,7 +19,7 @@ from glrt.scene.lights.sun import Sun
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.textures import NormalTexture, Texture
 from glrt.scene.probes import Probes
-from glrt.scene.schema.fields import Contents
+from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.values import SMALLEST, plain
 from glrt.settings import RenderSettings
@@ -140,7 +140,7 @@ def _model(location: Place) -> type[BaseModel]:
     """The model that a key belongs to, by the location that pydantic gives it."""
     table = str(location[0])
     if len(location) == 1:
-        return Contents
+        return SceneFields
     if table not in _KINDS:
         return _TABLES[table]
     if location[3:-1] == ("cone",):
@@ -239,10 +239,10 @@ def _too_small(place: Place, detail: ErrorDetails) -> str:
 
 def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
     model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
-    kind = "scene" if model is Contents else model.__name__.lower()
+    kind = "scene" if model is SceneFields else model.__name__.lower()
     owner = f"[{table}]" if table in _TABLES else f"a {kind}"
     text = unknown("key", key, _keys(detail), f"Keys of {owner}")
-    if model is not Contents and key in Contents.model_fields:
+    if model is not SceneFields and key in SceneFields.model_fields:
         text += f" The {key} of the scene itself must stand above the first [table]."
     return text
 

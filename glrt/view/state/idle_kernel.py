@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 
 from glrt.core.errors import RenderError
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.idle_compile import TrialCompile
@@ -58,7 +58,7 @@ class IdleKernel:
     def _rehearse(self, renderer: Renderer) -> None:
         scene = renderer.plan.scene
         # The other process has no meshes, and their triangles are never constants.
-        if len(scene.objects) > MOST_BAKED or contents_of(scene).triangles:
+        if len(scene.objects) > MOST_BAKED or facts_of(scene).triangles:
             self._is_decided = True
         elif self._clock() - self._since >= PAUSE:
             try:

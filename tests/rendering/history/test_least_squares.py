@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.evaluate import Probe
-from tests.temporal.twins import Array, FactoredWrls, Wrls, batch
+from tests.rendering.history.twins import Array, FactoredWrls, Wrls, batch
 
 FORMS = [Wrls, FactoredWrls]
 GREY = np.array([1.0, 0.8, 0.6])

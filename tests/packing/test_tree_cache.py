@@ -10,7 +10,7 @@ from glrt.accel import shape_tree
 from glrt.packing import scene_tree, tree_cache
 from glrt.packing.scene_arrays import pack_scene
 from glrt.packing.scene_tree import SceneTree, tree_of
-from glrt.plan.facts import contents_of
+from glrt.plan.facts import facts_of
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, quad, scene_of
 from tests.support.meshes import blob, mesh
@@ -45,7 +45,7 @@ def scene(steps: int = 2, quads: int = 0, **more: Any) -> Scene:
 
 
 def tree(of: Scene) -> SceneTree:
-    found = tree_of(of, contents_of(of))
+    found = tree_of(of, facts_of(of))
     assert found
     return found
 

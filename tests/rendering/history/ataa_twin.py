@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.temporal.twins import Array
+from tests.rendering.history.twins import Array
 
 LUMA = np.array([0.299, 0.587, 0.114])
 

@@ -145,7 +145,7 @@ def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(
 # --- what is no history ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("mode", ["reproject", "taa"])  # of wrls: tests/temporal
+@pytest.mark.parametrize("mode", ["reproject", "taa"])  # of wrls: tests/rendering/history
 def test_history_that_is_seen_to_be_wrong_is_not_believed(context: Context, mode: Mode) -> None:
     """Without noise: a wall under an even sky that becomes three times as bright."""
     dim, bright = wall(), wall(background={"color": [3.0, 3.0, 3.0]})

@@ -16,10 +16,10 @@ from glrt.rendering.history.temporal import Temporal, Way
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
+from tests.rendering.history.twins import Array, effective_samples, taa_shown, taa_weights
+from tests.rendering.history.views import views
 from tests.support.images import same_bits
 from tests.support.moving import drawn, noise, two_walls, view, wall
-from tests.temporal.twins import Array, effective_samples, taa_shown, taa_weights
-from tests.temporal.views import views
 
 SIZE = (16, 12)
 PIXEL = 1.0 / SIZE[1]

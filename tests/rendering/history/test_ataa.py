@@ -18,12 +18,12 @@ from glrt.rendering.history.temporal import Temporal, Way
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
+from tests.rendering.history.ataa_twin import failure, fxaa
+from tests.rendering.history.twins import Array
+from tests.rendering.history.views import views
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.moving import FOV, drawn, noise, two_walls, wall
-from tests.temporal.ataa_twin import failure, fxaa
-from tests.temporal.twins import Array
-from tests.temporal.views import views
 
 SIZE = (16, 12)
 PIXEL = 1.0 / SIZE[1]

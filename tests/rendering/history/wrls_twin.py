@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.temporal.twins import LEAST, Array, FactoredWrls, _windows
+from tests.rendering.history.twins import LEAST, Array, FactoredWrls, _windows
 
 
 def reconstructed(light: Array, counts: Array, objects: Array, samples: float) -> Array:

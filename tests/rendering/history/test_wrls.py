@@ -19,9 +19,9 @@ from glrt.rendering.history.wrls import Predictor, Wrls
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
+from tests.rendering.history.twins import Array, FactoredWrls
+from tests.rendering.history.wrls_twin import StillWrls, reconstructed
 from tests.support.moving import drawn, noise, textures_of, two_walls, view, wall
-from tests.temporal.twins import Array, FactoredWrls
-from tests.temporal.wrls_twin import StillWrls, reconstructed
 
 SIZE = (16, 12)
 PIXEL = 1.0 / SIZE[1]
