@@ -91,7 +91,7 @@ def _run(given: argparse.Namespace) -> None:
             noise = (f"{100 * rows[samples][way].noise:.1f} %" for samples in FEW)
             last = rows[FEW[-1]]
             gain = last[way].gain_over(last["gather"])
-            cells = f"{median(last[way].seconds):.2f}", f"{gain:.2f}", _beside(last, way)
+            cells = f"{median(last[way].seconds):.2f}", f"{gain:.2f}", _next_to(last, way)
             print(f"| {name} | {way} | {' | '.join((*noise, *cells))} |")
     context.gl.release()
 
@@ -125,7 +125,7 @@ def _renderer(name: str, context: Context, settings: Mapping[str, Any]) -> Rende
     return Renderer(load(name), None, context, "baked", **settings).render(1)
 
 
-def _beside(found: Mapping[str, Found], way: str) -> str:
+def _next_to(found: Mapping[str, Found], way: str) -> str:
     (light, error), (truth, other) = found[way].light, found["gather"].light
     return f"{100 * (light / truth - 1):+.2f} % (± {100 * math.hypot(error, other) / truth:.2f})"
 

@@ -52,11 +52,11 @@ def main(arguments: list[str] | None = None) -> int:
         if parsed.task == "drag":
             print("\n".join(told(*measure_drag(parsed.scene))))
         elif parsed.task == "idle":
-            print("\n".join(told_idle(parsed.scene, *measure_idle(parsed.scene))))
+            print("\n".join(idle_text(parsed.scene, *measure_idle(parsed.scene))))
         elif parsed.task == "rest":
             print(
                 "\n".join(
-                    told_rest(
+                    rest_text(
                         parsed.scene, [measure_rest(parsed.scene, rests) for rests in (False, True)]
                     )
                 )
@@ -135,7 +135,7 @@ def measure_rest(scene: str, rests: bool, width: int = 640, height: int = 480) -
     return Wait(rests, seconds[-1] - seconds[0], rate, list(np.diff(seconds)))
 
 
-def told_rest(scene: str, waits: list[Wait]) -> Iterator[str]:
+def rest_text(scene: str, waits: list[Wait]) -> Iterator[str]:
     """The results as a Markdown table: percentiles of frame times, and size of the picture."""
     rates = "million samples/s, last quarter"
     yield f"| {scene} at rest | to {WAITED} samples | {rates} | frames p50 | p99 | longest |"
@@ -165,7 +165,7 @@ def measure_idle(scene: str) -> tuple[float, float]:
     return found[0], found[1]
 
 
-def told_idle(scene: str, share: float, rate: float) -> Iterator[str]:
+def idle_text(scene: str, share: float, rate: float) -> Iterator[str]:
     """The results as a Markdown table."""
     yield "| picture complete, nothing done | of a core | frames/s |"
     yield "|---|---|---|"

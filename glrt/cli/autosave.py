@@ -10,7 +10,7 @@ from pathlib import Path
 from glrt.core.errors import RenderError
 from glrt.core.files import reason
 from glrt.image.image import Image
-from glrt.process.command import tell
+from glrt.process.command import report
 from glrt.rendering.renderer import Renderer
 
 INTERVAL = 60.0  # seconds between two saves: what a power cut may cost
@@ -37,7 +37,7 @@ class Autosave:
         except MemoryError as error:
             failures = [f"No memory to save the picture: {reason(error)}."]
         if failures:
-            tell(f"glrt: {failures[0]} The render continues; it will be saved again at the end.")
+            report(f"glrt: {failures[0]} The render continues; it will be saved again at the end.")
         else:
             self.kept = renderer.samples
         now = self._clock()

@@ -108,9 +108,9 @@ def run(arguments: argparse.Namespace) -> int:
     with Interruption().watched() as interruption:
         try:
             with _progress(arguments.quiet) as tell:
-                tell_or_stop = _stopping(tell, interruption)
+                report_or_stop = _stopping(tell, interruption)
                 work = partial(_temporal, ways, kept) if ways else _chart
-                page = work(scenes, plan, folder, arguments.context, tell_or_stop)
+                page = work(scenes, plan, folder, arguments.context, report_or_stop)
         except KeyboardInterrupt:
             print(
                 f"glrt: interrupted; the rounds so far are kept in {file_names([folder])}, and the "
@@ -129,12 +129,12 @@ def run(arguments: argparse.Namespace) -> int:
 def _stopping(tell: Tell, interruption: Interruption) -> Tell:
     """Between two runs, an interruption ends the work."""
 
-    def tell_or_stop(text: str, share: float) -> None:
+    def report_or_stop(text: str, share: float) -> None:
         if interruption.signal is not None:
             raise KeyboardInterrupt
         tell(text, share)
 
-    return tell_or_stop
+    return report_or_stop
 
 
 def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell) -> Path:
@@ -142,11 +142,11 @@ def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, te
     experiments = []
     for number, (name, scene) in enumerate(scenes.items()):
 
-        def tell_of_all(text: str, share: float, before: int = number) -> None:
+        def report_all(text: str, share: float, before: int = number) -> None:
             tell(text, (before + share) / len(scenes))
 
         rounds = folder / f"{name}.rounds.json"
-        experiments.append(measure_scene(name, scene, plan, context, rounds, tell_of_all))
+        experiments.append(measure_scene(name, scene, plan, context, rounds, report_all))
         save_chart(experiments[-1], folder)
     return method_files.save_page(experiments, folder)
 
@@ -164,11 +164,11 @@ def _temporal(
     tracks = []
     for number, (name, scene) in enumerate(scenes.items()):
 
-        def tell_of_all(text: str, share: float, before: int = number) -> None:
+        def report_all(text: str, share: float, before: int = number) -> None:
             tell(text, (before + share) / len(scenes))
 
         settings = frame_of(scene, plan.height)
-        how = settings, context, ways, REFERENCE, tell_of_all
+        how = settings, context, ways, REFERENCE, report_all
         found = tracks_of(name, scene, *how, hysteresis=hysteresis)
         save_tracks(name, scene.title or name, found, folder)
         tracks += found

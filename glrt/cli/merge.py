@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     image = merged_image(recipes, Image.load, arguments.incomplete)
     for output in arguments.outputs:
         image.save(output)
-    _tell(arguments, image)
+    _report(arguments, image)
     return 0
 
 
@@ -57,7 +57,7 @@ def _recipes(names: list[str]) -> dict[str, Recipe | None]:
     return {name: read_recipe(name) for name in names}
 
 
-def _tell(arguments: argparse.Namespace, image: Image) -> None:
+def _report(arguments: argparse.Namespace, image: Image) -> None:
     recipe, error = image.recipe, image.error
     assert recipe
     assert recipe.partition

@@ -91,9 +91,9 @@ def _show(arguments: argparse.Namespace) -> int:
 
     recipe = recipe_of(arguments.scene)
     if recipe and recipe.traced:
-        _tell("the picture was relit in the window: its light now is traced, not its layers.")
+        _report("the picture was relit in the window: its light now is traced, not its layers.")
     if recipe and recipe.partition:
-        _tell(f"the picture is a part of a render: all {settings.samples} samples are traced.")
+        _report(f"the picture is a part of a render: all {settings.samples} samples are traced.")
     found = pixel_paths(
         *(scene, settings, pixel, arguments.numbers),
         brightest=0 if arguments.numbers else arguments.brightest or 1,
@@ -184,5 +184,5 @@ def _traced_again(
     return stored, now.renderer, list(pairs)
 
 
-def _tell(text: str) -> None:
+def _report(text: str) -> None:
     print(f"glrt: caution: {text}", file=sys.stderr, flush=True)

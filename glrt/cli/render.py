@@ -20,7 +20,7 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
-from glrt.cli.render_report import Done, tell
+from glrt.cli.render_report import Done, report
 from glrt.cli.request import Order, opened, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
@@ -152,7 +152,7 @@ def _render(
         return fail(signals.NOTHING, _signal_code(interruption))
     estimate = image.error_to_reach
     autosave.keep(image)
-    tell(arguments, Done(renderer, image, begun, seconds))
+    report(arguments, Done(renderer, image, begun, seconds))
     if interruption.signal is not None:
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))

@@ -43,7 +43,7 @@ class Done(NamedTuple):
         return int(state.dropped.sum(dtype=float)) + self.renderer.lost_particles.refused
 
 
-def tell(arguments: argparse.Namespace, done: Done) -> None:
+def report(arguments: argparse.Namespace, done: Done) -> None:
     """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
     renderer, begun, new = done.renderer, done.begun, done.new
     width, height = renderer.size

@@ -27,7 +27,7 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
         target = path.resolve()  # of a link, the file that it names
         if target.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
-        temporary = _beside(target)
+        temporary = _next_to(target)
         try:
             _create(temporary)
             write(temporary)
@@ -115,7 +115,7 @@ def _obstacle(path: Path) -> str | None:
         return "it is a folder or a device, not a file"
     if target.exists():
         target.open("ab").close()
-    probe = _beside(target)
+    probe = _next_to(target)
     _create(probe)
     probe.unlink()
     return None
@@ -130,7 +130,7 @@ def _no_folder(path: Path, target: Path) -> str:
     return f"there is no folder {path.parent}"
 
 
-def _beside(target: Path) -> Path:
+def _next_to(target: Path) -> Path:
     return target.with_name(f".glrt-{secrets.token_hex(8)}{target.suffix}")
 
 

@@ -47,13 +47,13 @@ def furnace(context: Context, pipeline: Resolved) -> float:
 
 def _examine(context: Context) -> None:
     """The fragment pipeline first: it may work where compute shaders take the driver along."""
-    _tell("fragment", lambda: {"furnace": furnace(context, "fragment")})
+    _report("fragment", lambda: {"furnace": furnace(context, "fragment")})
     if context.has_compute:
-        _tell("self_test", lambda: asdict(self_test(context)))
-        _tell("compute", lambda: {"furnace": furnace(context, "compute")})
+        _report("self_test", lambda: asdict(self_test(context)))
+        _report("compute", lambda: {"furnace": furnace(context, "compute")})
 
 
-def _tell(step: str, find: Any) -> None:
+def _report(step: str, find: Any) -> None:
     start = time.perf_counter()
     try:
         found = find()
@@ -78,10 +78,10 @@ def main(route: str, device: int) -> None:
             "has_compute": context.has_compute,
         }
 
-    _tell("open", open_it)
+    _report("open", open_it)
     if opened and route != "auto":
         _examine(opened[0])
-    _tell("end", dict)
+    _report("end", dict)
 
 
 if __name__ == "__main__":

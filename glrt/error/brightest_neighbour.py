@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def brightest_beside(values: NDArray[Any]) -> NDArray[Any]:
+def brightest_around(values: NDArray[Any]) -> NDArray[Any]:
     """Of the eight neighbours of each pixel, by channel; -inf for a picture of one pixel."""
     height, width = values.shape[:2]
     framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=-math.inf)

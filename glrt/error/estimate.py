@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.error.brightest_neighbour import brightest_beside
+from glrt.error.brightest_neighbour import brightest_around
 
 BAND = 1 << 18  # values in work at a time: copies in float64 stay small beside the image
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
@@ -80,7 +80,7 @@ def squared_levels(
     values, errors = np.asarray(radiance), np.asarray(stderr)
     start, stop, _ = rows.indices(len(values))
     first = max(start - 1, 0)
-    beside = brightest_beside(values[first : stop + 1])[start - first :]
+    beside = brightest_around(values[first : stop + 1])[start - first :]
     own = values[start:stop].astype(np.float64)
     beside = beside[: len(own)].astype(np.float64)
     near = own if values.shape[0] * values.shape[1] == 1 else np.minimum(own, beside)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glrt.error.brightest_neighbour import brightest_beside
+from glrt.error.brightest_neighbour import brightest_around
 from glrt.error.estimate import BAND, DARK, estimated_error, squared_levels
 from glrt.error.seen_lamps import Seen
 
@@ -144,7 +144,7 @@ def _of_rows(
     places = (error > 0) & (value > 0) & (value**2 < SURE * error**2)
     about = slice(max(top - 1, 0), end + 1)
     certain, darkest = (
-        brightest_beside(part)[min(top, 1) :][: len(value)]
+        brightest_around(part)[min(top, 1) :][: len(value)]
         for part in (values[about] - errors[about], -values[about])
     )
     squares = np.square(value[places])

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.error.brightest_neighbour import brightest_beside
+from glrt.error.brightest_neighbour import brightest_around
 from glrt.error.estimate import DARK
 from glrt.scene.camera import Camera
 from glrt.scene.materials.lambertian import Lambertian
@@ -88,12 +88,12 @@ def seen_lamps(scene: Scene, settings: Settings, radiance: Pixels, stderr: Pixel
     if not kept:
         return nothing
     rows, columns, light, share = zip(*kept, strict=True)
-    return _beside(
+    return _next_to(
         np.array(rows), np.array(columns), np.array(light), np.array(share), radiance, stderr
     )
 
 
-def _beside(
+def _next_to(
     rows: Indices, columns: Indices, light: Array, share: Array, radiance: Pixels, stderr: Pixels
 ) -> Seen:
     """With what lamps leave of each pixel filled by what is darkest around it.
@@ -192,7 +192,7 @@ def _candidates(
         if area > LARGE:
             continue
         place = slice(low[1], high[1]), slice(low[0], high[0])
-        is_beside = (brightest_beside(radiance[place]) > CLEAR * radiance[place]).any(axis=2)
+        is_beside = (brightest_around(radiance[place]) > CLEAR * radiance[place]).any(axis=2)
         squares = np.square(radiance[place], dtype=np.float64)
         variance = np.square(stderr[place], dtype=np.float64)
         is_wanted = (squares < SURE * variance).any(axis=2) | is_beside | (area <= SMALL)

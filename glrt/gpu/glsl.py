@@ -83,7 +83,7 @@ def shader_files() -> list[Path]:
 
 
 @contextmanager
-def files_anew() -> Iterator[None]:
+def files_reread() -> Iterator[None]:
     """Inside, files are read as they are now; should an error leave it, the texts before stay."""
     before = dict(_texts)
     _texts.clear()

@@ -15,7 +15,7 @@ class Pair(NamedTuple):
     in_left: str = "in the picture"
     in_right: str = "now"
 
-    def tell(self, name: str, before: Any, after: Any) -> Iterator[str]:
+    def report(self, name: str, before: Any, after: Any) -> Iterator[str]:
         """One difference, if it is one."""
         if before != after:
             yield f"{name} is {_shown(before)} {self.in_left} and {_shown(after)} {self.in_right}"
@@ -24,7 +24,7 @@ class Pair(NamedTuple):
 def differing_settings(pair: Pair, names: list[str]) -> Iterator[str]:
     """Settings by name."""
     for name in names:
-        yield from pair.tell(
+        yield from pair.report(
             name, getattr(pair.left.settings, name), getattr(pair.right.settings, name)
         )
 
@@ -34,13 +34,13 @@ def differing_scenes(pair: Pair) -> Iterator[str]:
     yield from _apart(pair, "", _content(pair.left), _content(pair.right))
     before, after = pair.left.assets, pair.right.assets
     for path in before.keys() & after.keys():
-        yield from pair.tell(f"the SHA-256 of {path}", before[path][:12], after[path][:12])
+        yield from pair.report(f"the SHA-256 of {path}", before[path][:12], after[path][:12])
 
 
 def differing_fields(pair: Pair, names: tuple[str, ...]) -> Iterator[str]:
     """Fields of the recipes by name."""
     for name in names:
-        yield from pair.tell(name, getattr(pair.left, name), getattr(pair.right, name))
+        yield from pair.report(name, getattr(pair.left, name), getattr(pair.right, name))
 
 
 def first_of(differences: list[str]) -> str:
@@ -66,9 +66,9 @@ def _apart(pair: Pair, place: str, before: Any, after: Any) -> Iterator[str]:
         for number, both in enumerate(zip(before, after, strict=True)):
             yield from _apart(pair, f"objects[{number}]", *both)
     elif place == "objects":
-        yield from pair.tell("the number of objects", len(before), len(after))
+        yield from pair.report("the number of objects", len(before), len(after))
     else:
-        yield from pair.tell(place, before, after)
+        yield from pair.report(place, before, after)
 
 
 def _shown(value: Any) -> str:

@@ -111,7 +111,7 @@ def _differences(pair: Pair) -> list[str]:
     return [
         *differing_fields(pair, ("version",)),
         *differing_settings(pair, settings),
-        *pair.tell("the number of parts", *counts),
+        *pair.report("the number of parts", *counts),
         *differing_scenes(pair),
     ]
 

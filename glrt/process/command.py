@@ -63,7 +63,7 @@ def make_patient() -> None:
         sys.stderr = Patient(old.buffer, old.encoding, old.errors, line_buffering=True)
 
 
-def tell(text: str) -> None:
+def report(text: str) -> None:
     """A line on stderr, if that takes one."""
     try:
         print(text, file=sys.stderr, flush=True)
@@ -73,7 +73,7 @@ def tell(text: str) -> None:
 
 def fail(message: str, code: int) -> int:
     """Tell why the command fails, in one paragraph; returns the exit code."""
-    tell(f"glrt: {escaped(message)}")
+    report(f"glrt: {escaped(message)}")
     return code
 
 

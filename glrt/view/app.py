@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from glrt.core.errors import GlrtError
-from glrt.gpu.glsl import files_anew
+from glrt.gpu.glsl import files_reread
 from glrt.rendering.history.temporal import Way
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
@@ -17,7 +17,7 @@ from glrt.view.camera_moves import CameraMoves
 from glrt.view.compared_picture import Pair
 from glrt.view.edits.new_objects import two_digits, with_model, with_new
 from glrt.view.edits.scene_edits import found_again, with_duplicate, without_object
-from glrt.view.edits.state_differences import told_change
+from glrt.view.edits.state_differences import change_text
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
@@ -86,7 +86,7 @@ class App(CameraMoves):
 
     def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
         """Replace the scene by what is made of it; a scene that does not fit is told."""
-        with self.messages.telling():
+        with self.messages.reporting():
             self.session.edit(make(self.session.scene), gesture)
 
     def prefer(self, preferences: Preferences) -> None:
@@ -112,7 +112,7 @@ class App(CameraMoves):
 
     def reload_shaders(self) -> None:
         """Compile the shader files as they are now; what the driver refuses is told."""
-        with self.messages.telling(), files_anew():
+        with self.messages.reporting(), files_reread():
             self.picture.reload_shaders()
             self.session.reload_shaders()
 
@@ -195,18 +195,18 @@ class App(CameraMoves):
     def undoes(self) -> str:
         """What undo takes back, in a few words; "" where there is nothing."""
         before = self.session.history.before
-        return f"Undo: {told_change(before, self.session.state)}" if before else ""
+        return f"Undo: {change_text(before, self.session.state)}" if before else ""
 
     @property
     def redoes(self) -> str:
         """What redo does again; "" where there is nothing."""
         after = self.session.history.undone
-        return f"Redo: {told_change(self.session.state, after)}" if after else ""
+        return f"Redo: {change_text(self.session.state, after)}" if after else ""
 
     def _step(self, step: Callable[[], None], told: str) -> None:
         before = self.session.scene.objects
         step()
-        self.messages.tell(told or "There is nothing more to undo or redo")
+        self.messages.report(told or "There is nothing more to undo or redo")
         self.selected = found_again(before, self.session.scene.objects, self.selected)
 
     def pick(self, x: float, y: float) -> Picked | None:
@@ -217,7 +217,7 @@ class App(CameraMoves):
     def frame_selected(self) -> None:
         """Look at the selected object so that it fills the frame."""
         if shape := self.selected_shape:
-            with self.messages.telling():
+            with self.messages.reporting():
                 reach = shape.reach if math.isfinite(shape.reach) else 1.0
                 self.place(orbit.framed(self.camera, shape.middle, reach))
                 self.pivot = shape.middle
@@ -254,12 +254,12 @@ class App(CameraMoves):
     def keep(self) -> None:
         """Keep the picture as A, to compare it with what comes."""
         self.pair.go_on(False)
-        with self.messages.telling():
+        with self.messages.reporting():
             self.show.keep(self.session)
 
     def look(self, now: float) -> None:
         """Estimate the error where that is due."""
-        with self.messages.telling():
+        with self.messages.reporting():
             self.pair.look(now)
             look = self.progress.follow(self.session, now)
             self.show.mean = look.mean if look else self.show.mean

@@ -81,11 +81,11 @@ class Files:
 
     def open(self, source: str) -> None:
         """Another scene, or the scene, view and settings of a picture."""
-        with self.messages.telling():
+        with self.messages.reporting():
             scene, recipe = load_recipe(source)
             self._take(scene, recipe or scene.render)
             self._came_from(source)
-            self.messages.tell(f"Opened {source}")
+            self.messages.report(f"Opened {source}")
 
     def ask_open(self, source: str) -> None:
         """Open it; where that would lose edits, ask first."""
@@ -118,19 +118,19 @@ class Files:
 
     def paste_recipe(self) -> None:
         """The scene, view and settings that a recipe in the clipboard tells."""
-        with self.messages.telling():
+        with self.messages.reporting():
             recipe = Recipe.from_json(imgui.get_clipboard_text(), "The clipboard")
             self._take(recipe.scene, recipe.taken)
             self._came_from("")
-            self.messages.tell("Opened the recipe in the clipboard")
+            self.messages.report("Opened the recipe in the clipboard")
 
     def copy_recipe(self) -> None:
         """Put the recipe of the picture into the clipboard, as one line of JSON."""
-        with self.messages.telling():
+        with self.messages.reporting():
             recipe = self.session.image().recipe
             assert recipe
             imgui.set_clipboard_text(recipe.to_json())
-            self.messages.tell("Copied the recipe of this picture")
+            self.messages.report("Copied the recipe of this picture")
 
     def _came_from(self, source: str) -> None:
         """A scene that came from a file is saved there again, and another one elsewhere."""
@@ -171,13 +171,13 @@ class Files:
 
     def reload(self) -> None:
         """The scene as its file has it now; the camera and the settings stay."""
-        with self.messages.telling():
+        with self.messages.reporting():
             found, is_edited = load(self.source), _differs(self.saved, self.session.scene)
             lost = "; undo brings your edits back" * is_edited
             self.session.problem = ""
             self.session.edit(replaced(found, camera=self.session.scene.camera))
             self.saved, self.written = found, scene_with(found, self.session.settings)
-            self.messages.tell(f"Read {self.source} again{lost}")
+            self.messages.report(f"Read {self.source} again{lost}")
 
     def save_scene(self, path: str = "") -> bool:
         """Write the scene as it is to a path, by default that of the text box; whether it was."""
@@ -195,7 +195,7 @@ class Files:
         self._mark_saved()
         self._remember(self.source)
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
-        self.messages.tell(f"Saved {_where(file)}{lost}")
+        self.messages.report(f"Saved {_where(file)}{lost}")
         return True
 
     def save_again(self, then: Then = nothing) -> None:
@@ -224,9 +224,9 @@ class Files:
         path = path or self.picture_path
         if not self.session.samples:
             return self.messages.complain("There is no picture yet.")
-        with self.messages.telling():
+        with self.messages.reporting():
             self.session.image().save(path)
-            self.messages.tell(f"Saved {_where(Path(path))}")
+            self.messages.report(f"Saved {_where(Path(path))}")
             if path != unused(self.picture_name) and path != self.picture_path:
                 self.picture_name = path
             self.picture_path = unused(self.picture_name)
@@ -245,9 +245,9 @@ class Files:
     def save_paths(self, found: PixelPaths) -> None:
         """Write the paths of a pixel, which `glrt paths --replay` traces again."""
         path = Path(unused("paths.json"))
-        with self.messages.telling():
+        with self.messages.reporting():
             write_text(path, paths_to_json(found) + "\n")
-            self.messages.tell(f"Saved {_where(path)}")
+            self.messages.report(f"Saved {_where(path)}")
 
     def close(self, leave: Then) -> None:
         """Leave; where that would lose edits, ask first."""

@@ -30,7 +30,7 @@ class Messages:
     told: float = 0.0  # when, by time.perf_counter
     question: Question | None = None
 
-    def tell(self, message: str) -> None:
+    def report(self, message: str) -> None:
         """Show for a while what was done."""
         self.last, self.told = escaped(message), time.perf_counter()
 
@@ -43,7 +43,7 @@ class Messages:
         self.session.problem = escaped(problem) or self.session.problem
 
     @contextmanager
-    def telling(self) -> Iterator[None]:
+    def reporting(self) -> Iterator[None]:
         """Tell the user of an error, and go on."""
         try:
             yield

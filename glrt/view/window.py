@@ -160,7 +160,7 @@ class Window:
         app.advance()
         app.look(now)
         self._poll(now)
-        self._told = self._tells(now)
+        self._told = self._reports(now)
         if self._interruption.signal:
             self.params.app_shall_exit = True
 
@@ -176,9 +176,9 @@ class Window:
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
         is_done = is_done and not self.app.paths.is_waiting
-        return is_done and not self._interruption.signal and self._tells(now) == self._told
+        return is_done and not self._interruption.signal and self._reports(now) == self._told
 
-    def _tells(self, now: float) -> tuple[object, ...]:
+    def _reports(self, now: float) -> tuple[object, ...]:
         """What comes and goes by itself."""
         messages = self.app.messages
         return self.app.session.problem, messages.recent(now), messages.question

@@ -159,7 +159,7 @@ def test_the_reach_of_a_cluster_is_the_mean_squared_distance_of_its_light(count:
         assert reach2 == pytest.approx(cluster["reach2"], rel=0.02, abs=0.01)
 
 
-def test_a_moved_camera_does_not_group_lamps_anew() -> None:
+def test_a_moved_camera_does_not_group_lamps_again() -> None:
     scene = mixed(100)
     camera = scene.camera.model_copy(update={"position": (0.3, 7.1, -2.9)})
     rows, moved = pack_scene(scene), pack_scene(scene.model_copy(update={"camera": camera}))

@@ -203,7 +203,7 @@ def test_a_picture_is_the_same_with_the_tree_and_without(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("rest", [REST_FROM - 1, REST_FROM, 3 * REST_FROM])
-def test_spheres_have_a_tree_beside_that_of_the_others(
+def test_spheres_have_a_tree_next_to_that_of_the_others(
     context: Context, monkeypatch: pytest.MonkeyPatch, rest: int
 ) -> None:
     monkeypatch.setattr(facts, "SPHERES_FROM", TREE_FROM)

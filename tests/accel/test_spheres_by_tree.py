@@ -165,7 +165,7 @@ def test_boxes_are_wider_than_their_spheres_by_many_roundings(far: float) -> Non
 
 
 @pytest.mark.parametrize("far", [1.0, 1000.0, 2.0**40])
-def test_a_box_is_met_as_if_the_ray_began_up_to_many_roundings_beside(
+def test_a_box_is_met_as_if_the_ray_began_up_to_many_roundings_alongside(
     call_glsl: CallGlsl, far: float
 ) -> None:
     """Past the upper face of a box, from afar: by 32 roundings it is met, by 128 it is not."""

@@ -69,7 +69,7 @@ def test_nothing_is_said_to_be_left_out_where_nothing_is(context: Context) -> No
 
 
 @pytest.mark.slow
-def test_an_error_beyond_reach_is_told(context: Context) -> None:
+def test_an_error_beyond_reach_is_reported(context: Context) -> None:
     verdict = verdict_on(furnace(), 0.02, context, bounces=1)
     assert verdict.best is None
     assert candidate(verdict, "mis").bias.value == pytest.approx(0.25, rel=0.05)
@@ -80,7 +80,7 @@ def test_an_error_beyond_reach_is_told(context: Context) -> None:
     )
 
 
-def test_a_bias_that_may_be_chance_is_told_as_noise() -> None:
+def test_a_bias_that_may_be_chance_is_reported_as_noise() -> None:
     """1 % in the mean, with a standard error of 1 %, for an error of 0.9 %."""
     noisy = replace(of_bias(0.0), bias=Bias(0.01**2, 0.01**2))
     verdict = Verdict(0.009, Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1), (noisy,), {})
@@ -130,7 +130,7 @@ def verdict_within(seconds: float, context: Context, monkeypatch: pytest.MonkeyP
 
 
 @pytest.mark.slow
-def test_a_measurement_ends_with_its_time_and_tells_what_it_did_not_try(
+def test_a_measurement_ends_with_its_time_and_reports_what_it_did_not_try(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The longer, the more methods; without one that is known to suffice there is no verdict."""

@@ -192,7 +192,7 @@ def test_a_short_pilot_tries_one_choice(
 
 
 @pytest.mark.parametrize(("error", "pixels"), [(None, 64), (0.02, 64), (0.04, 16), (0.5, None)])
-def test_the_error_that_is_wanted_tells_how_long_a_render_is(
+def test_the_error_that_is_wanted_reports_how_long_a_render_is(
     error: float | None, pixels: int | None, context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Its samples by the plain picture: here 2,500, 625, and 4, where 880 and 160 have a pilot."""

@@ -142,7 +142,7 @@ def chosen(name: str, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.slow
-def test_no_clock_decides_and_the_recipe_tells_what_did(
+def test_no_clock_decides_and_the_recipe_reports_what_did(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Two runs, one of them slow, write the same bytes; a picture of the picture keeps the word."""
@@ -219,7 +219,7 @@ def test_a_decision_names_what_it_was_made_by(monkeypatch: pytest.MonkeyPatch) -
     assert "too short" in none.decisions["method"]
 
 
-def test_a_renderer_tells_no_more_of_a_setting_that_changes(context: Context) -> None:
+def test_a_renderer_reports_no_more_of_a_setting_that_changes(context: Context) -> None:
     settings = Settings(width=8, height=8)
     renderer = Renderer(load("sky"), settings, context, decisions=BY_WORK)
     told = []

@@ -62,7 +62,7 @@ def test_intervals_of_slopes_hold_the_truth_where_errors_are_skewed() -> None:
     assert np.mean([s.value for s in slopes]) == pytest.approx(-0.5, abs=0.004)
 
 
-def test_a_bias_is_a_flat_tail_that_is_told_apart_from_the_slope() -> None:
+def test_a_bias_is_a_flat_tail_that_is_distinguished_from_the_slope() -> None:
     curve = curve_of("method", runs(1.0, 0.02))
     assert curve.is_biased
     assert curve.bias.low < 0.02 < curve.bias.high

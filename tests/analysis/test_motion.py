@@ -221,7 +221,7 @@ def test_live_probes_are_charted_where_something_moves(tmp_path: Path) -> None:
         run(["chart", "cornell", "-o", str(tmp_path), "--hysteresis", "0.9"])
 
 
-def test_more_curves_than_a_chart_tells_apart_are_refused(tmp_path: Path) -> None:
+def test_more_curves_than_a_chart_distinguishes_are_refused(tmp_path: Path) -> None:
     shares = ",".join(f"0.{number}" for number in range(1, MOST_CURVES))
     words = ["--temporal", "reset,taa", "--hysteresis", shares]
     with pytest.raises(UsageError, match="choose fewer"):

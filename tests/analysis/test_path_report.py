@@ -107,7 +107,7 @@ WAYS: dict[str, tuple[Path, str]] = {
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_the_way_of_most_light_is_told(way: str) -> None:
+def test_the_way_of_most_light_is_reported(way: str) -> None:
     found, told = WAYS[way]
     assert explanation(found) == told
 
@@ -124,7 +124,7 @@ def test_shares_are_of_what_is_finite() -> None:
     assert lines[-1] == "  3 samples brought none"
 
 
-def test_a_dark_pixel_is_told() -> None:
+def test_a_dark_pixel_is_reported() -> None:
     told = report(pixel([[0, 0, 0]], (WAYS["dark"][0],)), "room")
     assert "No sample brings any light." in told
     assert told.endswith("no light")

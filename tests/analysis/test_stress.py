@@ -55,7 +55,7 @@ SWEEP = Sweep(
 @pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo")
 @pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("name", CASES)
-def test_every_case_holds_and_tells_the_naive_method_from_the_chosen(
+def test_every_case_holds_and_distinguishes_the_naive_method_from_the_chosen(
     context: Context, name: str
 ) -> None:
     lab = Lab(context, TINY)

@@ -94,7 +94,7 @@ def test_trials_have_seeds_that_no_round_has() -> None:
     assert min(seed for _, _, seed in asked) > 10**6
 
 
-def test_the_table_tells_scenes_and_all_of_them() -> None:
+def test_the_table_reports_scenes_and_all_of_them() -> None:
     rows = [row(), row(scene="lens", these=[1.21] * 8, equal=False)]
     _, _, sky, lens, whole = table(rows)
     assert sky == (
@@ -106,7 +106,7 @@ def test_the_table_tells_scenes_and_all_of_them() -> None:
     assert overall(rows).value == pytest.approx(1.1)
 
 
-def test_the_exit_code_tells_what_is_slower(
+def test_the_exit_code_reports_what_is_slower(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     costs = iter([(1.0, 1.0), (1.5, 1.0)])
@@ -178,7 +178,7 @@ def test_an_unknown_commit_is_refused(repository: Path, name: str) -> None:
         commit_of(name, repository)
 
 
-def test_a_commit_that_does_not_start_is_told(
+def test_a_commit_that_does_not_start_is_reported(
     repository: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))

@@ -48,7 +48,7 @@ def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert lines[2] == "| sky | 1.02 +- 0.01 |"
 
 
-def test_a_picture_without_its_error_is_told_in_one_paragraph(
+def test_a_picture_without_its_error_is_reported_in_one_paragraph(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["--scenes", "sky", "--samples", "16", "--size", "16"]) == 2

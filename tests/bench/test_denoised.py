@@ -60,7 +60,7 @@ def test_the_gate_is_counted() -> None:
     assert "| a | 10.00 % | 3.00 % | 3.33 | 1.10 | ± 0.10 | 0 of 9 |" in told
 
 
-def test_a_small_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_small_run_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["sky", "--size", "16", "--seeds", "2", "--truth", "64", "--by", "nlm"]
     assert denoised.main([*words, "--truths", str(tmp_path)]) == 0
     told = capsys.readouterr().out

@@ -12,7 +12,9 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.tracer import Tracer
 
 
-def test_the_longest_dispatch_is_told(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_longest_dispatch_is_reported(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pauses = iter([0.01, 0.05, 0.02])
 
     def work_on(tracer: Tracer, *_: object) -> None:

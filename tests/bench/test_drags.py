@@ -8,7 +8,7 @@ from bench.drags import Drag, _swing, steps_of, told
 from glrt.image.sources import load
 
 
-def test_a_drag_is_told_by_its_rate_and_its_longest_gaps() -> None:
+def test_a_drag_is_reported_by_its_rate_and_its_longest_gaps() -> None:
     steady = Drag("camera", 2.0, [0.1 * n for n in range(1, 20)])
     none = Drag("bounces", 2.0, [])
     head, _, *rows = told("cornell", [steady, none])

@@ -65,7 +65,7 @@ def test_figures_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert printed.count("| sky |") == 5
 
 
-def test_unknown_scene_is_told_in_one_paragraph(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_scene_is_reported_in_one_paragraph(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenes", "ski", "--rounds", "2"]) == 2
     assert "sky" in capsys.readouterr().err
 

@@ -97,7 +97,7 @@ def test_a_difference_is_relative_to_that_of_the_seeds() -> None:
     assert not Row(work(), FOUND, difference(first, broken)).is_right
 
 
-def test_the_table_tells_figures_and_errors() -> None:
+def test_the_table_reports_figures_and_errors() -> None:
     rows = [
         Row(work(), FOUND),
         Row(work(device=1), {**FOUND, "tier": "baked"}, 0.002),
@@ -154,7 +154,7 @@ def test_what_a_driver_refuses_is_a_finding(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("driver")
-def test_routes_that_open_are_told(
+def test_routes_that_open_are_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     opened = {"open": {"renderer": "Painter", "version": "4.1"}}

@@ -31,6 +31,6 @@ def test_figures_are_printed_and_saved(tmp_path: Path, capsys: pytest.CaptureFix
     assert len(list(table([]))) == 2
 
 
-def test_unknown_scene_is_told_in_one_paragraph(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_scene_is_reported_in_one_paragraph(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenes", "ski", "--rounds", "2"]) == 2
     assert "sky" in capsys.readouterr().err

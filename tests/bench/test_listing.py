@@ -21,6 +21,6 @@ def test_every_module_has_a_line() -> None:
     assert sorted([*programs, *shared]) == sorted(modules)
 
 
-def test_programs_are_those_that_can_be_run() -> None:
+def test_programs_are_what_can_be_run() -> None:
     runs = {path.stem for path in FOLDER.glob("*.py") if "__main__" in path.read_text()}
     assert runs - {"__init__"} == {*listed("Programs"), "against_side", "gpu_way", "glrt_peer"}

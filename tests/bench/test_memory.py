@@ -15,13 +15,13 @@ def test_film_and_picture_account_for_what_a_larger_picture_takes() -> None:
     assert abs(row.rest) < 48 * 2**20
 
 
-def test_memory_is_told_in_mebibytes() -> None:
+def test_memory_is_reported_in_mebibytes() -> None:
     row = Row(64, "independent", 1.25, 400 * 2**20, 100 * 2**20, 250 * 2**20, 40 * 2**20)
     line = list(table([row]))[2]
     assert line == "| 64 x 64 | independent | 1.2 s | 400 | 100 | 250 | 40 | 10 |"
 
 
 @pytest.mark.slow
-def test_a_picture_that_finds_no_room_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_picture_that_finds_no_room_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--size", "20000"]) == 4
     assert "20000 x 20000 pixels failed" in capsys.readouterr().err

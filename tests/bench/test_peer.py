@@ -90,7 +90,7 @@ def test_a_peer_goes_on_after_a_scene_that_it_refuses() -> None:
         assert peer.render(request(3))
 
 
-def test_the_end_of_a_peer_is_told_by_its_last_words() -> None:
+def test_the_end_of_a_peer_is_reported_by_its_last_words() -> None:
     with painter() as peer:
         for _ in range(2):
             with pytest.raises(RenderError, match=r"^the driver is gone$"):

@@ -23,7 +23,7 @@ def test_noise_is_no_floor() -> None:
 
 
 @pytest.mark.slow
-def test_a_small_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_small_run_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["methods/white", "--size", "8", "--seeds", "2", "--truth", "64", "--samples", "16"]
     assert probe_floors.main([*words, "--truths", str(tmp_path)]) == 0
     told = capsys.readouterr().out

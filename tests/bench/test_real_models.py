@@ -68,7 +68,7 @@ def test_the_program_writes_a_page_of_pictures(npm: Path, tmp_path: Path) -> Non
     assert (folder / "glass_bunny.png").stat().st_size > 1000
 
 
-def test_what_cannot_be_fetched_is_told(
+def test_what_cannot_be_fetched_is_reported(
     npm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     packed(npm, missing="hp.glb")

@@ -21,7 +21,7 @@ def test_noise_is_the_spread_over_seeds_and_gain_counts_its_square_and_time() ->
 
 
 @pytest.mark.slow
-def test_a_small_run_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_small_run_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert reuse.main(["methods/white", "--size", "8", "--seeds", "2"]) == 0
     told = capsys.readouterr().out
     for way in reuse.WAYS:

@@ -58,7 +58,7 @@ def test_an_edit_without_its_place_is_an_error() -> None:
         edited(Edit("integrators/path.glsl", "gone", "here"))
 
 
-def test_starts_of_roulette_stand_beside_each_other() -> None:
+def test_starts_of_roulette_stand_next_to_each_other() -> None:
     def row(scene: str, start: str, sampler: str, efficiency: float) -> Row:
         return Row(scene, f"{start}, {sampler}", 1, 0, 1, 1, 1, efficiency)
 

@@ -76,7 +76,7 @@ def test_independent_samples_have_the_slope_and_spread_ones_do_not() -> None:
     book(3)
 
 
-def test_means_apart_are_told_from_noise() -> None:
+def test_means_apart_are_distinguished_from_noise() -> None:
     first = runs(1.0, 64, 1e6, 0)
     assert distance(first, runs(1.0, 64, 1e6, 1), LEVEL) < 0.025
     assert distance(first, runs(1.0, 64, 1e6, 1, bias=1.1), LEVEL) == pytest.approx(0.1, abs=0.01)

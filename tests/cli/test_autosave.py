@@ -64,7 +64,7 @@ def test_nothing_is_saved_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert fake.saves == 3
 
 
-def test_a_save_that_fails_is_told_and_tried_again(
+def test_a_save_that_fails_is_reported_and_tried_again(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     fake = Fake()
@@ -115,7 +115,7 @@ def test_what_can_be_written_is_written_and_an_exr_is_enough(
     assert not list(temporary.iterdir())
 
 
-def test_without_any_room_only_the_reason_is_told(
+def test_without_any_room_only_the_reason_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))

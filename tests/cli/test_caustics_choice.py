@@ -68,7 +68,7 @@ def no_pilot(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.slow
-def test_a_caustic_gets_particles_and_the_recipe_tells_why(folder: Path) -> None:
+def test_a_caustic_gets_particles_and_the_recipe_reports_why(folder: Path) -> None:
     image = rendered(BALL, *LONG)
     assert chosen(image)[0] == "on"
     assert dict(zip(CHOICES[0], chosen(image)[1:], strict=True)) in CHOICES
@@ -210,7 +210,7 @@ def test_a_picture_without_the_key_has_no_particles(folder: Path, no_pilot: None
 @pytest.mark.slow
 @pytest.mark.slow_cases("metals-off")
 @pytest.mark.parametrize(("scene", "used"), [(BALL, "on"), (MIRRORS, "off")])
-def test_it_tells_what_was_chosen(
+def test_it_reports_what_was_chosen(
     scene: str, used: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(["render", scene, *LONG, "--json", "-o", "out.exr"]) == 0

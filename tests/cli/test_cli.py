@@ -177,7 +177,7 @@ def test_error_not_reached_exits_1_with_the_picture(tmp_path: Path) -> None:
         (0.25, 0.28, 64, 1, "beside the bias of the method its noise must be 0.25, and is 0.28"),
     ],
 )
-def test_an_error_not_reached_is_told_as_it_was_asked_for(
+def test_an_error_not_reached_is_reported_as_it_was_asked_for(
     room: float, estimate: float | None, samples: int, block: int, said: str
 ) -> None:
     told = unreached(0.3, room, estimate, samples, block)

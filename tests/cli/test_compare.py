@@ -67,7 +67,7 @@ def test_exit_code_follows_the_verdict(
     assert done == code
 
 
-def test_report_tells_the_figures(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_report_reports_the_figures(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _, text = run(folder, "a.exr b.exr", capsys)
     comparison = compare(Image.load(folder / "a.exr"), Image.load(folder / "b.exr"))
     assert str(comparison) == text.splitlines()[0]
@@ -115,7 +115,7 @@ def test_json_is_one_line_of_finite_figures(
     assert figures["block"]["width"] == 8
 
 
-def test_json_has_null_for_what_cannot_be_told(
+def test_json_has_null_for_what_cannot_be_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     black = np.zeros((8, 8, 3), np.float32)
@@ -174,7 +174,7 @@ def test_picture_shows_a_wrong_pixel_where_it_is(width: int, height: int, tmp_pa
 
 
 @pytest.mark.parametrize(("sampler", "samples"), [("sobol", 32), ("independent", 2)])
-def test_how_many_samples_know_their_noise_is_told_as_it_is(
+def test_how_many_samples_know_their_noise_is_reported_as_it_is(
     context: Context, sampler: str, samples: int
 ) -> None:
     few, enough = (
@@ -220,7 +220,7 @@ def test_groups_of_a_picture_without_a_recipe_are_unknown(
     assert "--groups needs the recipe" in capsys.readouterr().err
 
 
-def test_heavy_tails_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_heavy_tails_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Five pixels met light that is brighter than all the rest of their samples."""
     image = noisy("smooth", 256, 1, 64)
     for pixels in (image.radiance, image.stderr):

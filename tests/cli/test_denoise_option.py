@@ -17,7 +17,7 @@ SMALL = ["render", "cornell", "--width", "16", "--height", "12", "--bounces", "3
 NLM = [*SMALL, "--denoise", "nlm"]
 
 
-def test_both_errors_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_both_errors_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "a.exr"
     assert main([*NLM, "--samples", "64", "-o", str(path), "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)
@@ -49,7 +49,7 @@ def test_a_picture_is_denoised_again_by_its_recipe(tmp_path: Path) -> None:
     assert first.read_bytes() == second.read_bytes()
 
 
-def test_auto_is_told_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_auto_is_reported_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(oidn, "find_spec", lambda _name: None)
     path = tmp_path / "a.exr"
     words = [*SMALL, "--denoise", "auto", "--samples", "64", "-o", str(path), "--quiet"]

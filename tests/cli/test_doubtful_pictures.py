@@ -32,7 +32,7 @@ def test_a_render_is_cautioned(
     assert Image.load(output).error_doubtful is True
 
 
-def test_python_tells_it() -> None:
+def test_python_reports_it() -> None:
     image = library.render(RIM, samples=64, width=48, height=36, bounces=6, sampler="sobol", seed=4)
     assert image.error is not None
     assert image.error < 0.03

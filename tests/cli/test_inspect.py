@@ -51,7 +51,7 @@ def test_it_names_files_and_lines() -> None:
         ("lamps", ("on", "1"), "out  linked spheres  no sphere of smooth glass or metal"),
     ],
 )
-def test_it_tells_through_how_many_spheres_particles_are_linked(
+def test_it_reports_through_how_many_spheres_particles_are_linked(
     scene: str, wanted: tuple[str, str], line: str
 ) -> None:
     caustics, linked = wanted

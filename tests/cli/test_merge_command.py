@@ -195,7 +195,7 @@ OUTPUTS = {
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
-def test_an_output_that_cannot_be_written_is_told_before_anything_is(
+def test_an_output_that_cannot_be_written_is_reported_before_anything_is(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     output, words = OUTPUTS[name]

@@ -23,7 +23,7 @@ def render(*words: str | Path) -> int:
 # --- links -----------------------------------------------------------------------------------
 
 
-def test_a_link_whose_folder_is_missing_is_told_as_a_link(
+def test_a_link_whose_folder_is_missing_is_reported_as_a_link(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)

@@ -48,7 +48,7 @@ def changed(stored: Path, target: Path, keys: list[Any], value: Any) -> Path:
     return target
 
 
-def test_it_ranks_samples_and_tells_their_ways(capsys: pytest.CaptureFixture[str]) -> None:
+def test_it_ranks_samples_and_reports_their_ways(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["paths", "cornell", *PIXEL, *SMALL]) == 0
     out = capsys.readouterr().out
     assert out.startswith("cornell: pixel 11 14 of 16 x 16, 20 samples by mis\nmean radiance ")
@@ -272,7 +272,7 @@ def test_an_old_driver_is_refused_by_name() -> None:
     assert "fragment pipeline" in told.stderr
 
 
-def test_the_guide_tells_what_the_command_tells(
+def test_the_guide_reports_what_the_command_tells(
     context: Context, capsys: pytest.CaptureFixture[str]
 ) -> None:
     if not context.is_software:

@@ -52,7 +52,7 @@ def told(clock: dict[str, float], limits: Limits, samples: int, begun: int = 0) 
         *("time before error", *"ab"),
     ],
 )
-def test_the_first_limit_tells_how_long_it_takes(
+def test_the_first_limit_reports_how_long_it_takes(
     clock: dict[str, float], limits: Limits, begun: int, total: float
 ) -> None:
     state = told(clock, limits, 100, begun)
@@ -62,7 +62,7 @@ def test_the_first_limit_tells_how_long_it_takes(
     assert state["done"] == f"100{most} samples", "nobody asked for 2^20"
 
 
-def test_the_error_is_told_once_it_was_looked_at(clock: dict[str, float]) -> None:
+def test_the_error_is_reported_once_it_was_looked_at(clock: dict[str, float]) -> None:
     assert told(clock, Limits(400), 100)["rest"].startswith("error 20 %  4 s")
     forecast = Forecast(Limits(400))
     clock["seconds"] += progress.LOOK / 2

@@ -115,7 +115,7 @@ def test_a_scene_from_standard_input_has_no_folder(
     assert bits(room / "b.npy") == bits(room / "a.exr")
 
 
-def test_json_tells_the_files(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_reports_the_files(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert render(room / "scene.toml", room / "b.npy", "--samples", "1", "--json") == 0
     told = json.loads(capsys.readouterr().out)["assets"]
     assert told == read_recipe(room / "a.exr").assets

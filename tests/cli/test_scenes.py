@@ -142,7 +142,7 @@ def test_inspect_and_chart_read_it_too(
         (b"#" * 1025, "standard input: not a scene: it is longer than"),
     ],
 )
-def test_what_is_wrong_with_it_is_told_in_one_paragraph(
+def test_what_is_wrong_with_it_is_reported_in_one_paragraph(
     content: bytes, said: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for module in (sources, toml):
@@ -154,7 +154,7 @@ def test_what_is_wrong_with_it_is_told_in_one_paragraph(
     assert (told.err.count("\n"), told.out) == (1, "")
 
 
-def test_no_standard_input_is_told(
+def test_no_standard_input_is_reported(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "stdin", None)

@@ -84,7 +84,7 @@ def test_the_window_remembers_what_was_opened(name: bytes, folder: Path) -> None
     assert Path(path).is_file()
 
 
-def test_a_model_finds_files_of_strange_names_beside_it(folder: Path) -> None:
+def test_a_model_finds_files_of_strange_names_next_to_it(folder: Path) -> None:
     builder = textured_square()
     builder.json["buffers"] = [{"uri": "b%E9%0A.bin", "byteLength": len(builder.binary)}]
     model = builder.gltf("b%E9%0A.bin")

@@ -255,7 +255,7 @@ def test_what_cannot_be_compared_is_refused(
     assert all(word in str(error.value) for word in words)
 
 
-def test_recipes_tell_whether_the_noise_is_of_one_method() -> None:
+def test_recipes_report_whether_the_noise_is_of_one_method() -> None:
     image, other = noisy("smooth", 64, 1), noisy("smooth", 64, 2)
     mis, naive = recipe(method="mis"), recipe(method="naive")
     assert not compare(image, other).alike

@@ -130,7 +130,7 @@ def other_seed(context: Context, scene: Scene, settings: Settings) -> Array:
     return radiance
 
 
-def is_the_same_but_for_rounding(one: Record, other: Record, independent: Array) -> bool:
+def is_the_same_except_for_rounding(one: Record, other: Record, independent: Array) -> bool:
     """What two drivers can be held to: few paths take another branch, the noise is the same."""
     few = flipped(one[ONE][0], other[ONE][0]) <= 0.0005
     return few and relative_rms(one[MANY][0], other[MANY][0], independent) <= 0.01
@@ -152,7 +152,7 @@ def test_both_versions_show_the_same(
     if context.is_software and is_software(webgpu):
         assert [each for each in agreements(record, kernel) if each.identical < 1] == []
     else:
-        assert is_the_same_but_for_rounding(record, kernel, other_seed(context, scene, settings))
+        assert is_the_same_except_for_rounding(record, kernel, other_seed(context, scene, settings))
 
 
 @pytest.mark.parametrize("name", ROUNDINGS)
@@ -166,7 +166,7 @@ def test_on_a_gpu_rounding_passes_and_nothing_else(
     kernel = glsl_record(context, scene, settings)
     assert differing(record, kernel) >= {ONE, MANY}
     independent = other_seed(context, scene, settings)
-    assert is_the_same_but_for_rounding(record, kernel, independent) == passes
+    assert is_the_same_except_for_rounding(record, kernel, independent) == passes
 
 
 @pytest.fixture(scope="session")

@@ -36,7 +36,7 @@ def test_file_is_that_of_a_render_and_its_recipe_renders_it_again(
         assert same(image, again)
 
 
-def test_figures_are_those_that_a_benchmark_reads(
+def test_figures_are_what_a_benchmark_reads(
     webgpu: Device, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["lamps", "-o", str(tmp_path / "a.png"), "--json", *SMALL]) == 0
@@ -76,7 +76,7 @@ def test_what_cannot_be_rendered_is_one_paragraph(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_speed_is_told_as_ratios(webgpu: Device, capsys: pytest.CaptureFixture[str]) -> None:
+def test_speed_is_reported_as_ratios(webgpu: Device, capsys: pytest.CaptureFixture[str]) -> None:
     few = ["--size", "8", "--samples", "2", "--rounds", "2", "--scenes", "lamps"]
     assert speed.main(few) == 0
     told = capsys.readouterr().out.splitlines()

@@ -56,7 +56,7 @@ def test_own_weight_is_counted() -> None:
 
 
 @pytest.mark.parametrize(("lamp", "guide"), [(4.0, 0.5), (0.5, 1.0)], ids=["light", "guide"])
-def test_light_without_noise_is_not_judged_by_the_noisy_wall_beside_it(
+def test_light_without_noise_is_not_judged_by_the_noisy_wall_next_to_it(
     lamp: float, guide: float
 ) -> None:
     """A filter makes a lamp darker, and is right on the wall; the two look different by either."""
@@ -86,7 +86,7 @@ def test_an_edge_is_judged_by_its_own_pixels() -> None:
     assert alpha[:, :16].mean() > 0.9
 
 
-def test_alike_is_told_by_ratios() -> None:
+def test_alike_is_reported_by_ratios() -> None:
     """The same bits in another unit of radiance."""
     half = drawn(np.random.default_rng(7), TRUTH).halves[0]
     found = Filtered(half.radiance[::-1].copy(), NO_WEIGHT)

@@ -164,7 +164,7 @@ def test_the_map_is_a_root_about_each_pixel() -> None:
     assert (error_map(-squares) == 0).all()
 
 
-def test_draws_are_of_the_variance_that_is_told() -> None:
+def test_draws_are_of_the_variance_that_is_reported() -> None:
     """The halves that these tests are made of."""
     rng, truth = np.random.default_rng(2), truth_with_an_edge(8)
     means = [drawn(rng, truth).halves[0].radiance for _ in range(2000)]

@@ -103,7 +103,7 @@ def test_a_driver_that_hangs_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None
     assert examined.end == "no answer; it was stopped"
 
 
-def test_what_a_process_dies_of_is_told() -> None:
+def test_what_a_process_dies_of_is_reported() -> None:
     examined = dying([], "sys.exit('out of patience')")
     assert examined.end == "the process ended with code 1: out of patience"
 

@@ -70,7 +70,7 @@ def test_a_lone_lucky_sample_is_thirty_two_times_too_bright_at_most() -> None:
 
 
 @pytest.mark.parametrize("place", [(0, 0), (0, 9), (13, 13), (SIZE - 1, 4)])
-def test_a_dark_pixel_beside_a_lamp_counts_by_its_own(place: tuple[int, int]) -> None:
+def test_a_dark_pixel_next_to_a_lamp_counts_by_its_own(place: tuple[int, int]) -> None:
     radiance, stderr = even()
     radiance[place] = stderr[place] = 0.5
     y, x = place
@@ -104,7 +104,7 @@ def test_a_highlight_of_one_pixel_that_many_samples_met_counts_by_its_own(
     )
 
 
-def test_only_what_is_in_the_picture_is_beside_a_pixel() -> None:
+def test_only_what_is_in_the_picture_is_next_to_a_pixel() -> None:
     """A crop, whose film has no more, is estimated by itself."""
     radiance, stderr = even()
     radiance[:, 8] = 500.0

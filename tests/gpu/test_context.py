@@ -48,7 +48,7 @@ def test_hardware_is_taken_before_software_that_comes_first(
     assert released == ["llvmpipe"]
 
 
-def test_why_the_first_device_failed_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_why_the_first_device_failed_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     offered(monkeypatch, [CLOSED, CLOSED])
     with pytest.raises(ContextError, match="egl: no access to 0; window: there is no window 0"):
         open_context("auto")

@@ -11,7 +11,7 @@ from glrt.core.errors import RenderError
 from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.evaluate import path_files
-from glrt.gpu.glsl import Source, files_anew, read
+from glrt.gpu.glsl import Source, files_reread, read
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
 from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, SURFACES, RenderPass, aov_pass
@@ -83,7 +83,7 @@ def test_a_missing_include_names_the_file_and_the_line_that_asks(shaders: Path) 
         Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'})
 
 
-def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
+def test_a_file_is_read_once_until_it_is_asked_for_again(shaders: Path) -> None:
     def text() -> str:
         return Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).lines[-1].text
 
@@ -92,10 +92,10 @@ def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
     assert text() == "int a;"
     file.write_bytes(b"int b; // \xff\n")
     assert text() == "int a;"
-    with pytest.raises(RenderError, match="int b"), files_anew():
+    with pytest.raises(RenderError, match="int b"), files_reread():
         raise RenderError(text())
     assert text() == "int a;"
-    with files_anew():
+    with files_reread():
         assert text() == "int b; // \ufffd"
     assert text() == "int b; // \ufffd"
 
@@ -104,7 +104,7 @@ def test_a_file_is_read_once_until_it_is_asked_for_anew(shaders: Path) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_an_error_in_an_included_file_is_told_by_file_and_line(
+def test_an_error_in_an_included_file_is_reported_by_file_and_line(
     ctx: moderngl.Context, shaders: Path, name: str
 ) -> None:
     (shaders / name).write_text("int first() { return 1; }\n\nint second() { return 2; }\n")
@@ -116,7 +116,7 @@ def test_an_error_in_an_included_file_is_told_by_file_and_line(
         Kernel(ctx, source)
 
 
-def test_an_error_deep_in_the_kernel_is_told_by_file_and_line(
+def test_an_error_deep_in_the_kernel_is_reported_by_file_and_line(
     ctx: moderngl.Context, shaders: Path
 ) -> None:
     number = plant(shaders / "lights/sampling.glsl", "float broken() { return undeclared; }")
@@ -127,7 +127,7 @@ def test_an_error_deep_in_the_kernel_is_told_by_file_and_line(
     assert "\n" not in str(caught.value)
 
 
-def test_an_error_in_the_entry_text_is_told_under_its_name(ctx: moderngl.Context) -> None:
+def test_an_error_in_the_entry_text_is_reported_under_its_name(ctx: moderngl.Context) -> None:
     text = "layout(local_size_x = 1) in;\nvoid main() {\n    undeclared = 1;\n}\n"
     with pytest.raises(RenderError, match=r"entry\.comp:3: .*undeclared"):
         Kernel(ctx, Source("entry.comp", texts={"entry.comp": text}))

@@ -75,7 +75,7 @@ def test_a_sample_beyond_the_loop_limit_is_dropped_and_counted(context: Context)
     renderer.release()
 
 
-def test_dropped_samples_are_told(
+def test_dropped_samples_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Done, "dropped", 1234)

@@ -79,7 +79,9 @@ def test_the_command_says_it_once(content: bytes, tmp_path: Path) -> None:
     )
 
 
-def test_a_recipe_that_is_no_text_is_told_by_its_reader_too(content: bytes, tmp_path: Path) -> None:
+def test_a_recipe_that_is_no_text_is_reported_by_its_reader_too(
+    content: bytes, tmp_path: Path
+) -> None:
     path = tmp_path / "a.exr"
     path.write_bytes(DAMAGES["a recipe that is no text"][0](content))
     with pytest.raises(UsageError, match="a text in it is damaged, or not in UTF-8"):

@@ -190,7 +190,9 @@ def test_exr_files_without_colours_are_refused_by_the_names_of_their_channels(
         Image.load(tmp_path / "x.exr")
 
 
-def test_names_that_a_terminal_would_obey_are_told_without_their_commands(tmp_path: Path) -> None:
+def test_names_that_a_terminal_would_obey_are_reported_without_their_commands(
+    tmp_path: Path,
+) -> None:
     exr(tmp_path / "x.exr", {"\x1b[2J\n": np.zeros((2, 2), np.float32)})
     with pytest.raises(UsageError) as caught:
         Image.load(tmp_path / "x.exr")

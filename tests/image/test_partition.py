@@ -33,7 +33,7 @@ def test_each_sample_is_in_one_part_and_observations_stay_whole(
     assert max(sizes) - min(sizes) <= 1
 
 
-def test_parts_are_those_that_were_there_before() -> None:
+def test_parts_are_what_were_there_before() -> None:
     """A queue may render them today and tomorrow: other cuts would count samples twice."""
     assert ranges(3, 100, "sobol") == [range(32), range(32, 64), range(64, 100)]
     assert ranges(4, 10, "independent") == [range(2), range(2, 5), range(5, 7), range(7, 10)]
@@ -54,7 +54,7 @@ def test_more_parts_than_observations_are_refused() -> None:
         one_part(1, 2, Settings(samples=1, sampler="independent"))
 
 
-def test_a_partition_tells_what_it_lacks() -> None:
+def test_a_partition_reports_what_it_lacks() -> None:
     some = Partition(count=5, numbers=(2, 5))
     assert some.missing == [1, 3, 4]
     assert not some.is_complete

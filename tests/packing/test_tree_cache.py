@@ -82,7 +82,7 @@ def test_other_places_and_shapes_are_other_trees(built: list[None]) -> None:
     assert len(built) == 7
 
 
-def test_other_code_builds_anew(built: list[None], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_other_code_builds_again(built: list[None], monkeypatch: pytest.MonkeyPatch) -> None:
     tree(scene())
     monkeypatch.setattr(tree_cache, "_code", lambda: b"other")
     tree(scene())

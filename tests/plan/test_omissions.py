@@ -48,7 +48,7 @@ INDIRECT = "no indirect light"
         ([BALL], SKY, "nothing hides the sky", set()),
     ],
 )
-def test_an_omission_is_told_of_the_methods_that_make_it(
+def test_an_omission_is_reported_of_the_methods_that_make_it(
     objects: list[dict[str, Any]], more: dict[str, Any], text: str, methods: set[str]
 ) -> None:
     scene = scene_of(objects, MATERIALS, **more)
@@ -67,7 +67,7 @@ def test_an_omission_is_told_of_the_methods_that_make_it(
         ("resampled", 3, "light over three matte surfaces or more", " that light others"),
     ],
 )
-def test_what_probes_blur_is_told_from_the_bounces_on_that_they_light(
+def test_what_probes_blur_is_distinguished_from_the_bounces_on_that_they_light(
     method: str, bounces: int, light: str, lit: str
 ) -> None:
     scene = scene_of([BALL, LAMP, sphere([2, 0, -3], 1, "glass")], MATERIALS)
@@ -79,7 +79,7 @@ def test_what_probes_blur_is_told_from_the_bounces_on_that_they_light(
     )
 
 
-def test_a_lens_is_told_of_the_methods_without_one() -> None:
+def test_a_lens_is_reported_of_the_methods_without_one() -> None:
     scene = scene_of([BALL], MATERIALS, {"defocus_angle": 1.0}, **SKY)
     told = {
         method
@@ -113,7 +113,7 @@ def test_commands_say_what_is_left_out(tmp_path: Any) -> None:
         ({"unbiased": False, "method": "gather"}, False),
     ],
 )
-def test_what_the_biased_form_of_reuse_lacks_is_told(
+def test_what_the_biased_form_of_reuse_lacks_is_reported(
     changes: dict[str, Any], is_told: bool
 ) -> None:
     scene = scene_of([BALL, LAMP], MATERIALS)

@@ -47,7 +47,7 @@ def test_more_bounces_than_traced_restart(context: Context) -> None:
         assert renderer.update(bounces=4) in (Cost.RESTART, Cost.RECOMPILE)
 
 
-def test_turning_layers_on_and_off_begins_anew(context: Context) -> None:
+def test_turning_layers_on_and_off_begins_again(context: Context) -> None:
     with layered(room(2), context, "none") as renderer:
         renderer.render(4)
         assert renderer.update(layering="lengths") is Cost.RECOMPILE

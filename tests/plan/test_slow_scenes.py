@@ -41,7 +41,7 @@ def test_what_has_an_end_has_a_tree() -> None:
     ("count", "method", "is_slow"),
     [(65_535, "mis", False), (65_536, "mis", True), (65_536, "naive", False)],
 )
-def test_lamps_of_too_many_triangles_are_told(count: int, method: str, is_slow: bool) -> None:
+def test_lamps_of_too_many_triangles_are_reported(count: int, method: str, is_slow: bool) -> None:
     vertices = np.concatenate([np.eye(3), np.random.default_rng(1).normal(size=(count - 1, 3))])
     faces = [[0, 1, 2]] + [[0, 1, k + 3] for k in range(count - 1)]
     scene = scene_of([mesh((vertices, np.array(faces)), "lamp")], {"lamp": lamp(1.0)})
@@ -58,7 +58,7 @@ def test_lamps_of_too_many_triangles_are_told(count: int, method: str, is_slow: 
         ({"roulette": False, "bounces": 200, "method": "whitted"}, False),
     ],
 )
-def test_paths_without_an_end_are_told(changes: dict[str, object], is_slow: bool) -> None:
+def test_paths_without_an_end_are_reported(changes: dict[str, object], is_slow: bool) -> None:
     found = slow_because(load("cornell"), settings(**changes))
     assert ["--no-roulette" in text for text in found] == [True] * is_slow
 

@@ -92,7 +92,7 @@ def test_both_caches_of_mesa_are_kept() -> None:
     assert kept == {"mesa_shader_cache", "mesa_shader_cache_db"}
 
 
-def test_the_packages_named_are_those_that_the_advice_names() -> None:
+def test_the_packages_named_are_what_the_advice_names() -> None:
     named = re.findall(r"lib[\w-]+", ADVICE)
     assert len(named) >= 4
     for text in (block("yaml"), block("dockerfile")):

@@ -86,7 +86,7 @@ def test_the_sdist_holds_what_the_wheel_is_built_from(built: Path) -> None:
         assert set(archive.getnames()) == {f"glrt-{VERSION}/{name}" for name in sources() | about}
 
 
-def test_extras_are_those_that_exist(metadata: Message) -> None:
+def test_extras_are_what_exist(metadata: Message) -> None:
     texts = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "glrt").rglob("*.py")]
     advised = {name for file in texts for name in EXTRA.findall(file.read_text())}
     assert {"view", "chart"} <= advised <= set(metadata.get_all("Provides-Extra", []))

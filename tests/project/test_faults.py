@@ -121,7 +121,7 @@ def test_no_memory_for_a_picture_exits_4_with_advice(
 
 
 @pytest.mark.usefixtures("starved")
-def test_no_memory_for_a_save_is_told_while_there_is_time(
+def test_no_memory_for_a_save_is_reported_while_there_is_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(autosave, "INTERVAL", 0.0)

@@ -56,7 +56,7 @@ def test_a_link_stays_and_its_file_is_written(tmp_path: Path, image: Image) -> N
 
 
 @every_suffix
-def test_nothing_is_left_beside_the_file(tmp_path: Path, image: Image, suffix: str) -> None:
+def test_nothing_is_left_next_to_the_file(tmp_path: Path, image: Image, suffix: str) -> None:
     image.save(tmp_path / f"x{suffix}")
     image.save(tmp_path / f"x{suffix}")
     assert [path.name for path in tmp_path.iterdir()] == [f"x{suffix}"]

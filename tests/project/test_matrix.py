@@ -51,7 +51,7 @@ def test_a_driver_that_rounds_elsewhere_draws_the_same_picture() -> None:
         assert difference(name, others[1], others[0]) == "="
 
 
-def test_a_difference_is_told_by_its_size() -> None:
+def test_a_difference_is_reported_by_its_size() -> None:
     first = {f"a {seed}": np.full((2, 4, 5, 3), seed, np.float32) for seed in (0, 1)}
     other = {"a 0": first["a 0"].copy()}
     assert difference("a", other, first) == "="

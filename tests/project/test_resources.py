@@ -13,7 +13,7 @@ from glrt.core.resources import folder
 PACKAGE = Path(glrt.__file__).parent
 
 
-def test_checkout_keeps_them_beside_the_package() -> None:
+def test_checkout_keeps_them_next_to_the_package() -> None:
     for name in ("shaders_glsl", "scenes"):
         assert folder(name) == PACKAGE.parent / name
         assert folder(name).is_dir()

@@ -164,7 +164,7 @@ def test_changed_dependencies_are_installed_on_top(
 
 
 @pytest.mark.parametrize("state", ['{"unfinished": true}', '{"python": "3.', "[]"])
-def test_an_interrupted_environment_is_made_anew(
+def test_an_interrupted_environment_is_made_again(
     state: str, checkout: Path, commands: list[list[str]]
 ) -> None:
     environment.make(str(checkout), "render", [])
@@ -176,7 +176,7 @@ def test_an_interrupted_environment_is_made_anew(
     assert not (checkout / ".venv" / "half").exists()
 
 
-def test_a_moved_environment_is_made_anew(checkout: Path, commands: list[list[str]]) -> None:
+def test_a_moved_environment_is_made_again(checkout: Path, commands: list[list[str]]) -> None:
     environment.make(str(checkout), "render", [])
     moved = checkout.rename(checkout.parent / "moved")
     assert not is_ready(moved)
@@ -192,7 +192,7 @@ def test_an_environment_made_by_hand_is_taken_over(
     assert made(commands) == ["pip"]
 
 
-def test_an_environment_of_another_python_is_made_anew(
+def test_an_environment_of_another_python_is_made_again(
     checkout: Path, commands: list[list[str]]
 ) -> None:
     fill(checkout)
@@ -241,7 +241,7 @@ def test_make_without_a_command_shows_the_list() -> None:
     assert "make test" in shown.stdout
 
 
-def test_the_slow_share_draws_one_in_ten_anew_for_each_commit() -> None:
+def test_the_slow_share_draws_one_in_ten_again_for_each_commit() -> None:
     drawn = {
         commit: {test for test in TESTS if slow_share.is_drawn(test, commit, 1, 10)}
         for commit in COMMITS

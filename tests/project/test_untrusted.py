@@ -141,7 +141,7 @@ def test_deep_values_are_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_more_mistakes_than_can_be_told_are_counted(tmp_path: Path) -> None:
+def test_more_mistakes_than_can_be_reported_are_counted(tmp_path: Path) -> None:
     path = tmp_path / "wrong.toml"
     path.write_text("objects = [" + "[]," * 150_000 + "]")
     assert "150,001 mistakes" in refusals(path)[0]

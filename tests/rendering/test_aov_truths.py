@@ -122,7 +122,7 @@ def sized(scene: Scene, width: int = 16, height: int = 12) -> Scene:
 
 
 @pytest.mark.parametrize("name", ["weekend", "heap"])
-def test_aovs_tell_what_the_camera_rays_of_paths_meet(
+def test_aovs_report_what_the_camera_rays_of_paths_meet(
     context: Context, call_glsl: CallGlsl, name: str
 ) -> None:
     """By a tree of 484 balls, through a lens; and without either."""
@@ -192,9 +192,7 @@ def deviations(
 
 
 @pytest.mark.parametrize("sampler", SAMPLERS)
-def test_errors_of_positions_on_a_wall_are_those_that_seeds_show(
-    context: Context, sampler: str
-) -> None:
+def test_errors_of_positions_on_a_wall_are_what_seeds_show(context: Context, sampler: str) -> None:
     """Every pixel has the same spread: chi-square, of as many degrees as there are means.
 
     The estimates themselves have k - 1 degrees each, for k observations; so the ratio of variances
@@ -215,7 +213,7 @@ def test_errors_of_positions_on_a_wall_are_those_that_seeds_show(
 @pytest.mark.slow
 @pytest.mark.parametrize("samples", [64, 256])
 @pytest.mark.parametrize("sampler", SAMPLERS)
-def test_errors_of_all_aovs_are_those_that_seeds_show(
+def test_errors_of_all_aovs_are_what_seeds_show(
     context: Context, sampler: str, samples: int
 ) -> None:
     """Also at edges, in pixels that few samples of some blocks meet; 256 renders, to 5 %.

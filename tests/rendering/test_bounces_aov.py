@@ -134,7 +134,7 @@ def test_it_changes_no_bit_of_the_picture(context: Context) -> None:
     assert [*images[1].aovs] == ["bounces"]
 
 
-def test_another_limit_begins_anew(context: Context) -> None:
+def test_another_limit_begins_again(context: Context) -> None:
     renderer = Renderer(
         FURNACE, context=context, aov=("bounces",), roulette=False, bounces=2, **SIZE
     )

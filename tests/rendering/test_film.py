@@ -186,7 +186,7 @@ def test_rows_of_a_film_are_those_of_the_whole(film: Film, step: Step) -> None:
 
 
 @pytest.mark.slow
-def test_reading_a_picture_takes_little_memory_beside_it(
+def test_reading_a_picture_takes_little_memory_next_to_it(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What numpy and moderngl hold at most, as Python counts it."""

@@ -56,7 +56,7 @@ def test_what_is_shown_is_made_of_the_middle_and_the_end(context: Context) -> No
     assert found.error == wanted.error
 
 
-def test_aovs_that_are_asked_for_are_kept_beside(context: Context) -> None:
+def test_aovs_that_are_asked_for_are_kept_alongside(context: Context) -> None:
     image = rendered(context, samples=64, denoise="nlm", aov=("depth", "normal"))
     assert [*image.aovs] == ["normal", "depth"]
     without = rendered(context, samples=64, aov=("depth", "normal"))

@@ -102,7 +102,7 @@ def test_structs_survive_the_way_through_a_texture(ctx: moderngl.Context) -> Non
         texture.release()
 
 
-def test_the_first_rows_of_a_texture_are_written_anew(ctx: moderngl.Context) -> None:
+def test_the_first_rows_of_a_texture_are_written_again(ctx: moderngl.Context) -> None:
     """Others stay, but for those of the last line that is touched."""
     dtype = STRUCTS["Slot"]
     old, new = (np.full(5 * ROWS * dtype.itemsize, k, np.uint8).view(dtype) for k in (1, 2))
@@ -180,7 +180,7 @@ def test_a_driver_without_compute_renders_the_same_picture(
     renderer.release()
 
 
-def test_compute_wanted_in_vain_is_told(tmp_path: Path, old_driver: None) -> None:
+def test_compute_not_available_is_reported(tmp_path: Path, old_driver: None) -> None:
     told = glrt("render", "cornell", "-o", f"{tmp_path}/a.png", "--pipeline", "compute")
     assert told.returncode == 3
     assert "OpenGL 4.3" in told.stderr

@@ -91,7 +91,7 @@ def test_kernels_that_take_turns_give_the_bits_of_one(
         assert image.recipe == expected.recipe, "nobody can tell when it was"
 
 
-def test_a_recipe_tells_kernels_that_took_turns_where_a_driver_may_tell_them_apart(
+def test_a_recipe_reports_kernels_that_took_turns_where_a_driver_may_report_them_apart(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Then no render gives the same bits, and none goes on from there."""

@@ -79,7 +79,7 @@ def test_a_restart_drops_the_frame_that_has_begun(context: Context) -> None:
         assert same(renderer.render(2).image(), expected)
 
 
-def test_advance_tells_when_the_picture_changed_and_stops_at_its_target(context: Context) -> None:
+def test_advance_reports_when_the_picture_changed_and_stops_at_its_target(context: Context) -> None:
     with rendering(everything(), context, samples=40) as renderer:
         assert renderer.advance(10.0, 3)
         assert renderer.samples == 3

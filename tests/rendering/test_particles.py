@@ -155,7 +155,7 @@ def test_sums_need_both_of_their_words(context: Context, monkeypatch: pytest.Mon
     np.testing.assert_allclose(found[20], found[50], rtol=2e-4)
 
 
-def test_light_beyond_a_sum_is_cut_and_told(
+def test_light_beyond_a_sum_is_cut_and_reported(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     expected = picture(context)
@@ -167,7 +167,7 @@ def test_light_beyond_a_sum_is_cut_and_told(
     assert np.isfinite(image.radiance).all()
 
 
-def test_a_cut_is_told_by_the_command(
+def test_a_cut_is_reported_by_the_command(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Any
 ) -> None:
     monkeypatch.setattr(particles, "UNIT_BITS", 66)

@@ -99,7 +99,7 @@ def test_lamps_made_black_cost_no_kernel(context: Context) -> None:
 @pytest.mark.slow_cases("0.5-independent")
 @pytest.mark.parametrize("sampler", ["independent", "sobol"])
 @pytest.mark.parametrize("sky", [0.0, 0.5])
-def test_groups_weighed_anew_equal_a_fresh_render_up_to_noise(
+def test_groups_weighed_again_equal_a_fresh_render_up_to_noise(
     context: Context, sky: float, sampler: str
 ) -> None:
     before, after = {"warm": 1.0, "cold": 0.0}, {"warm": 0.3, "cold": 2.5}

@@ -71,7 +71,7 @@ def test_a_picture_of_fewer_bounces_comes_out_of_its_recipe_to_the_bit(
     assert not same_bits(alone.radiance, image.radiance)
 
 
-def test_what_is_asked_for_beside_a_relit_recipe_is_heeded(
+def test_what_is_asked_for_next_to_a_relit_recipe_is_heeded(
     context: Context, tmp_path: Path
 ) -> None:
     with layered(room(2), context) as renderer:
@@ -86,7 +86,7 @@ def test_what_is_asked_for_beside_a_relit_recipe_is_heeded(
         assert same_bits(more.radiance, radiance(fresh.render(4)))
 
 
-def test_a_picture_that_was_not_relit_tells_its_scene_once(context: Context) -> None:
+def test_a_picture_that_was_not_relit_reports_its_scene_once(context: Context) -> None:
     with layered(room(2), context) as renderer:
         renderer.render(2)
         recipe = renderer.image().recipe

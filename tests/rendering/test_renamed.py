@@ -55,7 +55,7 @@ def test_light_is_weighed_on_under_other_names(context: Context) -> None:
         assert renderer.samples == 8
 
 
-def test_what_is_more_than_a_name_is_told_apart() -> None:
+def test_what_is_more_than_a_name_is_distinguished() -> None:
     scene = room(2)
     other = renamed(scene)
     assert len(set(map(id, less_names(scene, scene)))) == 1

@@ -138,7 +138,7 @@ def merged_means(context: Context, renders: int, samples: int, count: int) -> tu
 
 
 @pytest.mark.parametrize(("samples", "count"), [(96, 3), (90, 2)])
-def test_errors_of_merged_pictures_are_those_that_seeds_show(
+def test_errors_of_merged_pictures_are_what_seeds_show(
     context: Context, samples: int, count: int
 ) -> None:
     """RMS of the deviations from a long render over that of the errors, pixel by pixel.

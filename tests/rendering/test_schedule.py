@@ -113,7 +113,7 @@ def test_who_looks_at_a_picture_sees_it_change_before_long() -> None:
             assert whole <= 1.05 * INTERACTIVE.patience or frame[0][0].samples == 1
 
 
-def test_a_picture_that_begins_anew_is_planned_by_what_a_single_sample_takes() -> None:
+def test_a_picture_that_begins_again_is_planned_by_what_a_single_sample_takes() -> None:
     schedule = Schedule(4096, 1000)
     assert frames(schedule, lanes, 256)[-1][0][0].samples == MOST_TOGETHER
     schedule.restart(4096, 1000, bounces=0)

@@ -126,7 +126,7 @@ def test_a_folder_whose_name_begins_alike_lies_outside(base: Path, tmp_path: Pat
     assert "a link that leads out" in refusal(AssetFolder(base), "link/key")
 
 
-def test_a_link_that_leads_out_is_refused_and_tells_nothing(base: Path, tmp_path: Path) -> None:
+def test_a_link_that_leads_out_is_refused_and_reports_nothing(base: Path, tmp_path: Path) -> None:
     (base / "file").symlink_to(tmp_path / "secret")
     (base / "up").symlink_to("..")
     (base / "chain").symlink_to("up/secret")

@@ -114,7 +114,7 @@ def test_thousands_of_damaged_files_are_read_or_refused(kind: str) -> None:
         survives(SOUND[kind], seed)
 
 
-def test_a_buffer_beside_the_file_is_read() -> None:
+def test_a_buffer_next_to_the_file_is_read() -> None:
     builder = textured_square()
     read = decode_mesh(
         builder.gltf("a%20b.bin"), "x.gltf", "here", {"a b.bin": builder.binary}.__getitem__

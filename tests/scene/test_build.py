@@ -113,7 +113,7 @@ def test_a_background_alone_is_a_scene() -> None:
     assert (scene.objects, scene.materials) == ((), {})
 
 
-def test_of_settings_a_scene_takes_those_that_were_given() -> None:
+def test_of_settings_a_scene_takes_what_were_given() -> None:
     assert room(render=glrt.Settings(samples=4)).render.samples == 4
     assert refusal(render=glrt.Settings(seed=1)).startswith("render: unknown key 'seed'.")
 
@@ -230,7 +230,7 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_place_that_cannot_be_written_is_told() -> None:
+def test_a_place_that_cannot_be_written_is_reported() -> None:
     with pytest.raises(RenderError, match="/nowhere"):
         room().save("/nowhere/scene.toml")
 
@@ -259,7 +259,7 @@ def test_the_example_of_the_page_runs(tmp_path: Path) -> None:
     assert len(glrt.load(tmp_path / "balls.toml").objects) == 27
 
 
-def test_the_mistake_of_the_page_is_told_so() -> None:
+def test_the_mistake_of_the_page_is_reported_so() -> None:
     (text,) = blocks(PAGE, "text")
     assert refusal(objects=[BALL] * 3 + [{**BALL, "radius": -1}]) in text
 

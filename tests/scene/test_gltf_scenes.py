@@ -165,7 +165,7 @@ def test_closed_glass_has_a_volume_and_open_glass_is_thin(tmp_path: Path) -> Non
     assert "the volume of glass that is not closed" in told
 
 
-def test_what_is_left_out_is_told_once(tmp_path: Path) -> None:
+def test_what_is_left_out_is_reported_once(tmp_path: Path) -> None:
     builder = textured_square(
         extensions={"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}}}
     )

@@ -220,7 +220,7 @@ def test_a_scene_with_a_mesh_is_saved_and_read_again(folder: Path, tmp_path: Pat
     assert (tmp_path / "other/models/thing.ply").read_bytes() == FILES["binary PLY"][1]
 
 
-def test_a_mesh_of_arrays_is_saved_beside_its_scene(tmp_path: Path) -> None:
+def test_a_mesh_of_arrays_is_saved_next_to_its_scene(tmp_path: Path) -> None:
     scene = glrt.Scene.build(
         {"position": [0, 0, 4], "look_at": [0, 0, 0]},
         [glrt.Mesh(POINTS, FACES, material="clay"), glrt.Mesh(POINTS, FACES, material="clay")],
@@ -236,7 +236,7 @@ def test_a_mesh_of_arrays_is_saved_beside_its_scene(tmp_path: Path) -> None:
     assert np.array_equal(np.load(tmp_path / "b.npy"), image.radiance)
 
 
-def test_the_command_tells_of_the_mesh(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_reports_of_the_mesh(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", str(folder / "scene.toml")]) == 0
     told = capsys.readouterr().out
     assert "1 mesh of 12 triangles" in told

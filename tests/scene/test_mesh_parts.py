@@ -151,7 +151,9 @@ def test_a_scene_is_saved_and_a_picture_rendered_again_without_the_mtl_file(
     )
 
 
-def test_what_is_not_read_is_told_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_not_read_is_reported_once(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["inspect", str(folder / "scene.toml")]) == 0
     told = capsys.readouterr().out
     assert told.count("models/two.mtl: of models/two.obj is left out: map_Kd.") == 1

@@ -67,7 +67,7 @@ def test_a_saved_model_has_the_same_picture_elsewhere(tmp_path: Path, context: C
     assert same(rendered(scene, context, 4), rendered(again, context, 4))
 
 
-def test_an_image_file_beside_a_gltf_is_named_itself(tmp_path: Path) -> None:
+def test_an_image_file_next_to_a_gltf_is_named_itself(tmp_path: Path) -> None:
     builder = textured_square()
     builder.json["images"] = [{"uri": "a%20b.png"}]
     (tmp_path / "models").mkdir()

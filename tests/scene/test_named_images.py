@@ -54,7 +54,7 @@ def test_scenes_are_equal_if_paths_and_contents_are(folder: Path) -> None:
     assert scene != load(folder / "scene.toml")
 
 
-def test_a_scene_file_tells_the_path_alone(folder: Path) -> None:
+def test_a_scene_file_reports_the_path_alone(folder: Path) -> None:
     table = scene_to_dict(load(folder / "scene.toml"))["background"]
     assert table == {"image": "images/sky.exr", "rotation": 40.0}
 

@@ -64,7 +64,7 @@ def test_a_scene_renders_to_something_finite_and_not_black(name: str, context: C
 
 
 @pytest.mark.parametrize("name", scene_names())
-def test_a_scene_names_no_material_in_vain(name: str) -> None:
+def test_a_scene_uses_every_material_it_names(name: str) -> None:
     scene = load(name)
     assert set(scene.materials) == {thing.material for thing in scene.objects}
 

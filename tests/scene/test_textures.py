@@ -136,7 +136,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_what_is_wrong_is_told_by_its_key(name: str) -> None:
+def test_what_is_wrong_is_reported_by_its_key(name: str) -> None:
     keys, message = WRONG[name]
     with pytest.raises(SceneError) as caught:
         scene_with(**keys)
@@ -184,7 +184,7 @@ def test_wrong_coordinates_are_refused(uv: Any, message: str) -> None:
         glrt.Mesh(points, [[0, 1, 2], [1, 2, 3]], uv=uv, material="m")
 
 
-def test_a_missing_image_is_told_with_its_key(tmp_path: Path) -> None:
+def test_a_missing_image_is_reported_with_its_key(tmp_path: Path) -> None:
     scene_with(color={"image": "wood.png"}).save(tmp_path / "scene.toml")
     with pytest.raises(SceneError, match=r"materials.m.color.image: there is no file 'wood.png'"):
         load(tmp_path / "scene.toml")

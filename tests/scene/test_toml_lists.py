@@ -97,7 +97,7 @@ def test_a_new_object_is_written_behind_the_others_without_defaults(tmp_path: Pa
     ]
 
 
-def test_an_object_that_comes_beside_one_that_goes_and_one_that_changes(tmp_path: Path) -> None:
+def test_an_object_that_comes_next_to_one_that_goes_and_one_that_changes(tmp_path: Path) -> None:
     def change(scene: Scene) -> Scene:
         one, _, three = scene.objects
         new = replaced(one, name="new", center=(1.0, 1.0, 1.0))

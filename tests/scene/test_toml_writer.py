@@ -44,7 +44,7 @@ def test_intensities_stand_in_the_table_of_lights(tmp_path: Path) -> None:
     assert read_scene(tmp_path / "scene.toml").render.bounces == 3
 
 
-def test_a_place_that_cannot_be_written_is_told() -> None:
+def test_a_place_that_cannot_be_written_is_reported() -> None:
     with pytest.raises(RenderError, match="/nowhere"):
         write_scene(load("cornell"), Path("/nowhere/scene.toml"))
 
@@ -117,7 +117,7 @@ def test_a_scene_that_was_not_changed_is_written_as_it_was(name: str, tmp_path: 
 
 
 @pytest.mark.parametrize("ending", ["\n", "\r\n"])
-def test_only_what_was_changed_is_written_anew(tmp_path: Path, ending: str) -> None:
+def test_only_what_was_changed_is_written_again(tmp_path: Path, ending: str) -> None:
     def change(scene: Scene) -> Scene:
         ball = replaced(scene.objects[0], center=(0.0, 0.25, 0.0), radius=1.5)
         camera = replaced(scene.camera, position=(0.0, 1.5, 7.0), fov=30.0)
@@ -178,7 +178,7 @@ def test_other_ways_to_write_a_scene_keep_their_comments(tmp_path: Path, text: s
         assert comment in new
 
 
-def test_another_material_is_written_beside_the_others(tmp_path: Path) -> None:
+def test_another_material_is_written_next_to_the_others(tmp_path: Path) -> None:
     def change(scene: Scene) -> Scene:
         green = replaced(scene.materials["white"], color=(0.1, 0.5, 0.2))
         return replaced(scene, materials={**scene.materials, "green": green})

@@ -45,7 +45,7 @@ REFUSED: dict[str, tuple[Any, Any, Any]] = {
 
 
 @pytest.mark.parametrize("message", REFUSED)
-def test_what_is_wrong_is_told_by_its_number(message: str) -> None:
+def test_what_is_wrong_is_reported_by_its_number(message: str) -> None:
     with pytest.raises(ValueError, match=r".") as caught:
         checked(*REFUSED[message])
     assert message in str(caught.value)

@@ -34,7 +34,7 @@ def test_scenes_that_come_with_glrt_need_no_caution(name: str) -> None:
 
 
 @pytest.mark.parametrize(("radius", "warns"), [(1e3, False), (0.9e4, False), (2e4, True)])
-def test_huge_ball_close_to_the_camera_is_told(radius: float, warns: bool) -> None:
+def test_huge_ball_close_to_the_camera_is_reported(radius: float, warns: bool) -> None:
     ground = {**sphere([0, -radius - 1, 0], radius, "m"), "name": "ground"}
     found = told(with_balls(ground))
     assert bool(found) == warns
@@ -45,14 +45,14 @@ def test_huge_ball_close_to_the_camera_is_told(radius: float, warns: bool) -> No
 
 
 @pytest.mark.parametrize(("radius", "warns"), [(0.3, False), (1e-3, True)])
-def test_huge_ball_under_a_small_one_is_told(radius: float, warns: bool) -> None:
+def test_huge_ball_under_a_small_one_is_reported(radius: float, warns: bool) -> None:
     ground = sphere([0, -1600, -50], 1e3, "m")  # the camera is 600 above it
     small = sphere([0, -600 + radius, -50], radius, "m")
     far = sphere([0, 50, -50], 1e-3, "m")
     assert bool(told(with_balls(ground, small, far))) == warns
 
 
-def test_camera_on_the_surface_of_a_ball_is_told() -> None:
+def test_camera_on_the_surface_of_a_ball_is_reported() -> None:
     text = told(with_balls(sphere([0, -2, 0], 2, "m")))[0]
     assert "times the distance of the camera" in text
     assert "to 100 % of that" in text
@@ -69,7 +69,7 @@ def test_camera_on_the_surface_of_a_ball_is_told() -> None:
         ([0.0, 0, -5], 1.0, False),  # the same
     ],
 )
-def test_glass_that_crosses_glass_is_told(center: Any, radius: float, warns: bool) -> None:
+def test_glass_that_crosses_glass_is_reported(center: Any, radius: float, warns: bool) -> None:
     first = sphere([0, 0, -5], 1, "glass")
     found = about("and cross", with_balls(first, sphere(center, radius, "glass")))
     assert len(found) == warns
@@ -103,7 +103,7 @@ AROUND = sphere([0, 0, 0.5], 2, "m")  # the camera is at the origin
         ([AROUND, sphere([0, 1, 0], 0.2, "lamp"), sphere([0, 0, 0], 0.5, "m")], True),  # in two
     ],
 )
-def test_a_camera_within_a_dark_ball_is_told(
+def test_a_camera_within_a_dark_ball_is_reported(
     context: Context, things: list[dict[str, Any]], warns: bool
 ) -> None:
     """And its picture is black, under a white sky; all others show something."""
@@ -116,7 +116,7 @@ def test_a_camera_within_a_dark_ball_is_told(
 
 
 @pytest.mark.parametrize(("fov", "height", "warns"), [(1e-3, 64, False), (1e-3, 512, True)])
-def test_pixels_narrower_than_a_rounding_are_told(fov: float, height: int, warns: bool) -> None:
+def test_pixels_narrower_than_a_rounding_are_reported(fov: float, height: int, warns: bool) -> None:
     found = told(with_balls(sphere([0, 0, -5], 1, "m"), fov=fov), height=height)
     assert bool(found) == warns
     if warns:
@@ -139,7 +139,7 @@ BLACK = {"color": [0, 0, 0]}
         ([BALL], {"background": {"color": [1, 1, 1]}, "lights": {"background": 0}}, "[background]"),
     ],
 )
-def test_a_scene_without_light_is_told_with_the_remedy(
+def test_a_scene_without_light_is_reported_with_the_remedy(
     context: Context, things: list[dict[str, Any]], tables: dict[str, Any], remedy: str
 ) -> None:
     """And its picture is black, with an error of 0; all others show something."""
@@ -169,7 +169,7 @@ material = "white"
 """
 
 
-def test_commands_tell_it_and_go_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_commands_report_it_and_go_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE)
     render = ["render", str(scene), "-o", str(tmp_path / "a.npy"), "--samples", "1"]
@@ -209,7 +209,7 @@ CAN = {"shape": "cylinder", "from": [0, -1, -5], "to": [0, 1, -5], "radius": 1, 
     ],
 )
 @pytest.mark.parametrize("turned", [False, True])
-def test_solids_of_glass_that_cross_are_told(
+def test_solids_of_glass_that_cross_are_reported(
     first: Any, second: Any, warns: bool, turned: bool
 ) -> None:
     """A tumbler and its water, for one: apart and within each other are fine."""
@@ -241,7 +241,7 @@ BESIDE = {"min": [1, -1, -6], "max": [2, 1, -4]}
         (TURNED, sphere([0, 2, -5], 1, "glass"), False),  # touches in a point
     ],
 )
-def test_glass_that_shares_a_face_is_told(first: Any, second: Any, shares: bool) -> None:
+def test_glass_that_shares_a_face_is_reported(first: Any, second: Any, shares: bool) -> None:
     """With a remedy, as of the water in a glass and the air on it."""
     materials = MATERIALS | {"open": MATERIALS["m"]}
     things = [
@@ -265,7 +265,7 @@ def test_glass_that_shares_a_face_is_told(first: Any, second: Any, shares: bool)
     ],
 )
 @pytest.mark.parametrize("solid", [BOX, sphere([0, 0, -5], 1, "glass")])
-def test_glass_in_glass_that_looks_given_against_air_is_told(
+def test_glass_in_glass_that_looks_given_against_air_is_reported(
     inner: float, outer: float, advice: str, solid: Any
 ) -> None:
     materials = {"glass": glass(outer), "water": glass(inner)}

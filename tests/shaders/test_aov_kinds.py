@@ -21,7 +21,7 @@ def test_every_aov_has_a_number_of_its_own() -> None:
 
 @pytest.mark.parametrize("file", FILES)
 @pytest.mark.parametrize("aov", get_args(Aov))
-def test_every_aov_is_named_where_one_is_told_from_the_others(aov: Aov, file: str) -> None:
+def test_every_aov_is_named_where_one_is_distinguished_from_the_others(aov: Aov, file: str) -> None:
     if aov in OF_PATHS and file != "aov_view.frag":  # its pass traces whole paths
         assert aov_pass((aov,)).constants[f"COUNT_{aov.upper()}"] is True
     else:

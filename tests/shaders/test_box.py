@@ -251,7 +251,7 @@ def test_a_box_without_volume_is_refused() -> None:
         scene_of([box([0, 0, 0], [1, 0, 1], "m")], {"m": MATTE})
 
 
-def test_a_box_as_a_lamp_is_told_to_be_found_by_scattering() -> None:
+def test_a_box_as_a_lamp_is_reported_to_be_found_by_scattering() -> None:
     scene = one(material=lamp())
     told = {feature.name: feature.reason for feature in explain(scene, Settings())}
     assert told["light sampling"].endswith("1 box lamp (by scattering alone)")

@@ -147,7 +147,7 @@ def test_rays_through_the_lens_meet_in_the_plane_of_focus(call_glsl: CallGlsl) -
     assert np.abs(origin @ forward).max() < 1e-6  # the lens stands upright
 
 
-def test_the_lens_is_a_disk_of_the_size_told_and_evenly_filled(call_glsl: CallGlsl) -> None:
+def test_the_lens_is_a_disk_of_the_size_reported_and_evenly_filled(call_glsl: CallGlsl) -> None:
     seeds = np.arange(2**16, dtype=np.uint32)
     pixel = np.tile([50.0, 20.0], (len(seeds), 1))
     origin, _ = rays(call_glsl, seen_by(LENS), pixel, seeds)

@@ -31,7 +31,7 @@ def unnamed(kinds: tuple[str, ...]) -> set[str]:
     return {name for name, found in bodies.items() if found and not found.issuperset(flags)}
 
 
-def test_every_kind_of_lamp_is_named_where_kinds_are_told_apart() -> None:
+def test_every_kind_of_lamp_is_named_where_kinds_are_distinguished() -> None:
     assert unnamed(SAMPLED) == set()
 
 

@@ -70,7 +70,7 @@ def test_facets_scatter_as_the_textbook_says(
 
 
 @pytest.mark.parametrize(("roughness", "ior"), GLASSES)
-def test_light_goes_both_ways_but_for_eta_squared(
+def test_light_goes_both_ways_except_for_eta_squared(
     call_glsl: CallGlsl, roughness: float, ior: float
 ) -> None:
     """f(wo, wi) cos wi cos wo: alike when both change places, over n^2 of the side of wi."""

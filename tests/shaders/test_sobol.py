@@ -215,7 +215,7 @@ def test_the_error_needs_two_blocks(context: Context, sampler: str, block: int) 
         assert np.isfinite(renderer.render(2 * block).image().stderr).all()
 
 
-def test_a_restart_gives_the_picture_anew(context: Context) -> None:
+def test_a_restart_gives_the_picture_again(context: Context) -> None:
     with rendering(everything(), context, sampler="sobol") as renderer:
         first = renderer.render(40).image()
         renderer.restart()

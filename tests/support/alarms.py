@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike, NDArray
 
-from tests.support.workers import tell, told_by
+from tests.support.workers import report, reported_by
 
 ALPHA = 1e-7  # of one verdict
 LIMIT = 1e-4  # of a run of all tests that are not slow, or of all slow ones
@@ -88,7 +88,7 @@ def chi_square_tail(statistic: float, degrees: int) -> float:
 @pytest.hookimpl(wrapper=True)
 def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
     """A run that would alarm too often by chance is no proof."""
-    tell(session.config, CHANCE, sum(_booked))
+    report(session.config, CHANCE, sum(_booked))
     yield
     if sum(_booked) > LIMIT and session.exitstatus == pytest.ExitCode.OK:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
@@ -97,7 +97,7 @@ def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: object) -> None:
     """A worker of pytest-xdist has ended: the limit is that of the whole run."""
-    _booked.append(float(told_by(node, CHANCE, 0.0)))
+    _booked.append(float(reported_by(node, CHANCE, 0.0)))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -17,7 +17,7 @@ from typing import Any
 import moderngl
 import pytest
 
-from tests.support.workers import tell, told_by
+from tests.support.workers import report, reported_by
 
 MOST_PROGRAMS = 960  # this figure only falls
 MOST_SECONDS = 2.0  # of one test
@@ -96,7 +96,7 @@ def _of_process(process: int) -> float:
 @pytest.hookimpl(wrapper=True)
 def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
     """Judge the whole run, where it is one of the fast tier."""
-    tell(session.config, COSTS, json.dumps([_programs, _seconds, _total]))
+    report(session.config, COSTS, json.dumps([_programs, _seconds, _total]))
     yield
     if excess(session.config) and session.exitstatus == pytest.ExitCode.OK:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
@@ -106,7 +106,7 @@ def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
 def pytest_testnodedown(node: object) -> None:
     """A worker of pytest-xdist has ended."""
     global _total
-    programs, seconds, total = json.loads(str(told_by(node, COSTS, "[{}, {}, 0]")))
+    programs, seconds, total = json.loads(str(reported_by(node, COSTS, "[{}, {}, 0]")))
     for digest, test in programs.items():
         _programs.setdefault(digest, test)
     _seconds.update(seconds)

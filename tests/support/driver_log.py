@@ -22,7 +22,7 @@ def compile_log(*stages: tuple[int, str]) -> str:
         gl.glAttachShader(program, shader)
         gl.glDeleteShader(shader)
     gl.glLinkProgram(program)
-    linked = _tell(gl, "Program", program, _LINK_STATUS)
+    linked = _report(gl, "Program", program, _LINK_STATUS)
     gl.glDeleteProgram(program)
     return "\n".join(filter(None, [*(log for _, log in shaders), linked]))
 
@@ -37,10 +37,10 @@ def _compile(gl: ctypes.CDLL, stage: int, text: str) -> tuple[int, str]:
     shader = gl.glCreateShader(stage)
     gl.glShaderSource(shader, 1, ctypes.byref(ctypes.c_char_p(text.encode())), None)
     gl.glCompileShader(shader)
-    return shader, _tell(gl, "Shader", shader, _COMPILE_STATUS)
+    return shader, _report(gl, "Shader", shader, _COMPILE_STATUS)
 
 
-def _tell(gl: ctypes.CDLL, kind: str, name: int, status: int) -> str:
+def _report(gl: ctypes.CDLL, kind: str, name: int, status: int) -> str:
     """The log of a shader or a program."""
     good, length = ctypes.c_int(), ctypes.c_int()
     ask = getattr(gl, f"glGet{kind}iv")

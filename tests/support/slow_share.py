@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.workers import tell, told_by
+from tests.support.workers import report, reported_by
 
 DRAWN = pytest.StashKey[str]()
 SHARE = "slow share"  # by this name a worker of pytest-xdist tells what was drawn
@@ -75,7 +75,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 @pytest.hookimpl(wrapper=True)
 def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
     """A share without a test is a share all the same."""
-    tell(session.config, SHARE, session.config.stash.get(DRAWN, ""))
+    report(session.config, SHARE, session.config.stash.get(DRAWN, ""))
     yield
     if DRAWN in session.config.stash and session.exitstatus == pytest.ExitCode.NO_TESTS_COLLECTED:
         session.exitstatus = pytest.ExitCode.OK
@@ -84,7 +84,7 @@ def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: Any) -> None:
     """A worker of pytest-xdist has ended: all of them draw the same."""
-    if drawn := told_by(node, SHARE, ""):
+    if drawn := reported_by(node, SHARE, ""):
         node.config.stash[DRAWN] = drawn
 
 

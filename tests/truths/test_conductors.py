@@ -158,7 +158,7 @@ def test_albedo_is_what_is_reflected_head_on(context: Context) -> None:
     assert_allclose(gold, plain, atol=1e-6)
 
 
-def test_two_metals_are_told_apart(context: Context) -> None:
+def test_two_metals_are_distinguished(context: Context) -> None:
     """Each in a room of its own colour, which a metal of a color shares."""
     silver = PRESETS["silver"]
     balls = [sphere([0, 0, -0.5], 0.1, "b"), sphere([0.3, 0, 0], 0.1, "c")]

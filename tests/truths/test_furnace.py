@@ -137,7 +137,7 @@ def test_rough_metal_reflects_no_more_than_it_receives(context: Context, roughne
 
 
 @pytest.mark.parametrize("roughness", [5e-324, 1e-12, 9.9e-5])
-def test_metal_smoother_than_a_float_can_tell_is_a_mirror(
+def test_metal_smoother_than_a_float_can_report_is_a_mirror(
     context: Context, roughness: float
 ) -> None:
     """Its alpha squared may be 0 in float32: 0 / 0 in the density of GGX."""

@@ -61,7 +61,7 @@ def test_another_colour_of_a_lamp_in_two_groups_is_weighed_in_both(context: Cont
     assert found.max(axis=(0, 1)).tolist() == [1.0, 4.0, 0.0]
 
 
-def test_a_surface_that_stops_to_emit_is_traced_anew(context: Context) -> None:
+def test_a_surface_that_stops_to_emit_is_traced_again(context: Context) -> None:
     ways = ({"emission": [1.0] * 3, "group": "one"}, {"emission": [0.0] * 3, "group": "one"})
     first, second = (
         scene_of(

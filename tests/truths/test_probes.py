@@ -148,7 +148,7 @@ def test_the_picture_of_other_samples_at_once_has_the_same_bits(context: Context
 
 
 @pytest.mark.slow
-def test_the_error_tells_the_noise_of_probes(context: Context) -> None:
+def test_the_error_reports_the_noise_of_probes(context: Context) -> None:
     """Over seeds, pictures vary as each of them says: probes too, which all of its pixels share."""
     found: list[Image] = []
     with rendering(load("methods/diffuse"), context, **{**WAY, "width": 8, "height": 8}) as it:

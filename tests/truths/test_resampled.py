@@ -99,7 +99,7 @@ def test_direct_light_and_one_bounce_are_those_of_paths(context: Context, reuse:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LAMPS)
-def test_points_on_all_kinds_of_lamps_are_weighed_beside_scattering(
+def test_points_on_all_kinds_of_lamps_are_weighed_next_to_scattering(
     context: Context, name: str
 ) -> None:
     scene = lit_by(name)
@@ -203,7 +203,7 @@ def test_reuse_of_pixels_around_takes_noise_from_a_picture(context: Context) -> 
 
 
 @pytest.mark.slow
-def test_the_error_tells_the_noise_of_what_samples_share(context: Context) -> None:
+def test_the_error_reports_the_noise_of_what_samples_share(context: Context) -> None:
     """Over seeds, pictures vary as each of them says."""
     scene, images = load("methods/diffuse"), []
     ways: dict[str, Any] = {**WAY, "reuse": "both", "width": 12, "height": 12, "bounces": 2}

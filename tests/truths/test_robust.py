@@ -107,10 +107,10 @@ def test_ball_on_a_floor_far_from_the_origin_is_lit_as_at_home(
         [plane(away, [0, 1, 0], "floor"), ball], materials, eye, background={"color": [1, 1, 1]}
     )
     image = rendered(scene, context, 512, bounces=1, width=32, height=32)
-    assert_mean(whole(image), 0.5 * (1 - ball_beside(1 / 5, 1 / math.sqrt(5))), within=0.005)
+    assert_mean(whole(image), 0.5 * (1 - ball_next_to(1 / 5, 1 / math.sqrt(5))), within=0.005)
 
 
-def ball_beside(s2: float, cosine: float) -> float:
+def ball_next_to(s2: float, cosine: float) -> float:
     """Form factor of a ball that touches the horizon: its rim lies on it, none is cut off."""
     return s2 * cosine
 

@@ -164,7 +164,7 @@ def test_both_pipelines_and_tiers_show_the_same_bits(context: Context) -> None:
     assert len(pictures) == 1
 
 
-def test_what_is_not_done_is_told() -> None:
+def test_what_is_not_done_is_reported() -> None:
     scene = under(random_sky(4, 2), FLOOR)
     reasons = {feature.name: feature for feature in explain(scene, Settings())}
     assert reasons["image of the sky"].present

@@ -58,7 +58,7 @@ def test_the_density_is_that_of_a_direction_and_integrates_to_one(
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_samples_tell_the_density_and_the_radiance_of_their_direction(
+def test_samples_report_the_density_and_the_radiance_of_their_direction(
     call_glsl: CallGlsl, size: tuple[int, int]
 ) -> None:
     pixels = random_sky(*size)

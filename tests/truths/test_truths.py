@@ -203,7 +203,7 @@ def test_pixel_shows_how_much_of_it_is_covered(context: Context) -> None:
 
 @pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize(("angle", "width"), [(25.0, 64), (40.0, 32)])
-def test_lamp_beside_the_axis_is_seen_as_an_ellipse(
+def test_lamp_next_to_the_axis_is_seen_as_an_ellipse(
     context: Context, angle: float, width: int, sampler: str
 ) -> None:
     """The cone of half angle s about an axis tilted by p cuts the plane at distance 1 in an

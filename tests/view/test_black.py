@@ -107,7 +107,7 @@ BELOW: dict[str, Any] = {"position": [0, -1.5, 0], "look_at": [0, -1.5, -1]}
         (seen(LIT, look_at=[0.1, -0.9, 0.2]), {"bounces": 0}, "0 bounces"),
     ],
 )
-def test_the_reason_is_told(looked: Any, scene: Scene, settings: Any, words: str) -> None:
+def test_the_reason_is_reported(looked: Any, scene: Scene, settings: Any, words: str) -> None:
     reason = looked(scene, **settings)
     assert words in reason
     assert bool(reason) == bool(words)

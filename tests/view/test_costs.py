@@ -37,7 +37,7 @@ def live(session: Session, bounces: int) -> Plan:
         (10, 4, Cost.RESTART),
     ],
 )
-def test_the_label_of_bounces_tells_how_far_the_layers_reach(
+def test_the_label_of_bounces_reports_how_far_the_layers_reach(
     session: Session, traced: int, reach: int, beyond: Cost
 ) -> None:
     plan = live(session, traced)
@@ -61,7 +61,9 @@ def test_an_edit_of_bounces_costs_what_its_label_says(session: Session) -> None:
         assert session.last_cost is cost
 
 
-def test_the_limit_that_was_traced_is_told_while_fewer_bounces_are_shown(session: Session) -> None:
+def test_the_limit_that_was_traced_is_reported_while_fewer_bounces_are_shown(
+    session: Session,
+) -> None:
     live(session, 10)
     for bounces, traced in ((10, 10), (4, 10), (1, 10), (7, 7)):
         session.edit(bounces=bounces)

@@ -85,7 +85,7 @@ def test_it_is_what_a_render_makes(session: Session, denoised: DenoisedPicture) 
 
 
 @pytest.mark.slow
-def test_an_edit_begins_anew(session: Session, denoised: DenoisedPicture) -> None:
+def test_an_edit_begins_again(session: Session, denoised: DenoisedPicture) -> None:
     session.edit(samples=64)
     first = found(session, denoised, 64)
     session.edit(bounces=2)
@@ -140,7 +140,7 @@ def test_a_filter_that_is_under_way_is_ended_and_not_waited_for(
     assert denoised.found is None
 
 
-def test_a_filter_that_fails_is_told(
+def test_a_filter_that_fails_is_reported(
     session: Session, denoised: DenoisedPicture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(denoise_process, "COMMAND", [sys.executable, "-c", "raise MemoryError"])

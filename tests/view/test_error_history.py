@@ -10,7 +10,7 @@ from glrt.error.estimate import Band
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.plan.plan import ONE, Weight
-from glrt.view.panels.plots import forecast, told_error
+from glrt.view.panels.plots import error_text, forecast
 from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
 from tests.support.mixed_scene import everything
 from tests.support.renders import rendering
@@ -91,7 +91,7 @@ def test_the_forecast_is_that_of_noise() -> None:
         (0.0001, 256, "0.01 % takes more samples than a picture holds"),
     ],
 )
-def test_the_forecast_tells_when_the_samples_end_before(
+def test_the_forecast_reports_when_the_samples_end_before(
     target: float, samples: int, told: str
 ) -> None:
     progress = Progress()
@@ -134,7 +134,7 @@ def test_a_look_that_no_logarithm_has_a_place_for_is_left_out_of_the_plot(error:
     assert progress.limits()[2] > 0
 
 
-def test_a_look_tells_what_the_picture_tells(context: Context) -> None:
+def test_a_look_reports_what_the_picture_tells(context: Context) -> None:
     weights = ((2.0, 2.0, 2.0),)
     with rendering(everything(), context) as renderer:
         renderer.render(1)
@@ -159,11 +159,11 @@ def test_the_rim_of_a_small_sun_is_not_believed(context: Context) -> None:
             look = look_at(renderer, (ONE,), 1.0)
     assert look
     assert look.error < 0.03
-    assert "not to be believed" in told_error(look)
+    assert "not to be believed" in error_text(look)
 
 
 @pytest.mark.parametrize("is_rim", [True, False])
-def test_an_error_that_is_not_to_be_believed_is_told_so(context: Context, is_rim: bool) -> None:
+def test_an_error_that_is_not_to_be_believed_is_reported_so(context: Context, is_rim: bool) -> None:
     size = {"width": 48, "height": 36, "bounces": 6, "sampler": "sobol", "seed": 4}
     scene = fooling_scene("rims of small suns", 30014)[0] if is_rim else load("metals")
     with rendering(scene, context, **size) as renderer:
@@ -172,6 +172,6 @@ def test_an_error_that_is_not_to_be_believed_is_told_so(context: Context, is_rim
             known, relit = (look_at(renderer, (weight,), 1.0) for weight in (ONE, HALF))
     assert known
     assert known.is_doubtful is is_rim
-    assert ("not to be believed" in told_error(known)) is is_rim
+    assert ("not to be believed" in error_text(known)) is is_rim
     assert relit
     assert relit.is_doubtful is None, "of other light"

@@ -109,7 +109,7 @@ def test_always_live_probes_never_rest(opened: Opened, clock: Clock) -> None:
     assert session.is_done
 
 
-def test_probes_that_are_not_live_are_made_anew(opened: Opened) -> None:
+def test_probes_that_are_not_live_are_made_again(opened: Opened) -> None:
     session = opened("off")
     dim(session, 0.5)
     frames(session, 2)
@@ -130,6 +130,6 @@ def test_methods_without_probes_are_left_alone(context: Context, clock: Clock) -
         session.release()
 
 
-def test_the_lag_is_told_while_there_is_one() -> None:
+def test_the_lag_is_reported_while_there_is_one() -> None:
     assert told(0.0) == ""
     assert "61%" in told(0.97**16)

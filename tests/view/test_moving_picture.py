@@ -131,7 +131,7 @@ def test_a_picture_of_few_samples_ends_without_history(moving: Session) -> None:
     assert not is_shown(moving)
 
 
-def test_no_error_is_told_while_history_is_shown(moving: Session) -> None:
+def test_no_error_is_reported_while_history_is_shown(moving: Session) -> None:
     progress = Progress()
     walk(moving)
     moving.advance(0.01, count=40)
@@ -154,7 +154,7 @@ def test_other_light_by_weights_ends_history(moving: Session) -> None:
     assert not is_shown(moving)
 
 
-def test_a_picture_begun_anew_has_no_history(moving: Session) -> None:
+def test_a_picture_begun_again_has_no_history(moving: Session) -> None:
     walk(moving)
     moving.restart()
     moving.advance(0.01, count=1)
@@ -196,7 +196,7 @@ def test_without_room_for_models_the_picture_goes_on_without_history(
     assert not is_shown(moving)
 
 
-def test_without_room_to_show_a_picture_it_is_told_once(
+def test_without_room_to_show_a_picture_it_is_reported_once(
     moving: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:

@@ -134,7 +134,7 @@ def test_a_wheel_that_spins_freely_counts_no_further_than_most_clicks() -> None:
 
 
 @pytest.mark.parametrize("radius", [0.9 * LARGEST, SMALLEST])
-def test_what_cannot_be_framed_is_told(radius: float) -> None:
+def test_what_cannot_be_framed_is_reported(radius: float) -> None:
     with pytest.raises(UsageError):
         orbit.framed(EYE, (3.0, -1.0, 2.0), radius)
 

@@ -36,7 +36,7 @@ BINDINGS = [
 
 
 @pytest.mark.parametrize("text", [*BROKEN, *(f'{{"bindings": {text}}}' for text in BINDINGS)])
-def test_a_broken_file_is_told_and_not_used(tmp_path: Path, text: str) -> None:
+def test_a_broken_file_is_reported_and_not_used(tmp_path: Path, text: str) -> None:
     file = tmp_path / "view.json"
     file.write_bytes(text.encode("utf-8", "surrogatepass"))
     preferences, problem = load_preferences(file)
@@ -66,7 +66,7 @@ def test_a_usual_key_that_was_chosen_for_something_else_leaves_its_action() -> N
     assert (bindings["home"], bindings["forward"]) == (("w",), ("up_arrow",))
 
 
-def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_made_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     assert "cannot be kept" in save_preferences(Preferences(), tmp_path / "file" / "view.json")
 

@@ -139,7 +139,7 @@ def test_at_rest_it_gives_its_film_back(kept: ReferenceImage, next_one: Renderer
     assert kept.light(next_one) is None
 
 
-def test_the_difference_is_told_in_numbers(context: Context) -> None:
+def test_the_difference_is_reported_in_numbers(context: Context) -> None:
     """A twice as bright on the left half: the mean is 1/3 darker, half of the pixels by 1/2."""
     here = np.ones((4, 6, 4), np.float32)
     there = here.copy()

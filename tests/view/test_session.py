@@ -64,7 +64,7 @@ def test_an_edit_that_is_taken_back_within_a_frame_costs_nothing(session: Sessio
     assert session.samples > samples
 
 
-def test_a_refused_setting_is_told_and_changes_nothing(session: Session) -> None:
+def test_a_refused_setting_is_reported_and_changes_nothing(session: Session) -> None:
     start(session)
     before = session.state
     session.edit(bounces=-1)
@@ -73,7 +73,7 @@ def test_a_refused_setting_is_told_and_changes_nothing(session: Session) -> None
     assert not session.history.can_undo
 
 
-def test_what_the_renderer_refuses_is_told_and_the_old_scene_goes_on(
+def test_what_the_renderer_refuses_is_reported_and_the_old_scene_goes_on(
     session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object, **__: object) -> None:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from glrt.view.widgets.slider_text import Slider, beside_grip, share_of
+from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 
 GRIP, SPACE, FORM = 12.0, 4.0, "%.3g"
 
@@ -16,10 +16,10 @@ def place_of(form: str, width: float, text: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("width", [100.0, 130.0, 250.0])
 @pytest.mark.parametrize("text", [8.0, 28.0, 40.0])
-def test_a_number_stands_beside_the_grip_and_in_its_slider(width: float, text: float) -> None:
+def test_a_number_stands_next_to_the_grip_and_in_its_slider(width: float, text: float) -> None:
     for percent in range(101):
         slider = Slider(width, GRIP, percent / 100)
-        left, right = place_of(beside_grip(FORM, slider, text, SPACE), width, text)
+        left, right = place_of(text_next_to_grip(FORM, slider, text, SPACE), width, text)
         assert right <= slider.middle - GRIP / 2 or left >= slider.middle + GRIP / 2, percent
         assert left >= 0
         assert right <= width

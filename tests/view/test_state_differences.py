@@ -19,7 +19,7 @@ from glrt.view.edits.scene_edits import (
     without_object,
     without_unused_materials,
 )
-from glrt.view.edits.state_differences import told_change
+from glrt.view.edits.state_differences import change_text
 
 ROOM = load("cornell")
 START = State(ROOM, settings_for(ROOM.render))
@@ -46,26 +46,26 @@ def reshaped(**changes: Any) -> State:
         (replace(START, settings=settings_for(START.settings, bounces=3, seed=4)), "bounces, seed"),
     ],
 )
-def test_an_edit_is_told_in_a_few_words(after: State, told: str) -> None:
-    assert told_change(START, after) == told
+def test_an_edit_is_reported_in_a_few_words(after: State, told: str) -> None:
+    assert change_text(START, after) == told
 
 
-def test_a_renamed_material_is_told_and_not_each_of_its_objects() -> None:
+def test_a_renamed_material_is_reported_and_not_each_of_its_objects() -> None:
     renamed = with_renamed_material(ROOM, "white", "chalk")
-    assert told_change(START, replace(START, scene=renamed)) == "name of material chalk"
+    assert change_text(START, replace(START, scene=renamed)) == "name of material chalk"
 
 
-def test_materials_that_go_alone_are_told() -> None:
+def test_materials_that_go_alone_are_reported() -> None:
     spare = with_own_material(with_own_material(ROOM, BALL), BALL)
     cleared = without_unused_materials(spare)
-    told = told_change(replace(START, scene=spare), replace(START, scene=cleared))
+    told = change_text(replace(START, scene=spare), replace(START, scene=cleared))
     assert told == "unused materials"
 
 
-def test_of_many_changes_the_first_are_told() -> None:
+def test_of_many_changes_the_first_are_reported() -> None:
     camera = replaced(ROOM.camera, fov=20.0)
     scene = ROOM.model_copy(update={"camera": camera})
     settings = settings_for(START.settings, bounces=3, seed=4, samples=9)
-    told = told_change(START, replace(START, scene=scene, settings=settings))
+    told = change_text(START, replace(START, scene=scene, settings=settings))
     assert told.startswith("camera, ")
     assert told.endswith(" and 1 more")

@@ -183,11 +183,11 @@ def test_a_scene_is_saved_to_the_file_that_it_came_from_and_to_no_other(
     assert opened.scene_path == "mine.toml"
 
 
-def test_a_message_goes_after_a_while_and_comes_back_when_it_is_told_again() -> None:
+def test_a_message_goes_after_a_while_and_comes_back_when_it_is_reported_again() -> None:
     nobody: Any = None
     messages = Messages(nobody)
     assert messages.recent(messages.told + 1.0) == ""
     for _ in range(2):
-        messages.tell("Saved picture.png")
+        messages.report("Saved picture.png")
         assert messages.recent(messages.told + 0.5 * SHOWN) == "Saved picture.png"
         assert messages.recent(messages.told + 1.5 * SHOWN) == ""

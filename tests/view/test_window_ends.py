@@ -128,7 +128,7 @@ def test_a_bad_scene_is_refused_before_a_window_opens() -> None:
 
 
 @pytest.mark.slow
-def test_a_display_that_goes_away_while_the_window_starts_is_told(display: str) -> None:
+def test_a_display_that_goes_away_while_the_window_starts_is_reported(display: str) -> None:
     code = (
         "import os; from glrt.view import window; run = window.Window.run\n"
         "def gone(self): os.environ['DISPLAY'] = ':4242'; return run(self)\n"

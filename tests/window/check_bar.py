@@ -96,7 +96,7 @@ def keys_that_move_in_the_panel_go_to_no_row_under_the_bar(hand: Hand) -> None:
 
 
 @check
-def a_problem_is_told_wherever_the_panel_is(hand: Hand) -> None:
+def a_problem_is_reported_wherever_the_panel_is(hand: Hand) -> None:
     """It pushes the rows down; the one in use stays, and so does the panel's place."""
     ctx = hand.ctx
     ctx.scroll_to_item_y(f"{PANEL}/tonemap")

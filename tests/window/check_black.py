@@ -6,7 +6,7 @@ from imgui_bundle import imgui
 
 from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport import orbit
-from tests.window.gestures import ball, lines_told, press
+from tests.window.gestures import ball, press, reported_lines
 from tests.window.hand import Hand, check
 
 
@@ -14,13 +14,13 @@ def told(hand: Hand, words: str) -> bool:
     """Whether a line over the picture has these words, once there are samples enough."""
     hand.settle()
     hand.until(lambda: hand.session.samples >= 16)
-    with lines_told() as lines:
+    with reported_lines() as lines:
         hand.ctx.yield_(2)
     return any(words in line for line in lines)
 
 
 @check
-def a_walk_through_the_ceiling_is_told_and_ended(hand: Hand) -> None:
+def a_walk_through_the_ceiling_is_reported_and_ended(hand: Hand) -> None:
     start = hand.session.scene.camera
     assert not told(hand, "Black")
     hand.ctx.mouse_move("//Picture/picture")
@@ -47,7 +47,7 @@ def a_walk_goes_past_the_pivot_at_its_speed(hand: Hand) -> None:
 
 
 @check
-def a_camera_in_an_object_is_told_of_it(hand: Hand) -> None:
+def a_camera_in_an_object_is_reported_of_it(hand: Hand) -> None:
     number, shape = ball(hand)
     around = shape.model_copy(update={"center": hand.session.scene.camera.position})
     hand.there(lambda: hand.session.edit(with_object(hand.session.scene, number, around)))
@@ -57,7 +57,7 @@ def a_camera_in_an_object_is_told_of_it(hand: Hand) -> None:
 
 
 @check
-def light_that_is_off_is_told(hand: Hand) -> None:
+def light_that_is_off_is_reported(hand: Hand) -> None:
     hand.ctx.set_ref("Controls")
     hand.ctx.item_input_value("intensity##lamp", 0.0)
     assert told(hand, "every light is off")
@@ -66,7 +66,7 @@ def light_that_is_off_is_told(hand: Hand) -> None:
 
 
 @check
-def a_picture_that_is_too_dim_for_the_screen_is_told(hand: Hand) -> None:
+def a_picture_that_is_too_dim_for_the_screen_is_reported(hand: Hand) -> None:
     hand.there(lambda: hand.session.edit(exposure=-20.0))
     assert told(hand, "Black at this exposure")
     hand.there(lambda: hand.session.edit(exposure=0.0))

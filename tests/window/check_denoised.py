@@ -16,7 +16,7 @@ SAMPLES = 1024  # more than pass while a view is chosen
 
 
 @check
-def the_picture_is_denoised_with_its_error_told_and_saved_plain(hand: Hand) -> None:
+def the_picture_is_denoised_with_its_error_reported_and_saved_plain(hand: Hand) -> None:
     show, session = hand.window.app.show, hand.session
     hand.there(lambda: session.edit(width=SIDE, height=SIDE, samples=SAMPLES))
     hand.ctx.set_ref("Controls")
@@ -56,7 +56,7 @@ def roughness(codes: NDArray[Any]) -> float:
 
 
 @check
-def a_drag_shows_the_plain_picture_until_it_is_denoised_anew(hand: Hand) -> None:
+def a_drag_shows_the_plain_picture_until_it_is_denoised_again(hand: Hand) -> None:
     show, session = hand.window.app.show, hand.session
     hand.there(lambda: session.edit(width=SIDE, height=SIDE, samples=SAMPLES))
     (before,) = views(hand, "denoised")

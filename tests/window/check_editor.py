@@ -189,7 +189,7 @@ def a_material_is_made_unique_new_and_removed(hand: Hand) -> None:
 
 
 @check
-def a_type_that_does_not_fit_is_told_and_nothing_changes(hand: Hand) -> None:
+def a_type_that_does_not_fit_is_reported_and_nothing_changes(hand: Hand) -> None:
     lamp = next(n for n, t in enumerate(hand.session.scene.objects) if t.shape == "quad")
     hand.window.app.selected = lamp
     hand.ctx.yield_(2)

@@ -7,14 +7,14 @@ from glrt.rendering.history.temporal import Way
 from glrt.rendering.renderer import Renderer
 from glrt.view.controls import replaced
 from glrt.view.panels.plots import figures
-from tests.window.gestures import lines_told, replaced_fov
+from tests.window.gestures import replaced_fov, reported_lines
 from tests.window.hand import Hand, check
 
 ENOUGH = 32  # samples: two observations
 
 
 @check
-def figures_belong_to_the_picture_beside_them(hand: Hand) -> None:
+def figures_belong_to_the_picture_next_to_them(hand: Hand) -> None:
     """After a restart nothing of the picture before is told."""
     app, session = hand.window.app, hand.session
     hand.until(lambda: len(app.progress.looks) > 1)
@@ -50,7 +50,7 @@ def history_of_earlier_views_is_marked_in_the_picture(hand: Hand) -> None:
     hand.there(move)
     hand.settle()
     session.paused = True
-    with lines_told() as told:
+    with reported_lines() as told:
         hand.ctx.yield_(2)
         assert any(text.startswith("with light of earlier views, until there are") for text in told)
     assert figures(app)[2] == "error unknown while history of earlier views is shown"
@@ -61,7 +61,7 @@ def an_old_picture_and_a_pause_are_marked_in_the_picture(hand: Hand) -> None:
     session = hand.session
     hand.until(lambda: session.samples > 3)
     hand.ctx.yield_()
-    with lines_told() as told:
+    with reported_lines() as told:
         hand.ctx.yield_(2)
         assert told == []
         session.paused = True

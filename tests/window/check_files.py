@@ -254,7 +254,7 @@ def what_was_opened_last_is_at_hand(hand: Hand) -> None:
 
 
 @check
-def what_cannot_be_saved_is_told(hand: Hand) -> None:
+def what_cannot_be_saved_is_reported(hand: Hand) -> None:
     hand.there(partial(setattr, hand.window.app.files, "picture_path", "/nowhere/picture.png"))
     hand.there(hand.window.app.files.save_picture)
     assert "/nowhere" in hand.session.problem

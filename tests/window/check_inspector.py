@@ -6,7 +6,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from glrt.image.tonemap import expose_and_encode
-from glrt.view.panels.inspector import told_pixel
+from glrt.view.panels.inspector import pixel_text
 from tests.window.check_layout import resized
 from tests.window.check_newcomer import SMALLEST
 from tests.window.gestures import press
@@ -23,7 +23,7 @@ def the_values_of_a_pixel_are_those_of_the_saved_picture(hand: Hand) -> None:
     hand.ctx.yield_(2)
     image, codes = hand.there(session.image), hand.pixels()
     for x, y in ((0, 0), (13, 5), (20, 31), (WIDTH - 1, HEIGHT - 1)):
-        told = hand.there(partial(told_pixel, app, (x + 0.5) / WIDTH, (y + 0.5) / HEIGHT))
+        told = hand.there(partial(pixel_text, app, (x + 0.5) / WIDTH, (y + 0.5) / HEIGHT))
         assert told[0].startswith(f"pixel {x}, {y}")
         assert told[0].endswith(f": {image.samples} samples")
         assert told[1] == "radiance " + "  ".join(f"{v:.4g}" for v in image.radiance[y, x])
@@ -31,12 +31,12 @@ def the_values_of_a_pixel_are_those_of_the_saved_picture(hand: Hand) -> None:
         shown = expose_and_encode(image.radiance[y, x], 0.0, session.settings.tonemap)
         assert told[3] == "on the screen " + " ".join(f"{c:3d}" for c in shown)
         assert np.abs(codes[y, x, :3].astype(int) - shown).max() <= 1
-    assert hand.there(lambda: told_pixel(app, 1.0, 0.5)) == []
-    assert "left wall" in hand.there(partial(told_pixel, app, 0.02, 0.5))[0]
+    assert hand.there(lambda: pixel_text(app, 1.0, 0.5)) == []
+    assert "left wall" in hand.there(partial(pixel_text, app, 0.02, 0.5))[0]
 
 
 @check
-def a_relit_picture_tells_the_values_that_are_shown(hand: Hand) -> None:
+def a_relit_picture_reports_the_values_that_are_shown(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     hand.until(lambda: session.samples >= session.known_from)
     hand.ctx.item_open("//Controls/Light")
@@ -44,7 +44,7 @@ def a_relit_picture_tells_the_values_that_are_shown(hand: Hand) -> None:
     session.paused = True
     hand.ctx.yield_(3)
     image = hand.there(session.image)
-    told = hand.there(lambda: told_pixel(app, 0.5, 0.5))
+    told = hand.there(lambda: pixel_text(app, 0.5, 0.5))
     row = image.radiance[HEIGHT // 2, WIDTH // 2]
     assert told[1] == "radiance " + "  ".join(f"{v:.4g}" for v in row)
 

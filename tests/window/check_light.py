@@ -100,7 +100,7 @@ def bounces_are_tuned_live_and_shown_alone(hand: Hand) -> None:
 
 
 @check
-def a_row_of_the_panel_tells_its_lamp(hand: Hand) -> None:
+def a_row_of_the_panel_reports_its_lamp(hand: Hand) -> None:
     labels: list[str] = []
     inner = fields.edited
 

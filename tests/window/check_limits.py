@@ -92,7 +92,7 @@ def the_horizon_is_no_place_that_ends_the_window(hand: Hand) -> None:
 
 
 @check
-def an_object_of_any_size_is_framed_or_told(hand: Hand) -> None:
+def an_object_of_any_size_is_framed_or_reported(hand: Hand) -> None:
     app, (number, shape) = hand.window.app, ball(hand)
     for radius in (LARGEST, SMALLEST, 1e9):
         hand.there(partial(hand.session.edit, sized(hand, number, radius)))
@@ -150,7 +150,7 @@ def a_black_picture_has_figures(hand: Hand) -> None:
 
 
 @check
-def handles_that_scale_an_object_to_nothing_tell_it(hand: Hand) -> None:
+def handles_that_scale_an_object_to_nothing_report_it(hand: Hand) -> None:
     number, shape = ball(hand)
     hand.window.app.selected = number
     handles: Any = im_guizmo
@@ -171,7 +171,7 @@ def handles_that_scale_an_object_to_nothing_tell_it(hand: Hand) -> None:
 
 
 @check
-def what_is_no_scene_and_what_is_no_file_is_told(hand: Hand) -> None:
+def what_is_no_scene_and_what_is_no_file_is_reported(hand: Hand) -> None:
     app, before = hand.window.app, hand.session.state
     noise = Path.cwd() / "noise.png"
     noise.write_bytes(bytes(range(256)) * 9)

@@ -14,7 +14,7 @@ from glrt.view.panels.pair_images import draw_notice
 from glrt.view.panels.path_overlay import place_of_outside
 from glrt.view.widgets import fields
 from tests.window.check_layout import resized
-from tests.window.gestures import add, ball, click, lines_told, press
+from tests.window.gestures import add, ball, click, press, reported_lines
 from tests.window.hand import Hand, check
 
 CTRL, SHIFT = imgui.Key.mod_ctrl.value, imgui.Key.mod_shift.value
@@ -31,13 +31,13 @@ ROWS = (
 
 
 @check
-def undo_and_redo_tell_what_they_change(hand: Hand) -> None:
+def undo_and_redo_report_what_they_change(hand: Hand) -> None:
     app, (number, shape) = hand.window.app, ball(hand)
     app.selected = number
     hand.ctx.yield_(3)
     hand.ctx.item_click(f"//Controls/hidden##shape {number}")
     hand.settle()
-    with lines_told() as lines:
+    with reported_lines() as lines:
         press(hand, imgui.Key.z, CTRL)
         assert f"Undo: hidden of {shape.name}" in lines
         press(hand, imgui.Key.y, CTRL)
@@ -47,7 +47,7 @@ def undo_and_redo_tell_what_they_change(hand: Hand) -> None:
 
 
 @check
-def the_button_that_undoes_tells_what(hand: Hand) -> None:
+def the_button_that_undoes_reports_what(hand: Hand) -> None:
     hand.there(lambda: hand.session.edit(seed=hand.session.settings.seed + 1))
     tips: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
@@ -58,7 +58,7 @@ def the_button_that_undoes_tells_what(hand: Hand) -> None:
 
 
 @check
-def a_copy_is_seen_beside_its_original(hand: Hand) -> None:
+def a_copy_is_seen_next_to_its_original(hand: Hand) -> None:
     app, (number, shape) = hand.window.app, ball(hand)
     click(hand, shape.center)
     press(hand, imgui.Key.d, CTRL)
@@ -109,7 +109,7 @@ def a_name_is_typed_at_once_where_a_file_is_saved(hand: Hand) -> None:
 
 
 @check
-def a_list_tells_what_its_words_mean(hand: Hand) -> None:
+def a_list_reports_what_its_words_mean(hand: Hand) -> None:
     app, (number, shape) = hand.window.app, ball(hand)
     app.selected = number
     hand.ctx.yield_(3)
@@ -194,7 +194,7 @@ def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
 
 
 @check
-def lines_of_text_lie_beside_the_view_from_outside(hand: Hand) -> None:
+def lines_of_text_lie_next_to_the_view_from_outside(hand: Hand) -> None:
     """In a small window, where that view takes much of the picture's width."""
     app = hand.window.app
     usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))

@@ -144,7 +144,7 @@ def an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_t
 
 
 @check
-def what_edits_of_an_object_cost_stands_beside_them(hand: Hand) -> None:
+def what_edits_of_an_object_cost_stands_next_to_them(hand: Hand) -> None:
     number, _ = ball(hand)
     costs: dict[str, Cost] = {}
     handles: list[Cost] = []

@@ -132,7 +132,7 @@ def they_are_swapped_and_b_comes_back_by_undo(hand: Hand) -> None:
 
 
 @check
-def what_is_known_of_a_stands_beside_what_is_known_of_b(hand: Hand) -> None:
+def what_is_known_of_a_stands_next_to_what_is_known_of_b(hand: Hand) -> None:
     from glrt.view.panels.plots import figures
 
     pair = keep_and_go_on(hand)
@@ -145,7 +145,7 @@ def what_is_known_of_a_stands_beside_what_is_known_of_b(hand: Hand) -> None:
 
 
 @check
-def a_picture_that_is_kept_anew_ends_the_one_before(hand: Hand) -> None:
+def a_picture_that_is_kept_again_ends_the_one_before(hand: Hand) -> None:
     pair = keep_and_go_on(hand)
     hand.ctx.item_click("//Controls/keep this picture")
     hand.ctx.yield_(2)

@@ -11,7 +11,7 @@ from glrt.rendering.paths.replay import path_replay, pixel_paths
 from glrt.rendering.paths.values import PixelPaths
 from glrt.settings import settings_for
 from glrt.view.state.path_explorer import FOLLOWED
-from tests.window.gestures import ball, click, lines_told, press
+from tests.window.gestures import ball, click, press, reported_lines
 from tests.window.hand import SMALL, Hand, check
 
 PLACE = (0.645, 0.935)  # on the floor, under the glass ball
@@ -83,7 +83,7 @@ def samples_are_stepped_through_and_more_pixels_compile_nothing(hand: Hand) -> N
 
 
 @check
-def a_scene_that_changed_since_is_told_and_a_camera_that_moved_is_not(hand: Hand) -> None:
+def a_scene_that_changed_since_is_reported_and_a_camera_that_moved_is_not(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     ask(hand)
     press(hand, imgui.Key.w)
@@ -194,7 +194,7 @@ def paths_and_particles_of_a_picture_that_has_them_make_up_its_pixel(hand: Hand)
 
 
 @check
-def a_scene_whose_particles_cannot_be_followed_is_told(hand: Hand) -> None:
+def a_scene_whose_particles_cannot_be_followed_is_reported(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     hand.there(lambda: session.edit(method="nee"))
     hand.settle()
@@ -209,7 +209,7 @@ def a_scene_whose_particles_cannot_be_followed_is_told(hand: Hand) -> None:
 @check
 def escape_ends_the_choice_of_a_pixel_and_then_removes_its_paths(hand: Hand) -> None:
     app, ctx = hand.window.app, hand.ctx
-    with lines_told() as lines:
+    with reported_lines() as lines:
         press(hand, imgui.Key.p)
         assert any("click a pixel" in line and "Escape" in line for line in lines)
         press(hand, imgui.Key.escape)
@@ -232,7 +232,7 @@ def escape_ends_the_choice_of_a_pixel_and_then_removes_its_paths(hand: Hand) -> 
 
 
 @check
-def the_table_of_lights_tells_what_was_added_without_being_scrolled(hand: Hand) -> None:
+def the_table_of_lights_reports_what_was_added_without_being_scrolled(hand: Hand) -> None:
     """Beside its strategy, in a panel of the usual width."""
     columns: list[str] = []
 

@@ -5,7 +5,7 @@ from glrt.scene.scene import with_lights
 from glrt.settings import Cost
 from glrt.view.state.session import Session
 from tests.window.check_views import views
-from tests.window.gestures import lines_told, move
+from tests.window.gestures import move, reported_lines
 from tests.window.hand import Hand, check
 
 LOOKED_AT = 20  # samples: more than one set of probes lights
@@ -99,7 +99,7 @@ def probes_are_live_while_the_user_wants_it(hand: Hand) -> None:
     move(hand, "live probes##preference/always", None)
     hand.there(lambda: session.edit(with_lights(session.scene, {"lamp": 0.2})))
     hand.until(lambda: 0.0 < session.lag <= 0.25)
-    with lines_told() as lines:
+    with reported_lines() as lines:
         hand.ctx.yield_(4)
     assert any("live probes" in line for line in lines) or session.lag < 0.005
     assert "live" in hand.there(lambda: refusal(session))

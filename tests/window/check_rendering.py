@@ -56,7 +56,7 @@ def samples_end_at_the_target(hand: Hand) -> None:
 
 
 @check
-def the_figures_tell_error_and_forecast(hand: Hand) -> None:
+def the_figures_report_error_and_forecast(hand: Hand) -> None:
     app = hand.window.app
     hand.until(lambda: len(app.progress.looks) > 2)
     told = "\n".join(figures(app))

@@ -12,8 +12,8 @@ from glrt.rendering.screen.false_colors import ERROR, HISTORY, MASK, WEIGHT
 from glrt.settings import Aov, Cost
 from glrt.view.controls import replaced
 from glrt.view.panels import legend
-from glrt.view.panels.inspector import told_pixel
-from tests.window.gestures import lines_told, press
+from glrt.view.panels.inspector import pixel_text
+from tests.window.gestures import press, reported_lines
 from tests.window.hand import Hand, check
 
 
@@ -76,7 +76,7 @@ def views_of_aovs_cost_no_sample_and_are_not_saved(hand: Hand) -> None:
 
 
 @check
-def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -> None:
+def bounces_until_the_end_are_shown_on_a_scale_and_reported_of_a_pixel(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     hand.until(lambda: session.samples >= session.known_from)
     hand.there(lambda: session.edit(samples=session.samples))
@@ -93,7 +93,7 @@ def bounces_until_the_end_are_shown_on_a_scale_and_told_of_a_pixel(hand: Hand) -
     assert np.abs(shown.astype(int) - expected).max() <= 2
     assert found.value.std() > 0.5
     assert found.stderr is not None
-    told = hand.there(lambda: told_pixel(app, 20.5 / 40, 31.5 / 40))
+    told = hand.there(lambda: pixel_text(app, 20.5 / 40, 31.5 / 40))
     mean, error = found.value[31, 20], found.stderr[31, 20]
     assert told[-1] == f"bounces until the end {mean:.4g} +- {error:.2g}"
     hand.there(lambda: session.edit(bounces=2, samples=session.samples))
@@ -113,7 +113,7 @@ def counts_of_more_bounces_than_are_shown_are_labelled(hand: Hand) -> None:
     hand.until(lambda: session.samples > 20)
     session.paused = True
     hand.ctx.yield_(3)
-    before, counts = hand.pixels(), hand.there(lambda: told_pixel(app, 0.5, 0.8))[-1]
+    before, counts = hand.pixels(), hand.there(lambda: pixel_text(app, 0.5, 0.8))[-1]
     titles: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(legend, "_draw", lambda title, *_: titles.append(title))
@@ -123,7 +123,7 @@ def counts_of_more_bounces_than_are_shown_are_labelled(hand: Hand) -> None:
         hand.ctx.yield_(4)
         assert session.last_cost is Cost.RELIGHT
         assert titles[-1] == "bounces of a path until its end, mean, of paths of up to 5"
-    assert hand.there(lambda: told_pixel(app, 0.5, 0.8))[-1] == f"{counts}, of paths of up to 5"
+    assert hand.there(lambda: pixel_text(app, 0.5, 0.8))[-1] == f"{counts}, of paths of up to 5"
     assert app.show.scale.high == 5
     assert np.array_equal(hand.pixels(), before), "the colours mean what they did"
     views(hand, "picture")
@@ -150,10 +150,10 @@ def bounces_beyond_the_loop_limit_are_refused_once_and_the_picture_stays(hand: H
 
 
 @check
-def a_view_that_is_on_its_way_is_told(hand: Hand) -> None:
+def a_view_that_is_on_its_way_is_reported(hand: Hand) -> None:
     app = hand.window.app
     hand.ctx.set_ref("Controls")
-    with lines_told() as lines:
+    with reported_lines() as lines:
         hand.ctx.combo_click("view/normal")
         hand.until(lambda: app.show.drawn == "normal")
         assert "The view normal comes with its first sample" in lines
@@ -164,8 +164,8 @@ def a_view_that_is_on_its_way_is_told(hand: Hand) -> None:
 
 
 @check
-def the_zoom_is_told_with_the_key_that_ends_it(hand: Hand) -> None:
-    with lines_told() as lines:
+def the_zoom_is_reported_with_the_key_that_ends_it(hand: Hand) -> None:
+    with reported_lines() as lines:
         press(hand, imgui.Key._1)
         assert "zoom 1:1; 0 shows the whole picture" in lines
         press(hand, imgui.Key._0)
@@ -201,7 +201,7 @@ def the_history_of_pixels_is_shown_while_it_counts(hand: Hand) -> None:
         is_grey = np.ptp(shown, axis=2) <= 1
         assert np.where(is_grey, 0, apart).max() <= 2, (temporal, view)
         assert (~is_grey).mean() > (0.005 if view == "mask" else 0.5), (temporal, view)
-    with lines_told() as told:
+    with reported_lines() as told:
         hand.there(partial(look, "taa"))
         hand.until(lambda: any("by temporal wrls alone" in text for text in told))
     views(hand, "picture")

@@ -33,7 +33,7 @@ def a_scene_is_saved_and_read_again_when_its_file_changes(hand: Hand) -> None:
 
 
 @check
-def a_shader_that_is_broken_on_disk_is_told_and_the_old_kernel_goes_on(hand: Hand) -> None:
+def a_shader_that_is_broken_on_disk_is_reported_and_the_old_kernel_goes_on(hand: Hand) -> None:
     """The files are a copy: see tests/view/test_window.py."""
     session = hand.session
     for name, word in (("integrators/path.glsl", "undeclared"), ("display.frag", "undeclared")):
@@ -42,7 +42,7 @@ def a_shader_that_is_broken_on_disk_is_told_and_the_old_kernel_goes_on(hand: Han
         number = whole.count("\n") + 1
         restarts = session.restarts
         file.write_text(f"{whole}float broken() {{ return {word}; }}\n")
-        until_told(hand, f"{name}:{number}:")
+        until_reported(hand, f"{name}:{number}:")
         assert word in session.problem
         assert session.restarts == restarts
         edits: tuple[dict[str, Any], ...] = ({"seed": restarts + 5}, {"method": "nee"})
@@ -58,5 +58,5 @@ def a_shader_that_is_broken_on_disk_is_told_and_the_old_kernel_goes_on(hand: Han
     assert hand.pixels()[..., :3].mean() > 10
 
 
-def until_told(hand: Hand, problem: str) -> None:
+def until_reported(hand: Hand, problem: str) -> None:
     hand.until(lambda: problem in hand.session.problem)

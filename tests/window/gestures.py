@@ -140,7 +140,7 @@ def answer(hand: Hand, name: str) -> None:
 
 
 @contextmanager
-def lines_told() -> Iterator[list[str]]:
+def reported_lines() -> Iterator[list[str]]:
     """Lines of text that are drawn over the picture meanwhile."""
     lines: list[str] = []
 

@@ -55,7 +55,7 @@ class Experiment:
 
 
 def measure_scene(
-    name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path, tell: Tell
+    name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path, report: Tell
 ) -> Experiment:
     """Measure a scene; rounds that `rounds_file` holds from an earlier run are not repeated."""
     settings = settings_for(frame_of(scene, plan.height), sampler=SAMPLER)
@@ -68,20 +68,20 @@ def measure_scene(
     allowed = REFERENCE_SHARE * plan.seconds
     whole = allowed + plan.seconds
 
-    def tell_reference(share: float) -> None:
-        tell(f"{name}: reference", share * allowed / whole)
+    def report_reference(share: float) -> None:
+        report(f"{name}: reference", share * allowed / whole)
 
-    reference = reference_for(scene, settings, context, REFERENCE_ERROR, allowed, tell_reference)
+    reference = reference_for(scene, settings, context, REFERENCE_ERROR, allowed, report_reference)
     rays = tuple(rays_of(scene, variant.settings, context) for variant in variants)
     key = key_of(scene, variants, reference, place)
     rounds = load_rounds(rounds_file, key)
 
-    def tell_round(share: float) -> None:
+    def report_round(share: float) -> None:
         text = f"{name}: round {len(rounds) + 1} of {plan.rounds}"
-        tell(text, (allowed + share * plan.seconds) / whole)
+        report(text, (allowed + share * plan.seconds) / whole)
 
     bench = Bench(scene, variants, reference, context)
-    for done in _missing_rounds(bench, plan, rounds, len(variants), tell_round):
+    for done in _missing_rounds(bench, plan, rounds, len(variants), report_round):
         save_rounds(rounds_file, key, done)
     bench.release()
     curves = tuple(curves_of(_in_order(rounds, variants), reference.error))
@@ -103,14 +103,14 @@ def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
 
 
 def _missing_rounds(
-    bench: Bench, plan: Plan, rounds: list[Round], variants: int, tell: Callable[[float], None]
+    bench: Bench, plan: Plan, rounds: list[Round], variants: int, report: Callable[[float], None]
 ) -> Iterator[list[Round]]:
     """Measure the rounds that the plan still lacks; append each to `rounds` and yield the list."""
     missing = plan.rounds - len(rounds)
     for number in range(missing):
         runs: Round = []
         for runs in bench.round(len(rounds), plan.seconds / plan.rounds):
-            tell((number + len(runs) / variants) / missing)
+            report((number + len(runs) / variants) / missing)
         rounds.append(runs)
         yield rounds
 

@@ -81,12 +81,12 @@ def choose(
         verdict = _verdict(arguments, scene, settings, limits.error, SHARE * left)
     except OutOfTimeError:
         settings = settings_for(settings, method=LEADER)
-        _tell(arguments, _undecided(settings))
+        _report(arguments, _undecided(settings))
         return Choice(settings, limits, {"method": FOR_LACK_OF_TIME})
     chosen = verdict.best or verdict.candidates[-1]
     noise = math.sqrt(max(limits.error**2 - chosen.bias.most**2, 0.0)) or limits.error
     first_look = max(limits.first_look, chosen.samples_to(limits.error) or 0)
-    _tell(arguments, conclusion(verdict, least_samples=first_look))
+    _report(arguments, conclusion(verdict, least_samples=first_look))
     limits = replace(limits, error=noise, first_look=first_look)
     decided = BY_WORK if limits.deadline is None else BY_WORK_IN_TIME
     names = ["method"] if _bounces_given(arguments) is not None else ["method", "bounces"]
@@ -103,9 +103,9 @@ def _verdict(
 ) -> Verdict:
     context = open_context(arguments.context)
     try:
-        with _steps(arguments) as tell:
+        with _steps(arguments) as report:
             fixed = _bounces_given(arguments)
-            return what_suffices(scene, settings, error, context, fixed, seconds, tell, methods)
+            return what_suffices(scene, settings, error, context, fixed, seconds, report, methods)
     finally:
         context.gl.release()
 
@@ -135,7 +135,7 @@ def _bounces_given(arguments: argparse.Namespace) -> int | None:
     return bounces
 
 
-def _tell(arguments: argparse.Namespace, text: str) -> None:
+def _report(arguments: argparse.Namespace, text: str) -> None:
     if not getattr(arguments, "quiet", False):
         print(text, file=sys.stderr, flush=True)
 

@@ -76,7 +76,7 @@ def what_suffices(
     context: Context,
     bounces: int | None = None,
     seconds: float = math.inf,
-    tell: Tell = _silent,
+    report: Tell = _silent,
     methods: Sequence[str] = WITHOUT_PROBES,
 ) -> Verdict:
     """Measure methods on a small frame; `bounces` is their limit, or None to choose it, too.
@@ -93,14 +93,14 @@ def what_suffices(
     leading = settings_for(small, method=LEADER)
     pixels = math.prod(settings.size) / math.prod(small.size)
     with counting(scene, leading, context) as counter:
-        tell("reference")
+        report("reference")
         longest = unlimited(scene, small, context).bounces
         samples = _reference_samples(work_per_sample(counter, longest, check), small)
         allowed = _reference_seconds(seconds)
         reference = reference_for(
             scene, small, context, 0.25 * error, allowed, check=check, samples=samples
         )
-        trial = Trial(scene, settings, context, reference, error, pixels, check, tell)
+        trial = Trial(scene, settings, context, reference, error, pixels, check, report)
         limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))

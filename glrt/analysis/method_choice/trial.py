@@ -76,7 +76,7 @@ class Trial:
     error: float
     pixels: float
     check: Check
-    tell: Tell  # called with the name of each step
+    report: Tell  # called with the name of each step
 
     def limits(self, counter: Renderer, fixed: int | None, most: int) -> dict[int, Candidate]:
         """LEADER by limit of bounces: `fixed`, or up to `most`; `counter` counts its work.
@@ -99,7 +99,7 @@ class Trial:
             whole = [self._picture(renderer, seed, most) for seed in SEEDS]
             enough = 0
             for limit in [fixed] if fixed is not None else [n for n in LIMITS if n <= most]:
-                self.tell(f"{LEADER}, bounces {limit}")
+                self.report(f"{LEADER}, bounces {limit}")
                 pictures = [self._picture(renderer, seed, limit) for seed in SEEDS]
                 cut = [a.radiance - b.radiance for a, b in zip(whole, pictures, strict=True)]
                 bias = self._bias(*cut)
@@ -135,7 +135,7 @@ class Trial:
         name, settings = variant.name, variant.settings
 
         def taken(samples: int) -> list[_Picture]:
-            self.tell(f"{name}, {samples} samples")
+            self.report(f"{name}, {samples} samples")
             return [self._picture(renderer, seed, samples=samples) for seed in SEEDS]
 
         with self._opened(settings) as renderer:

@@ -76,7 +76,7 @@ def tracks_of(
     context: Context,
     ways: Sequence[Way],
     reference_samples: int,
-    tell: Tell,
+    report: Tell,
     samples: int = 1,
     hysteresis: Sequence[float] = (),
 ) -> list[Track]:
@@ -93,13 +93,13 @@ def tracks_of(
         looks = looks_of(frames)
         truth: dict[int, Reference] = {}
         for done, look in enumerate(looks):
-            tell(f"{name}, {frames.name}: references", (place + 0.8 * done / len(looks)) / 2)
+            report(f"{name}, {frames.name}: references", (place + 0.8 * done / len(looks)) / 2)
             known = [truth[n] for n in truth if frames.scenes[n] == frames.scenes[look]]
             wanted = frames.scenes[look], settings, context, 0.0, math.inf
             truth[look] = known[0] if known else reference_for(*wanted, samples=reference_samples)
         for number, one in enumerate(all_played):
             share = (place + 0.8 + 0.2 * number / len(all_played)) / 2
-            tell(f"{name}, {frames.name}: {one.name}", share)
+            report(f"{name}, {frames.name}: {one.name}", share)
             seen = _seen(frames, truth, rays[one.settings], context, one, samples)
             found.append(Track(name, frames.name, one.name, tuple(seen)))
     return found

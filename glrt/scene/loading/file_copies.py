@@ -51,10 +51,10 @@ def _sources(scene: SceneFields) -> Iterator[_Source]:
         content = named.content if isinstance(named, MeshFile) else None
         yield _Source(named.path, named.sha256, named.origin, content)
         for path, sha256 in named.companions.items():
-            yield _Source(path, sha256, _beside(named, path), None)
+            yield _Source(path, sha256, _next_to(named, path), None)
 
 
-def _beside(named: NamedContent, path: str) -> Path | None:
+def _next_to(named: NamedContent, path: str) -> Path | None:
     """Where a file was read that another one names, both by paths from the same folder."""
     end = name_of(named.path)
     if named.origin is None or not named.origin.as_posix().endswith(end):

@@ -11,7 +11,7 @@ from glrt.view.edits.edited_state import State
 MOST = 3  # fields that are told by name
 
 
-def told_change(before: State, after: State) -> str:
+def change_text(before: State, after: State) -> str:
     """The edit that leads from one state to another: "center of glass ball", "camera, bounces"."""
     parts = [*_of_scene(before.scene, after.scene), *_fields(before.settings, after.settings)]
     if before.by_length != after.by_length:

@@ -45,14 +45,14 @@ def _commands(app: App) -> None:
     beside("undo")
     if button("undo", session.history.can_undo):
         app.undo()
-    _told_step(app, "undo")
+    _step_text(app, "undo")
     beside("redo")
     if button("redo", session.history.can_redo):
         app.redo()
-    _told_step(app, "redo")
+    _step_text(app, "redo")
 
 
-def _told_step(app: App, action: Action) -> None:
+def _step_text(app: App, action: Action) -> None:
     """The edit that a button would take back or do again, and its keys."""
     is_hovered = imgui.is_item_hovered()
     what = (app.undoes if action == "undo" else app.redoes) if is_hovered else ""

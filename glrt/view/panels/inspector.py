@@ -15,7 +15,7 @@ from glrt.view.controls import switch
 from glrt.view.state.costs import limit_beyond
 from glrt.view.state.histogram import Histogram
 from glrt.view.state.zoom import FIT
-from glrt.view.viewport.views import told_limit
+from glrt.view.viewport.views import limit_text
 from glrt.view.widgets.fields import beside, button, edited, tip
 
 SCALES = {"1:1": 1.0, "4:1": 4.0, "16:1": 16.0}
@@ -75,7 +75,7 @@ def pixel_under(app: App, x: float, y: float) -> tuple[int, int] | None:
     return int(x * width), int(y * height)
 
 
-def told_pixel(app: App, x: float, y: float) -> list[str]:
+def pixel_text(app: App, x: float, y: float) -> list[str]:
     """What the pixel at a place of the picture holds, a line each; nothing outside of it."""
     pixel, renderer = pixel_under(app, x, y), app.session.renderer
     if not pixel or not renderer:
@@ -92,11 +92,11 @@ def told_pixel(app: App, x: float, y: float) -> list[str]:
         f"radiance {_numbers(found.radiance)}",
         f"standard error {_error(found)}",
         f"on the screen {shown}",
-        *_told_bounces(app, pixel),
+        *_bounces_text(app, pixel),
     ]
 
 
-def _told_bounces(app: App, pixel: tuple[int, int]) -> list[str]:
+def _bounces_text(app: App, pixel: tuple[int, int]) -> list[str]:
     """How often the paths of a pixel scatter, where that is shown."""
     renderer = app.session.renderer
     is_shown = renderer and app.show.drawn == "bounces"
@@ -105,7 +105,7 @@ def _told_bounces(app: App, pixel: tuple[int, int]) -> list[str]:
         return []
     mean, error = (float(values[0]) for values in found)
     band = f" +- {error:.2g}" if error >= 0 else ""
-    return [f"bounces until the end {mean:.4g}{band}{told_limit(limit_beyond(app.session))}"]
+    return [f"bounces until the end {mean:.4g}{band}{limit_text(limit_beyond(app.session))}"]
 
 
 def _numbers(values: Array) -> str:

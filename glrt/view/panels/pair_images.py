@@ -33,7 +33,7 @@ def _draw_a(app: App, place: Rectangle, seen: Rectangle) -> None:
         draw_image(app, place, seen, *kept)
 
 
-def draw_beside(app: App, seen: Rectangle, step: float) -> None:
+def draw_side_by_side(app: App, seen: Rectangle, step: float) -> None:
     """A to the left of B, as much of it, and their names."""
     (left, top, width, height), painter = app.rectangle, imgui.get_window_draw_list()
     shown = (seen[0] - step, *seen[1:])

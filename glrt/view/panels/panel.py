@@ -194,7 +194,7 @@ def _edit(app: App, changes: dict[str, Any]) -> None:
 def _preferences(app: App, controls: list[Control]) -> None:
     changes = edited_fields(tuple(controls), dict(app.preferences), "preference")
     if changes:
-        with app.messages.telling():
+        with app.messages.reporting():
             app.prefer(replaced(app.preferences, **changes))
 
 

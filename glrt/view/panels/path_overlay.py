@@ -48,7 +48,7 @@ def draw_paths(app: App, seen: Rectangle) -> None:
     painter.pop_clip_rect()
 
 
-def told_paths(app: App) -> str:
+def paths_text(app: App) -> str:
     """What a click does while a pixel is chosen, and how paths are removed; "" for nothing."""
     paths = app.paths
     if paths.busy or not (paths.is_choosing or paths.found):

@@ -44,20 +44,20 @@ def figures(app: App) -> list[str]:
     lines = [
         _samples(session.samples, session.settings.samples) + preview,
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {told_error(progress.last) if progress.last else _unknown(session)}",
+        f"error {error_text(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
     ]
     if app.pair.slot:
-        lines.append(_told_slot(app.pair.slot))
+        lines.append(_slot_text(app.pair.slot))
     if progress.last and progress.last.nonfinite:
         lines.append(f"{progress.last.nonfinite:,} samples were not finite and were dropped")
     return lines
 
 
-def _told_slot(slot: Slot) -> str:
+def _slot_text(slot: Slot) -> str:
     """The samples of A, its seconds and its error."""
     session, last = slot.session, slot.progress.last
-    error = f"error {told_error(last)}" if last else "error unknown"
+    error = f"error {error_text(last)}" if last else "error unknown"
     return session.busy or f"A: {session.samples} samples in {session.rendering:.1f} s, {error}"
 
 
@@ -93,7 +93,7 @@ def _unknown(session: Session) -> str:
     return f"unknown, known from {session.known_from} samples on{more if is_short else ''}"
 
 
-def told_error(look: Look) -> str:
+def error_text(look: Look) -> str:
     """The error of a look, and whether it is to be believed."""
     return f"{_banded(look)}{_DOUBT if look.is_doubtful else ''}"
 

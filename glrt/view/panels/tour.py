@@ -67,7 +67,7 @@ def draw_tour(app: App) -> None:
         app.tour_step = None
 
 
-def room_beside_tour(seen: Rectangle) -> tuple[ImVec2, float]:
+def room_next_to_tour(seen: Rectangle) -> tuple[ImVec2, float]:
     """Where lines of text begin over the picture, and how wide they may be: not under the box."""
     left, top, width, _ = seen
     box, least = imgui.internal.find_window_by_name("###tour"), hello_imgui.em_size(_LEAST)

@@ -8,19 +8,19 @@ from imgui_bundle import ImVec2, imgui
 from glrt.core.memo import kept_for_the_same
 from glrt.view.app import App
 from glrt.view.panels.gizmo import draw_gizmo, is_held
-from glrt.view.panels.inspector import told_pixel
+from glrt.view.panels.inspector import pixel_text
 from glrt.view.panels.legend import HEIGHT, draw_legend
 from glrt.view.panels.navigation import NOTICE
 from glrt.view.panels.pair_images import (
-    draw_beside,
     draw_image,
     draw_notice,
+    draw_side_by_side,
     draw_wipe,
     draw_wipe_handle,
 )
-from glrt.view.panels.path_overlay import draw_outside, draw_paths, place_of_outside, told_paths
+from glrt.view.panels.path_overlay import draw_outside, draw_paths, paths_text, place_of_outside
 from glrt.view.panels.shortcuts import modifiers
-from glrt.view.panels.tour import room_beside_tour
+from glrt.view.panels.tour import room_next_to_tour
 from glrt.view.state.keys import label
 from glrt.view.state.live_probes import told
 from glrt.view.state.zoom import Rectangle, common
@@ -51,7 +51,7 @@ def draw_viewport(app: App) -> None:
         draw_image(app, app.rectangle, seen, app.picture)
     is_wiped = has_kept and not app.pair.is_beside
     if has_kept and app.pair.is_beside:
-        draw_beside(app, seen, room.x)
+        draw_side_by_side(app, seen, room.x)
     elif is_wiped:
         draw_wipe(app, seen)
     _outline(app)
@@ -84,7 +84,7 @@ def _share_under_mouse(app: App) -> tuple[float, float]:
 
 def _room_for_notices(app: App, seen: Rectangle) -> tuple[ImVec2, float]:
     """Where lines of text begin, and how wide they may be: beside what else is in the picture."""
-    (place, width), box = room_beside_tour(seen), place_of_outside(app, seen)
+    (place, width), box = room_next_to_tour(seen), place_of_outside(app, seen)
     is_beside = box is not None and box[1] <= place.y < box[1] + box[3] and box[0] > place.x
     return place, min(width, box[0] - place.x) if box and is_beside else width
 
@@ -94,17 +94,17 @@ def _notices(app: App) -> tuple[str, ...]:
     return (
         app.show.notice(app.session),
         told(app.session.lag),
-        told_paths(app),
+        paths_text(app),
         "old picture, until the new one has a sample" if _is_old(app) else "",
-        _told_black(app),
+        _black_text(app),
         "paused" if app.session.paused else "",
         NOTICE if app.navigates else "",
-        _told_zoom(app),
+        _zoom_text(app),
         app.messages.recent(time.perf_counter()),
     )
 
 
-def _told_black(app: App) -> str:
+def _black_text(app: App) -> str:
     """Why nothing is seen, and the key that leads back; "" where something is."""
     reason, keys = app.blackness.reason, app.preferences.bindings["home"]
     if app.show.drawn != "picture" or not reason:
@@ -114,7 +114,7 @@ def _told_black(app: App) -> str:
     return reason + back
 
 
-def _told_zoom(app: App) -> str:
+def _zoom_text(app: App) -> str:
     """How large pixels are, and the key that ends it; "" where the whole picture is shown."""
     scale, keys = app.zoom.scale, app.preferences.bindings["fit"]
     if scale is None:
@@ -131,7 +131,7 @@ def _is_old(app: App) -> bool:
 def _pixel_values(app: App, seen: Rectangle) -> None:
     """What the pixel under the mouse holds, on the other side of the picture; and its frame."""
     share = _share_under_mouse(app)
-    lines = told_pixel(app, *share)
+    lines = pixel_text(app, *share)
     if not lines:
         return
     left, top, _, height = seen

@@ -100,7 +100,7 @@ class MovingPicture:
         self._temporal.end = float(min(END, wanted))
         return renderer is not None and self._temporal.is_shown(renderer)
 
-    def tells(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
+    def reports(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
         """Whether there is a number of the history that is shown."""
         is_one = number == "history" or self._wanted.mode == OWN_NUMBERS[number]
         return is_one and self.is_shown(renderer, wanted)

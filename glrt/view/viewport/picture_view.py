@@ -213,8 +213,8 @@ class PictureView:
             return self.view if is_there else "picture"
         if number := number_of(self.view):
             wanted = session.settings.samples
-            tells = session.moving.tells(session.renderer, wanted, number)
-            return self.view if tells else "picture"
+            reports = session.moving.reports(session.renderer, wanted, number)
+            return self.view if reports else "picture"
         if session.is_passing or (self.view == "error" and not self._knows_error(session)):
             return "picture"
         return "picture" if self.view == "difference" and not self._compared(session) else self.view

@@ -73,11 +73,11 @@ def title_of(view: View, camera: Camera, limit: int | None = None) -> str:
     `limit`: the bounces that its paths were traced to, where the picture shows fewer of them.
     """
     focus, cell = camera.resolved_focus_distance, cell_of(camera)
-    of_others = told_limit(limit) if view == "bounces" else ""
+    of_others = limit_text(limit) if view == "bounces" else ""
     return TITLES[view].format(focus=focus, cell=cell) + of_others
 
 
-def told_limit(limit: int | None) -> str:
+def limit_text(limit: int | None) -> str:
     """That counts of bounces are not those of the picture, which shows fewer; "" where they are."""
     return "" if limit is None else f", of paths of up to {limit}"
 

@@ -11,7 +11,7 @@ from glrt.settings import Cost
 from glrt.view.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
 from glrt.view.widgets.cost_badges import tag, tags, tags_start
-from glrt.view.widgets.slider_text import Slider, beside_grip, share_of
+from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
 
 Drawn = TypeVar("Drawn")
@@ -33,13 +33,13 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     """
     label = f"{control.label}##{name}" if name else control.label
     least = hello_imgui.em_size(WORDS if control.kind == "choice" else LEAST)
-    is_narrow = control.kind != "switch" and _room_beside(control.label) < least
-    changed, new = (_drawn_below if is_narrow else _drawn_beside)(control, label, value)
+    is_narrow = control.kind != "switch" and _room_next_to(control.label) < least
+    changed, new = (_drawn_below if is_narrow else _drawn_next_to)(control, label, value)
     return _clamped(control, new) if changed else None
 
 
-def _drawn_beside(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    imgui.set_next_item_width(_width_beside(control.label))
+def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+    imgui.set_next_item_width(_width_next_to(control.label))
     drawn = _draw(control, label, value)
     tooltip(control, label)
     tags(control)
@@ -82,13 +82,13 @@ def named(label: str, value: str, name: str) -> str:
         _, text = imgui.input_text(f"{label}##{name}", value, flags)
         return text, imgui.is_item_deactivated_after_edit()
 
-    if _room_beside(label) < hello_imgui.em_size(WORDS):
+    if _room_next_to(label) < hello_imgui.em_size(WORDS):
         imgui.text(label)
         tag(Cost.FREE)
         text, is_done = _clipped(draw)
         ANCHOR.note()
     else:
-        imgui.set_next_item_width(_width_beside(label))
+        imgui.set_next_item_width(_width_next_to(label))
         text, is_done = draw()
         ANCHOR.note()
         tag(Cost.FREE)
@@ -134,13 +134,13 @@ def tooltip(control: Control, label: str) -> None:
     tip(told, imgui.get_id(label))
 
 
-def _width_beside(label: str) -> float:
+def _width_next_to(label: str) -> float:
     """The width of a widget that leaves room for its label and its tag."""
     usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
-    return max(hello_imgui.em_size(3.5), min(usual, _room_beside(label)))
+    return max(hello_imgui.em_size(3.5), min(usual, _room_next_to(label)))
 
 
-def _room_beside(label: str) -> float:
+def _room_next_to(label: str) -> float:
     """The width that a label and a tag leave in a line."""
     beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
     return tags_start() - imgui.get_cursor_pos_x() - beside
@@ -151,7 +151,7 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
         return imgui.checkbox(label, value)
     if control.kind == "choice":
         if control.told:
-            return _told_choice(control, label, value)
+            return _choice_text(control, label, value)
         names = list(control.choices)
         changed, index = imgui.combo(label, names.index(value), names, min(len(names), _MOST_ROWS))
         return changed, control.choices[index]
@@ -163,7 +163,7 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     return _number(control, label, value)
 
 
-def _told_choice(control: Control, label: str, value: Any) -> tuple[bool, Any]:
+def _choice_text(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     """A list that tells beside each word what it is."""
     chosen = value
     if not imgui.begin_combo(label, str(value), imgui.ComboFlags_.height_large.value):
@@ -226,20 +226,20 @@ def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
         return _free_number(control, label, value)
     low, high = control.slider
     if control.kind == "integer":
-        form = _beside_grip(control, "%d", value)
+        form = _text_next_to_grip(control, "%d", value)
         return imgui.slider_int(label, value, int(low), int(high), form, flags)
-    form = _beside_grip(control, "%.3g", value)
+    form = _text_next_to_grip(control, "%.3g", value)
     return imgui.slider_float(label, value, float(low), float(high), form, flags)
 
 
-def _beside_grip(control: Control, form: str, value: float) -> str:
+def _text_next_to_grip(control: Control, form: str, value: float) -> str:
     low, high = control.slider or (0.0, 1.0)
     width, grip = imgui.calc_item_width(), imgui.get_style().grab_min_size
     if control.kind == "integer":
         grip = max(grip, width / (high - low + 1))
     share = share_of(value, low, high, control.is_logarithmic)
     text, space = (imgui.calc_text_size(part).x for part in (form % value, " "))
-    return beside_grip(form, Slider(width, grip, share), text, space)
+    return text_next_to_grip(form, Slider(width, grip, share), text, space)
 
 
 def _free_number(control: Control, label: str, value: Any) -> tuple[bool, Any]:

@@ -27,7 +27,7 @@ def share_of(value: float, low: float, high: float, is_logarithmic: bool) -> flo
     return min(max((value - low) / (high - low), 0.0), 1.0)
 
 
-def beside_grip(form: str, slider: Slider, text: float, space: float) -> str:
+def text_next_to_grip(form: str, slider: Slider, text: float, space: float) -> str:
     """The format of a number, which Dear ImGui centres: spaces push it off the grip.
 
     `text` and `space` are the widths of the number and of a space.

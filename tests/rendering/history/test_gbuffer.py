@@ -71,7 +71,7 @@ def test_a_surface_has_the_flags_of_its_material(
     assert (normal[..., 3] == flags).all()
 
 
-def test_pixels_beside_another_object_are_at_an_edge(context: Context) -> None:
+def test_pixels_next_to_another_object_are_at_an_edge(context: Context) -> None:
     """Of a ball before a plane, those of a pixel around its outline; of a lamp, that is told."""
     for material, flag in ((MATTE, 0), (lamp(2.0), FLAGS["LAMP_EDGE"])):
         objects = [plane([0, 0, -1], [0, 0, 1], "matte"), sphere([0, 0, 0], 0.7, "ball")]
@@ -99,7 +99,7 @@ def test_a_plane_that_recedes_has_no_edge(context: Context) -> None:
     assert (normal[..., 3][inside] == 0).all()
 
 
-def test_what_is_out_of_focus_is_told(context: Context) -> None:
+def test_what_is_out_of_focus_is_reported(context: Context) -> None:
     """Circles of confusion of more than a pixel, in closed form."""
     objects = [plane([0, -1, 0], [0, 1, 0], "matte")]
     camera = {**EYE, "defocus_angle": 20.0, "focus_distance": 3.0}

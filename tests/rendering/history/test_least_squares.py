@@ -242,7 +242,7 @@ def test_the_covariance_of_the_shader_is_bounded_and_its_weights_are_not_zero(
     assert glsl_wrls(ctx, "vec4(last.weight)", jump, True) == pytest.approx(1e-12)
 
 
-def test_what_overflows_begins_anew(ctx: moderngl.Context) -> None:
+def test_what_overflows_begins_again(ctx: moderngl.Context) -> None:
     samples = np.full((6, 3, 3), 0.3, np.float32)
     samples[3:] = [[[3e38] * 3, [0.5] * 3, [3e38, 1e-30, 0.1]]]
     got = glsl_wrls(ctx, "vec4(last.radiance, last.model.views)", samples)

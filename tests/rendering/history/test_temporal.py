@@ -190,7 +190,7 @@ def test_the_evidence_is_the_bias_beyond_chance(context: Context) -> None:
 
 
 @pytest.mark.parametrize("mode", HISTORIES)
-def test_a_view_of_other_objects_begins_anew(context: Context, mode: Mode) -> None:
+def test_a_view_of_other_objects_begins_again(context: Context, mode: Mode) -> None:
     balls = [sphere([0, 0, z], 1.0, "matte") for z in (-3, -6)]
     camera = {"position": [0, 0, 0], "look_at": [0, 0, -1]}
     one, two = (scene_of(balls[:n], {"matte": MATTE}, camera, **SKY) for n in (1, 2))

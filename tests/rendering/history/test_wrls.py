@@ -129,7 +129,7 @@ def test_the_film_takes_the_place_of_predictions(context: Context) -> None:
     wrls.release()
 
 
-def test_numbers_of_the_history_are_told(context: Context) -> None:
+def test_numbers_of_the_history_are_reported(context: Context) -> None:
     """Views that a model has seen, and the weight of the film, as the twin has it."""
     twin = FactoredWrls(np.full((1, 3), 0.5), frames=1)
     scene = wall()
@@ -155,7 +155,7 @@ def test_numbers_of_the_history_are_told(context: Context) -> None:
 
 
 @pytest.mark.parametrize("mode", ["reproject", "taa"])
-def test_other_ways_tell_the_samples_of_their_history(context: Context, mode: Mode) -> None:
+def test_other_ways_report_the_samples_of_their_history(context: Context, mode: Mode) -> None:
     """Of a wall that goes by two pixels: two samples, and one where nothing was seen before."""
     scenes = wall(), wall(2 * PIXEL)
     settings = settings_for(scenes[0].render, width=SIZE[0], height=SIZE[1], sampler="independent")

@@ -91,7 +91,7 @@ def test_what_is_added_is_weighted_radiance_over_density(cornell: list[PixelPath
             assert vector(light.unweighted) * light.weight == pytest.approx(light.added)
 
 
-def test_hidden_lamps_are_told(cornell: list[PixelPaths]) -> None:
+def test_hidden_lamps_are_reported(cornell: list[PixelPaths]) -> None:
     """As shapes stand between the vertex and the point that was sampled."""
     hidden = {True: 0, False: 0}
     for scene, path, light in lights(cornell):

@@ -52,7 +52,7 @@ def test_both_films_add_up(context: Context, more: dict[str, Any]) -> None:
         assert_same_bits(told, camera, str(more))
 
 
-def test_the_brightest_are_told_with_what_they_bring(found: PixelPaths) -> None:
+def test_the_brightest_are_reported_with_what_they_bring(found: PixelPaths) -> None:
     assert found.particles
     names = found.particles.brightest(5)
     paths = found.particles.paths[:5]
@@ -122,5 +122,5 @@ def test_their_weight_is_against_both_ways_of_the_camera(
     assert checked == {True, False}
 
 
-def test_without_them_none_are_told(context: Context) -> None:
+def test_without_them_none_are_reported(context: Context) -> None:
     assert replayed(load("cornell"), PIXEL, context, samples=1).particles is None

@@ -146,7 +146,7 @@ def test_throughput_is_what_surfaces_and_roulette_leave(
 
 
 @pytest.mark.parametrize("name", ["cornell", "ended", "mixed"])
-def test_paths_end_for_the_reason_told(name: str, request: pytest.FixtureRequest) -> None:
+def test_paths_end_for_the_reason_reported(name: str, request: pytest.FixtureRequest) -> None:
     found = request.getfixturevalue(name)
     for scene, path in paths(found):
         last, bounces = path.vertices[-1], found[0].recipe.settings.bounces

@@ -193,7 +193,7 @@ def test_error_colours_grow_lighter_in_even_steps() -> None:
     assert steps.max() < 1.2 * steps.mean()
 
 
-def test_a_shader_that_the_driver_refuses_is_told_by_file_and_line(
+def test_a_shader_that_the_driver_refuses_is_reported_by_file_and_line(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The window goes on with its picture, as with any other shader."""
