@@ -28,11 +28,12 @@ test: ## run the tests, without the slow ones
 	@$(BOOTSTRAP) test
 	$(IN_ENVIRONMENT) pytest -m "not slow" $(IN_PROCESSES) $(ARGS)
 
-check: ## look over the source: ruff and mypy
+check: ## check the source: style, types, plain words
 	@$(BOOTSTRAP) check
 	$(IN_ENVIRONMENT) ruff check
 	$(IN_ENVIRONMENT) ruff format --check
 	$(IN_ENVIRONMENT) mypy
+	.venv/bin/python tools/plain_words.py
 
 reference: ## write the pages of docs/reference/ that follow from the program
 	@$(BOOTSTRAP) render
