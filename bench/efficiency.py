@@ -23,7 +23,8 @@ from glrt.analysis.method_choice.caustics import CHOICES
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
-from glrt.plan.particles import refusal
+from glrt.plan.combinations import refusal
+from glrt.plan.facts import SceneFacts
 from glrt.rendering.renderer import Renderer
 from glrt.scene.materials.kinds import Material
 from glrt.scene.scene import Scene
@@ -127,7 +128,7 @@ def measure_scene(
     runs = {
         label: Runs(renderer_of(scene, way, size, context), samples)
         for label, way in ways.items()
-        if not refusal(scene, settings_for(scene.render, **way.settings))
+        if not refusal(SceneFacts(scene), settings_for(scene.render, **way.settings))
     }
     for number in range(rounds + 1):  # the first one is warm-up
         for place, one in enumerate(runs.values()):

@@ -19,7 +19,7 @@ from bench.ratios import Ratio, ratio_of
 from glrt.gpu.context import Context, open_context
 from glrt.packing.scene_arrays import pack_scene
 from glrt.packing.scene_tree import tree_of
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.process.command import peak_bytes
 from glrt.rendering.device_scene import STILL
 from glrt.rendering.renderer import Renderer
@@ -110,7 +110,8 @@ def packed(scene: Scene) -> tuple[dict[str, Array], float]:
     """The arrays of a scene, and the seconds to build and pack them, without the cache of trees."""
     with patch("glrt.packing.tree_cache.kept", lambda key, build: build()):
         start = time.perf_counter()
-        arrays = pack_scene(scene, tree=tree_of(scene, facts_of(scene)))
+        facts = SceneFacts(scene)
+        arrays = pack_scene(facts, tree_of(facts))
         return arrays, time.perf_counter() - start
 
 
@@ -139,7 +140,7 @@ def measure(context: Context, steps: Sequence[int], size: int, rounds: int) -> l
         bytes_all = sum(arrays[name].nbytes for name in STILL)
         del arrays
         renderers.append(Renderer(scene, context=context, width=size, height=size))
-        triangles = facts_of(scene).triangles
+        triangles = SceneFacts(scene).triangles
         known.append((triangles, read, built, bytes_all / triangles))
     runs: list[list[float]] = [[] for _ in steps]
     for _ in range(rounds):

@@ -21,7 +21,7 @@ from bench.program import at_least, exit_code_of, machine, parser_of
 from glrt.analysis.variants import LINKED
 from glrt.error.estimate import block_means, block_stderr
 from glrt.gpu.context import Context, open_context
-from glrt.plan.particles import link_bits
+from glrt.plan.facts import SceneFacts
 
 SCENES = (
     *("cornell", "lamps", "lens", "metals", "table"),
@@ -66,7 +66,7 @@ def ways_of(name: str) -> Mapping[str, Way]:
     """With particles by straight links, and where the scene has balls, through them, too."""
     scene = scene_of(name)
     ways = {"straight": Way(STRAIGHT)}
-    if link_bits(scene):
+    if SceneFacts(scene).particles.links:
         ways["through balls"] = Way({"caustics": "on", **LINKED})
     return ways
 

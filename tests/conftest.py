@@ -16,6 +16,7 @@ from bench.screens import screen
 from glrt.core.errors import ContextError
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context, open_context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.rendering.shader_functions import evaluate
 from glrt.scene import scene as scene_module
@@ -128,7 +129,7 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
         settings = None
         if scene:
             settings = settings_for(scene.render, sampler="independent", **(options or {}))
-            prelude = needs_of(scene, settings).constants()
+            prelude = needs_of(SceneFacts(scene), settings).constants()
         prelude |= constants or {}
         ways = returns, setup, functions, scene, prelude
         return evaluate(ctx, expression, inputs, *ways, settings=settings)

@@ -30,7 +30,8 @@ from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read, shader_files
 from glrt.image.image import Image
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import prepare
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
@@ -133,14 +134,14 @@ def closed_form(scene: Scene) -> float | None:
     scaled inside glass, rough metal loses the light of multiple scattering between microfacets,
     interpolated normals lose some near the silhouette, and colours of vertices are not looked at.
     """
-    found = facts_of(scene)
+    found = SceneFacts(scene)
     if scene.sun or scene.background.is_pictured or found.is_smooth or found.is_colored:
         return None
     levels = {level for color in scene.background_colors for level in color}
     level = min(levels)
     if level == 0 or len(levels) > 1:
         return None
-    return level if all(_is_invisible(scene, it, level) for it in scene.finishes) else None
+    return level if all(_is_invisible(scene, it, level) for it in found.finishes) else None
 
 
 def _is_invisible(scene: Scene, finish: Finish, level: float) -> bool:
@@ -166,7 +167,7 @@ def unlimited(scene: Scene, settings: Settings, context: Context) -> Settings:
     bounces, rounds = max(BOUNCES, settings.bounces), usable_rounds(context)
     while True:
         wanted = settings_for(settings, method="mis", bounces=bounces, sampler=SAMPLER)
-        certain = iterations_per_sample(scene, wanted, 0)
+        certain = iterations_per_sample(prepare(scene, wanted), 0)
         if rounds is None or certain <= rounds or bounces <= settings.bounces:
             return wanted
         bounces = max(bounces // 2, settings.bounces)

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.denoise import oidn
+from glrt.plan.combinations import refusal
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS as TRAITS
-from glrt.plan.particles import caster_bits, link_bits, refusal
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
@@ -34,15 +35,16 @@ def variants_of(
     that the same kernel renders, such as all methods in a scene without lamps, are merged into one,
     "a = b = c".
     """
+    facts = SceneFacts(scene)
     named = [_of_method(method, settings) for method in methods]
     if leads:
         named += _variants_of_lead(settings)
-        named += _with_particles(scene, settings)
+        named += _with_particles(facts, settings)
         named += _denoised()
     found: dict[Any, Variant] = {}
     for name, changes in named:
         wanted = settings_for(settings, **changes)
-        key = (needs_of(scene, wanted), wanted.bounces, wanted.sampler, wanted.denoise)
+        key = (needs_of(facts, wanted), wanted.bounces, wanted.sampler, wanted.denoise)
         known = found.get(key)
         found[key] = (
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
@@ -57,16 +59,16 @@ def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
     return f"{method}, sobol", {"method": method, "sampler": "sobol"}
 
 
-def _with_particles(scene: Scene, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
+def _with_particles(facts: SceneFacts, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:
     """Variants with particles, where there is glass or metal to aim them at.
 
     And with links, where there are spheres to link them through.
     """
     changes: dict[str, Any] = {"method": LEAD, "caustics": "on", "linked": 0.0}
-    if not caster_bits(scene) or refusal(scene, settings_for(settings, **changes)):
+    if not facts.particles.casters or refusal(facts, settings_for(settings, **changes)):
         return
     yield f"{LEAD}, particles", changes
-    if link_bits(scene):
+    if facts.particles.links:
         yield f"{LEAD}, particles linked", {**changes, **LINKED}
 
 

@@ -98,11 +98,11 @@ def light_groups(image: Image, path: str) -> dict[str, Image]:
         raise UsageError(f"{path}: --groups needs the recipe of a picture that glrt rendered.")
     from glrt.api import render
     from glrt.image.sources import files_read
-    from glrt.plan.plan import emitters
+    from glrt.plan.facts import SceneFacts
     from glrt.scene.scene import with_lights
 
     scene, settings = files_read(image.recipe, Path(path)).scene, image.recipe.settings
-    own = {name: scene.lights.get(name, 1.0) for name in emitters(scene)}
+    own = {name: scene.lights.get(name, 1.0) for name in SceneFacts(scene).emissions}
     kept: Any = settings.model_dump(include=GROUP_SETTINGS, exclude_none=True)
     samples = min(image.recipe.samples, GROUP_SAMPLES)
     lit = {name: dict.fromkeys(own, 0.0) | {name: value} for name, value in own.items() if value}

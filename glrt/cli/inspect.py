@@ -8,8 +8,8 @@ from glrt.core.errors import UsageError
 from glrt.core.text import counted
 from glrt.image.sources import recipe_of, shown
 from glrt.plan.explanation import explain
-from glrt.plan.facts import facts_of
 from glrt.plan.omissions import left_out, omissions
+from glrt.plan.plan import prepare
 from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
 from glrt.scene.summary import summary
@@ -69,12 +69,13 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     count, bounces = counted(len(scene.objects), "object"), counted(settings.bounces, "bounce")
     print(f"method {settings.method}, {bounces}, {count}\n")
     print("\n".join(summary(scene)) + "\n")
-    for feature in explain(scene, settings):
+    plan = prepare(scene, settings)
+    for feature in explain(plan):
         print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
-    if missing := omissions(scene, settings):
+    if missing := omissions(plan.facts, settings):
         print(f"\n{left_out(settings, missing)}")
-    rounds = iterations_per_sample(scene, settings)
-    most = "about" if facts_of(scene).has_trees else "up to"
+    rounds = iterations_per_sample(plan)
+    most = "about" if plan.facts.has_trees else "up to"
     print(
         f"\nA sample takes {most} {rounds:,} loop iterations; "
         f"llvmpipe in Mesa 22 ends the loops of a dispatch after {LLVMPIPE_ROUNDS:,}; "
@@ -82,7 +83,7 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     )
     for text in cautions(scene, settings):
         print(f"\ncaution: {text}")
-    for text in slow_because(scene, settings):
+    for text in slow_because(plan.facts, settings):
         print(f"\nslow: {text}")
 
 

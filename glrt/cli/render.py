@@ -27,6 +27,7 @@ from glrt.core.text import counted
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
+from glrt.plan.facts import SceneFacts
 from glrt.plan.slow_scenes import slow_because
 from glrt.process import signals
 from glrt.process.command import fail, since_start
@@ -125,7 +126,7 @@ def _run(arguments: argparse.Namespace) -> int:
 def _warn(wanted: Order) -> None:
     for text in cautions(wanted.scene, wanted.settings):
         print(f"glrt: caution: {text}", file=sys.stderr)
-    for text in slow_because(wanted.scene, wanted.settings):
+    for text in slow_because(SceneFacts(wanted.scene), wanted.settings):
         print(f"glrt: slow: {text}", file=sys.stderr)
 
 

@@ -8,7 +8,6 @@ from glrt.cli.warnings import clipped, doubt, too_dark
 from glrt.core.text import counted
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
-from glrt.plan.facts import facts_of
 from glrt.plan.omissions import left_out, omissions
 from glrt.process.command import file_names, peak_bytes, print_figures
 from glrt.rendering.renderer import Renderer
@@ -71,7 +70,7 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
     ]
     for text in filter(None, [] if arguments.quiet else doubts):
         print(f"glrt: caution: {text}", file=sys.stderr)
-    if not arguments.quiet and (missing := omissions(renderer.scene, renderer.settings)):
+    if not arguments.quiet and (missing := omissions(renderer.plan.facts, renderer.settings)):
         print(left_out(renderer.settings, missing), file=sys.stderr)
 
 
@@ -113,6 +112,6 @@ def _figures(arguments: argparse.Namespace, done: Done) -> dict[str, Any]:
         "denoised_error_high": denoised.error_high if denoised else None,
         "nonfinite": done.dropped,
         "peak_bytes": peak_bytes(),
-        "triangles": facts_of(renderer.scene).triangles,
+        "triangles": renderer.plan.facts.triangles,
         "assets": sources_of(renderer.scene),
     }

@@ -10,6 +10,7 @@ from pydantic import Field, ValidationError, model_validator
 from glrt.core.errors import SceneError
 from glrt.denoise.filters import least_samples
 from glrt.image.partition import Partition
+from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import Layering, Plan, Weights, are_trivial
 from glrt.scene.loading.scene_files import hashes_of, with_hashes
 from glrt.scene.scene import Scene
@@ -34,9 +35,8 @@ class Traced(Frozen):
     @property
     def plan(self) -> Plan:
         """What to trace; the settings are the scene's, but for the bounces."""
-        return Plan(
-            self.scene, settings_for(self.scene.render, bounces=self.bounces), self.layering
-        )
+        settings = settings_for(self.scene.render, bounces=self.bounces)
+        return Plan(SceneFacts(self.scene), settings, self.layering)
 
     @model_validator(mode="after")
     def _has_a_weight_for_each_layer(self) -> Self:

@@ -15,7 +15,8 @@ from glrt.packing.emission_cones import Aims, aims_of, around_all
 from glrt.packing.kernel_structs import CONSTANTS
 from glrt.packing.lamp_bounds import LAMPS, Bodies, bodies_of, joined, triangle_bodies
 from glrt.packing.scene_tree import SceneTree
-from glrt.plan.facts import MOST_NEAR, SceneFacts, is_sampled
+from glrt.plan.facts import MOST_NEAR, SceneFacts
+from glrt.plan.particles import is_sampled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.base import Object
 from glrt.scene.shapes.kinds import Shape
@@ -36,13 +37,12 @@ class Lamps(NamedTuple):
     parts: list[list[slice]]  # of each cluster
 
 
-def lamps_of(
-    scene: Scene, shapes: Sequence[Shape], facts: SceneFacts, tree: SceneTree | None
-) -> Lamps:
+def lamps_of(facts: SceneFacts, shapes: Sequence[Shape], tree: SceneTree | None) -> Lamps:
     """The lamps among the shapes that can be sampled; their number is their place in the list.
 
     Triangles of the tree that emit are numbered after all shapes.
     """
+    scene = facts.scene
     found = [
         number
         for number, shape in enumerate(shapes)

@@ -4,7 +4,6 @@ shaders_glsl/structs/details.glsl declares the rows.
 """
 
 import hashlib
-from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ import numpy as np
 
 from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.packing.tree_cache import kept
-from glrt.scene.glasses import glasses_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene.materials import facets, gloss
 from glrt.scene.materials.conductors import Conductor
 from glrt.scene.materials.dielectric import Dielectric
@@ -21,58 +20,52 @@ from glrt.scene.materials.facets import STEPS, facet_loss
 from glrt.scene.materials.gloss import ROUGHNESS_STEPS, FacetShares, facet_shares, shares_by_step
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import Finish, Scene
 
 Array = np.ndarray[Any, Any]
 ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
 
 
-def conductor_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
+def conductor_rows(facts: SceneFacts) -> dict[str, int]:
     """The rows of the materials that have one in the array of the struct Conductor."""
-    return {metal: row for row, metal in enumerate(_metals(scene, finishes))}
+    return {metal: row for row, metal in enumerate(_metals(facts))}
 
 
-def _metals(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Conductor]:
-    names = dict.fromkeys(finish.material for finish in finishes)
-    materials = {name: scene.materials[name] for name in names}
+def _metals(facts: SceneFacts) -> dict[str, Conductor]:
     return {
         name: metal.conductor
-        for name, metal in materials.items()
+        for name, metal in facts.materials.items()
         if isinstance(metal, Metal) and metal.conductor
     }
 
 
-def pack_conductors(scene: Scene, finishes: Sequence[Finish]) -> Array:
+def pack_conductors(facts: SceneFacts) -> Array:
     """Rows of the struct Conductor."""
-    metals = _metals(scene, finishes)
+    metals = _metals(facts)
     rows = np.zeros(len(metals), STRUCTS["Conductor"])
     if metals:
         rows["n"], rows["k"] = zip(*metals.values(), strict=True)
     return rows
 
 
-def glass_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
-    """The rows of the materials that have one in the array of the struct Glass.
-
-    Those with a priority come first, the highest before the others.
-    """
-    return {glass: row for row, glass in enumerate(glasses_of(scene, finishes))}
+def glass_rows(facts: SceneFacts) -> dict[str, int]:
+    """The rows of the materials that have one in the array of the struct Glass."""
+    return {glass: row for row, glass in enumerate(facts.glasses)}
 
 
-def pack_facets(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
+def pack_facets(facts: SceneFacts) -> dict[str, Array]:
     """Rows of the structs Glass, Gloss and Albedo."""
     albedos: Albedos = []
-    glasses = _pack_glasses(scene, finishes, albedos)
-    gloss = _pack_gloss(scene, finishes, albedos)
+    glasses = _pack_glasses(facts, albedos)
+    gloss = _pack_gloss(facts, albedos)
     return {"Glass": glasses, "Gloss": gloss, "Albedo": _rows_of(albedos)}
 
 
 Albedos = list[tuple[Array, Array]]  # two numbers at each step
 
 
-def _pack_glasses(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
+def _pack_glasses(facts: SceneFacts, albedos: Albedos) -> Array:
     """Rows of the struct Glass; what their facets reflect is appended to `albedos`."""
-    glasses = glasses_of(scene, finishes).values()
+    glasses = facts.glasses.values()
     rows = np.zeros(len(glasses), STRUCTS["Glass"])
     for row, glass in zip(rows, glasses, strict=True):
         row["absorption"], row["ior"] = glass.absorption, glass.ior
@@ -85,10 +78,10 @@ def _pack_glasses(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) ->
     return rows
 
 
-def gloss_rows(scene: Scene, finishes: Sequence[Finish]) -> dict[str, int]:
+def gloss_rows(facts: SceneFacts) -> dict[str, int]:
     """The first rows of the materials that have some in the array of the struct Gloss."""
     found, first = dict[str, int](), 0
-    for name, material in _principled(scene, finishes).items():
+    for name, material in _principled(facts).items():
         found[name] = first
         first += 1 if material.roughness_map is None else ROUGHNESS_STEPS + 1
     return found
@@ -110,23 +103,22 @@ def _by_step() -> list[FacetShares]:
     return [FacetShares.of(*row) for row in zip(rows["head_on"], rows["grazing"], strict=True)]
 
 
-def glass_parts(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Dielectric]:
+def glass_parts(facts: SceneFacts) -> dict[str, Dielectric]:
     """The glass that principled materials are in part.
 
     They are rows of the struct Material after those of the finishes.
     """
-    materials = _principled(scene, finishes).items()
+    materials = _principled(facts).items()
     return {name: material.glass for name, material in materials if material.glass}
 
 
-def _principled(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Principled]:
-    named = ((finish.material, scene.materials[finish.material]) for finish in finishes)
-    return {name: material for name, material in named if isinstance(material, Principled)}
+def _principled(facts: SceneFacts) -> dict[str, Principled]:
+    return {name: it for name, it in facts.materials.items() if isinstance(it, Principled)}
 
 
-def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> Array:
+def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
     """Rows of the struct Gloss; what their facets reflect is appended to `albedos`."""
-    found = _principled(scene, finishes)
+    found = _principled(facts)
     of_all = [(name, it, shares) for name, it in found.items() for shares in _facets(it)]
     rows = np.zeros(len(of_all), STRUCTS["Gloss"])
     first: dict[int, int] = {}  # of the albedos
@@ -137,7 +129,7 @@ def _pack_gloss(scene: Scene, finishes: Sequence[Finish], albedos: Albedos) -> A
             albedos.append((shares.head_on, shares.grazing))
         return first[id(shares)]
 
-    parts = {part: len(finishes) + k for k, part in enumerate(glass_parts(scene, finishes))}
+    parts = {part: len(facts.finishes) + k for k, part in enumerate(glass_parts(facts))}
     for row, (name, it, shares) in zip(rows, of_all, strict=True):
         row["f0"], row["f90"] = it.head_on, it.specular
         row["transmission"], row["glass"] = it.glass_share, parts.get(name, 0)

@@ -3,7 +3,7 @@
 docs/extending.md says how a type is added.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from glrt.packing.emission_cones import cone_fields, everywhere
 from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.packing.material_details import conductor_rows, glass_parts, glass_rows, gloss_rows
+from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import layer_of_group
 from glrt.scene.lights.cone import Cone
 from glrt.scene.materials.base import Opaque
@@ -20,7 +21,7 @@ from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import Finish, Scene
+from glrt.scene.scene import Finish
 
 Array = np.ndarray[Any, Any]
 
@@ -69,9 +70,9 @@ if set(PACKERS) != set(TYPES.values()):
     raise TypeError(f"materials have packers {list(PACKERS)}, and models {list(TYPES.values())}")
 
 
-def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
+def pack_materials(facts: SceneFacts) -> Array:
     """Rows of the struct Material, one for each finish."""
-    layers = layer_of_group(scene)
+    scene, finishes, layers = facts.scene, facts.finishes, layer_of_group(facts)
     rows = np.zeros(len(finishes), STRUCTS["Material"])
     rows["ior"], rows["details"] = 1.0, CONSTANTS["NO_DETAILS"]
     for row, finish in zip(rows, finishes, strict=True):
@@ -79,19 +80,19 @@ def pack_materials(scene: Scene, finishes: Sequence[Finish]) -> Array:
         PACKERS[type(material)](row, material)
         row["layer"] = layers.get(finish.group, 0)
         row["emission"] = scene.emission(finish)
-    shapes = _emitters(scene, finishes)
+    shapes = _emitters(facts)
     places = {emitter: place for place, emitter in enumerate(shapes)}
     for rows_of in (conductor_rows, glass_rows, gloss_rows):
-        number_of = rows_of(scene, finishes)
+        number_of = rows_of(facts)
         for row, finish in zip(rows, finishes, strict=True):
             row["details"] = number_of.get(finish.material, row["details"])
-    rows["emitter"] = [places.get(_emitter(scene, finish), 0) for finish in finishes]
-    return np.concatenate([rows, _glass_parts(scene, finishes)])
+    rows["emitter"] = [places.get(_emitter(facts, finish), 0) for finish in finishes]
+    return np.concatenate([rows, _glass_parts(facts)])
 
 
-def _glass_parts(scene: Scene, finishes: Sequence[Finish]) -> Array:
+def _glass_parts(facts: SceneFacts) -> Array:
     """Rows of the glass that some materials are in part, in the order of `glass_parts`."""
-    parts, number_of = glass_parts(scene, finishes), glass_rows(scene, finishes)
+    parts, number_of = glass_parts(facts), glass_rows(facts)
     rows = np.zeros(len(parts), STRUCTS["Material"])
     for row, (name, glass) in zip(rows, parts.items(), strict=True):
         pack_dielectric(row, glass)
@@ -99,9 +100,9 @@ def _glass_parts(scene: Scene, finishes: Sequence[Finish]) -> Array:
     return rows
 
 
-def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:
+def pack_emitters(facts: SceneFacts) -> Array:
     """Rows of the struct Emitter: none where all lamps emit evenly to both sides."""
-    found = _emitters(scene, finishes)
+    found = _emitters(facts)
     rows = np.zeros(len(found), STRUCTS["Emitter"])
     rows["outer"], rows["slope"] = everywhere(len(found))[1:]
     for row, (cone, is_one_sided) in zip(rows, found, strict=True):
@@ -115,14 +116,14 @@ def pack_emitters(scene: Scene, finishes: Sequence[Finish]) -> Array:
 Emission = tuple[Cone | None, bool]  # whether it is from the front alone
 
 
-def _emitters(scene: Scene, finishes: Sequence[Finish]) -> list[Emission]:
+def _emitters(facts: SceneFacts) -> list[Emission]:
     """The ways in which lamps emit, that to all sides first; none where it is the only one."""
     evenly: Emission = (None, False)
-    found = dict.fromkeys([evenly, *(_emitter(scene, finish) for finish in finishes)])
+    found = dict.fromkeys([evenly, *(_emitter(facts, finish) for finish in facts.finishes)])
     return list(found) if len(found) > 1 else []
 
 
-def _emitter(scene: Scene, finish: Finish) -> Emission:
-    material = scene.materials[finish.material]
+def _emitter(facts: SceneFacts, finish: Finish) -> Emission:
+    material = facts.materials[finish.material]
     cone = material.cone if finish.group and isinstance(material, Opaque) else None
     return (cone, finish.is_one_sided)

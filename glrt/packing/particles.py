@@ -11,16 +11,13 @@ from glrt.packing.shapes import in_order
 from glrt.plan.lamp_sides import front_shares
 from glrt.plan.particles import (
     Ball,
-    emitters_of,
+    ParticleFacts,
     linked_groups,
     particle_groups,
     particles_a_sample,
-    sky_sends_particles,
-    sun_sends_particles,
-    targets_of,
 )
+from glrt.plan.plan import Plan
 from glrt.scene.scene import Scene
-from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
 
@@ -30,24 +27,22 @@ NOWHERE = Ball(np.zeros(3), 0.0)
 _OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius", "from_sun")
 
 
-def particle_fields(scene: Scene, settings: Settings, bounds: Ball | None) -> dict[str, object]:
-    """The fields of the frame that particles read: as far below the brightest lamp as floats go.
-
-    `bounds` are around all shapes but planes.
-    """
+def particle_fields(plan: Plan) -> dict[str, object]:
+    """The fields of the frame that particles read: as far below the brightest lamp as floats go."""
+    scene, settings, particles = plan.scene, plan.settings, plan.facts.particles
     if settings.caustics == "off":
         return {**dict.fromkeys(_OFF, 0), "bounds_center": (0.0, 0.0, 0.0)}
-    brightest = max([max(scene.emission_of(lamp)) for lamp in emitters_of(scene)], default=0.0)
-    ball = bounds or NOWHERE
+    brightest = max([max(scene.emission_of(lamp)) for lamp in particles.lamps], default=0.0)
+    ball = plan.bounds or NOWHERE
     return {
         "particles": particles_a_sample(settings),
         "aimed": settings.aimed,
-        "splat_unit": _unit(max(brightest, _from_the_sun(scene), _from_the_sky(scene))),
+        "splat_unit": _unit(max(brightest, _from_the_sun(scene), _from_the_sky(particles))),
         "linked": linked_groups(settings) / particle_groups(settings),
         "linked_groups": linked_groups(settings),
         "bounds_center": ball.center - np.array(scene.camera.position, np.float64),
         "bounds_radius": ball.radius,
-        "from_sun": _share_of_the_sun(scene, ball) if sun_sends_particles(scene) else 0.0,
+        "from_sun": _share_of_the_sun(particles, ball) if particles.sun_sends else 0.0,
     }
 
 
@@ -62,21 +57,22 @@ def _from_the_sun(scene: Scene) -> float:
     return max(scene.sun_radiance) * 2 * math.pi * scene.sun.versine
 
 
-def _from_the_sky(scene: Scene) -> float:
+def _from_the_sky(particles: ParticleFacts) -> float:
     """Mean radiance of its image, or the largest of its gradient, where particles leave it."""
-    if not sky_sends_particles(scene):
+    if not particles.sky_sends:
         return 0.0
+    scene = particles.scene
     pixels = scene.sky.pixels if scene.sky else None
     mean = 1.0 if pixels is None else float(pixels[..., :3].mean(dtype=np.float64))
     return mean * max(map(max, scene.background_colors))
 
 
-def _share_of_the_sun(scene: Scene, bounds: Ball) -> float:
+def _share_of_the_sun(particles: ParticleFacts, bounds: Ball) -> float:
     """Of the particles: that of the flux through the ball around the scene, but for bounds."""
+    scene, lamps = particles.scene, particles.lamps
     assert scene.sun
     solid_angle = 2 * math.pi * scene.sun.versine
     own = sum(scene.sun_radiance) * solid_angle * math.pi * bounds.radius**2
-    lamps = emitters_of(scene)
     if not lamps:
         return 1.0
     theirs = sum(sum(scene.emission_of(lamp)) * math.pi * 4 * lamp.reach**2 for lamp in lamps)
@@ -84,14 +80,14 @@ def _share_of_the_sun(scene: Scene, bounds: Ball) -> float:
     return min(max(share, LEAST_SHARE), 1 - LEAST_SHARE)
 
 
-def with_particles(arrays: Arrays, scene: Scene, settings: Settings) -> dict[str, Array]:
+def with_particles(arrays: Arrays, plan: Plan) -> dict[str, Array]:
     """Arrays of a scene, with what particles read where there are any.
 
     These are the rows of the structs Target and Sides, which has one for each of Light.
     """
-    if settings.caustics == "off":  # `arrays` may be of the same scene with particles
+    if plan.settings.caustics == "off":  # `arrays` may be of the same scene with particles
         return {**arrays, **{name: np.zeros(0, STRUCTS[name]) for name in ("Target", "Sides")}}
-    balls = targets_of(scene)
+    scene, balls = plan.scene, plan.facts.particles.targets
     eye = np.array(scene.camera.position, np.float64)
     targets = np.zeros(len(balls), STRUCTS["Target"])
     for row, ball in zip(targets, balls, strict=True):

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,61 +15,61 @@ from glrt.packing.material_details import pack_conductors, pack_facets
 from glrt.packing.materials import pack_emitters, pack_materials
 from glrt.packing.particles import particle_fields
 from glrt.packing.probes import probe_fields
-from glrt.packing.scene_tree import SceneTree, frame_fields, pack_tree, tree_of
+from glrt.packing.scene_tree import SceneTree, frame_fields, pack_tree
 from glrt.packing.shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.packing.texture_maps import pack_coordinates, pack_maps
 from glrt.packing.triangles import pack_tints
-from glrt.plan.facts import SceneFacts, facts_of
-from glrt.plan.particles import Ball
-from glrt.plan.probe_grid import Grid
+from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import Plan
 from glrt.scene.camera import Camera
-from glrt.scene.coincidence import coincidence_of
-from glrt.scene.glasses import AIR, Around
-from glrt.scene.scene import Scene
 from glrt.scene.values import BLACK
-from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
 
 
 def pack_scene(
-    scene: Scene,
-    facts: SceneFacts | None = None,
-    known: Array | None = None,
-    tree: SceneTree | None = None,
+    facts: SceneFacts, tree: SceneTree | None, known: Array | None = None
 ) -> dict[str, Array]:
     """Arrays for the kernel, keyed by the name of their struct.
 
-    `contents` and `tree` are those of the scene, if they are there already. `known` are the nodes
-    of a scene with the same objects: their tree is not built again.
+    `tree` is that of the scene, as `tree_of` builds it. `known` are the nodes of a scene with the
+    same spheres: their tree is not built again.
     """
-    found = facts or facts_of(scene)
-    shapes = in_order(scene)
-    eye = np.array(scene.camera.position, np.float64)
-    tree = tree or tree_of(scene, found)
-    lamps = lamps_of(scene, shapes, found, tree)
-    rows = {finish: row for row, finish in enumerate(found.finishes)}
+    shapes = in_order(facts.scene)
+    eye = np.array(facts.scene.camera.position, np.float64)
+    lamps = lamps_of(facts, shapes, tree)
+    rows = {finish: row for row, finish in enumerate(facts.finishes)}
     lights = {number: row for row, number in enumerate(lamps.shapes)}
-    arrays = pack_shapes(shapes, Placing(eye, scene, rows, lights))
-    spheres = arrays["Sphere"][: None if found.has_sphere_tree else 0]
+    arrays = pack_shapes(shapes, Placing(eye, facts.scene, rows, lights))
+    spheres = arrays["Sphere"][: None if facts.has_sphere_tree else 0]
     return {
         **arrays,
         "Node": pack_nodes(spheres, STRUCTS["Node"], known),
         **pack_tree(tree, arrays),
         **({"Triangle": tree.lit_by(lights, len(shapes))} if tree else {}),
-        "Tint": pack_tints(scene, found),
-        **pack_coordinates(scene, shapes, found, eye),
-        **pack_maps(scene, found.finishes),
-        "Material": pack_materials(scene, found.finishes),
-        "Conductor": pack_conductors(scene, found.finishes),
-        **pack_facets(scene, found.finishes),
-        "Emitter": pack_emitters(scene, found.finishes),
+        "Tint": pack_tints(facts),
+        **pack_coordinates(facts, shapes, eye),
+        **pack_maps(facts),
+        "Material": pack_materials(facts),
+        "Conductor": pack_conductors(facts),
+        **pack_facets(facts),
+        "Emitter": pack_emitters(facts),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
         "Aim": pack_aims(lamps, eye, STRUCTS["Aim"]),
         "Target": np.zeros(0, STRUCTS["Target"]),  # with_particles has them
         "Sides": np.zeros(0, STRUCTS["Sides"]),
     }
+
+
+class Dispatch(NamedTuple):
+    """Samples and tiles of one dispatch, for the frame block."""
+
+    first_sample: int
+    samples: int
+    first_tile: int = 0
+    tile_stride: int = 1  # see shaders_glsl/passes/tiles.glsl
+    is_empty: bool = True  # whether the film holds no sample yet: then it is not read
 
 
 def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
@@ -101,26 +101,18 @@ def screen_axes(camera: Camera, aspect: float) -> dict[str, tuple[float, ...]]:
 
 
 def pack_frame(
-    scene: Scene,
-    settings: Settings,
+    plan: Plan,
     counts: Mapping[str, int],
-    first_sample: int,
-    samples: int,
-    first_tile: int = 0,
-    tile_stride: int = 1,
-    is_empty: bool = True,
-    tree: SceneTree | None = None,
-    glass: Around = AIR,
+    dispatch: Dispatch,
+    tree: SceneTree | None,
     sky_density: float = 0.0,
-    bounds: Ball | None = None,
-    grid: Grid | None = None,
 ) -> bytes:
-    """The bytes of the uniform block: one dispatch of `samples` samples from `first_sample` on.
+    """The bytes of the uniform block of one dispatch.
 
-    `counts` are the rows of each array; for tiles and their stride see passes/tiles.glsl. An empty
-    film is not read. `glass` is around the camera; `sky_density` is that of samples of the sky, as
-    sky_table.py has it; `bounds` are those that particles from afar fill; `grid` is that of probes.
+    `counts` are the rows of each array; `tree` is that of the scene; `sky_density` is the density
+    of samples of the sky image, as sky_table.py has it.
     """
+    scene, settings, medium = plan.scene, plan.settings, plan.facts.camera_medium
     bottom, *horizon, top = scene.background_colors
     frame = {
         "camera": pack_camera(scene.camera, settings.width / settings.height),
@@ -131,29 +123,29 @@ def pack_frame(
         "sun_direction": scene.sun.towards if scene.sun else (0.0, 1.0, 0.0),
         "sun_versine": scene.sun.versine if scene.sun else 0.0,
         "sun_radiance": scene.sun_radiance,
-        **particle_fields(scene, settings, bounds),
-        **probe_fields(grid, scene.camera),
-        "camera_absorption": glass.absorption,
-        "camera_counts": glass.counts,
+        **particle_fields(plan),
+        **probe_fields(plan.grid, scene.camera),
+        "camera_absorption": medium.absorption,
+        "camera_counts": medium.counts,
         "sky_density": sky_density,
         "background_turn": (scene.background.rotation or 0.0) / 360 % 1.0,
         "seed": settings.seed,
         "size": (settings.width, settings.height),
         "origin": settings.crop[:2] if settings.crop else (0, 0),
-        "first_sample": first_sample,
-        "sample_count": samples,
+        "first_sample": dispatch.first_sample,
+        "sample_count": dispatch.samples,
         **{f"{struct.lower()}_count": counts[struct] for struct in (*NUMBERED, *COUNTED)},
-        "first_tile": first_tile,
-        "tile_stride": tile_stride,
-        "is_empty": int(is_empty),
-        "coincident_reach": _coincident_reach(scene),
+        "first_tile": dispatch.first_tile,
+        "tile_stride": dispatch.tile_stride,
+        "is_empty": int(dispatch.is_empty),
+        "coincident_reach": _coincident_reach(plan.facts),
         **frame_fields(tree, np.array(scene.camera.position, np.float64)),
     }
     return record(STRUCTS["Frame"], frame).tobytes()
 
 
-def _coincident_reach(scene: Scene) -> float:
+def _coincident_reach(facts: SceneFacts) -> float:
     """The largest coordinate of surfaces that share a place, relative to the camera; 0 without."""
-    shared = coincidence_of(scene)
+    shared, eye = facts.coincidence, np.array(facts.scene.camera.position)
     corners = np.array([shared.low, shared.high])
-    return float(np.abs(corners - np.array(scene.camera.position)).max()) if shared.pairs else 0.0
+    return float(np.abs(corners - eye).max()) if shared.pairs else 0.0

@@ -26,7 +26,6 @@ from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.packing.shapes import in_order
 from glrt.packing.triangles import Triangles, pack_triangles, triangles_of
 from glrt.plan.facts import ENDLESS, MESH, SceneFacts
-from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
 
 Array = np.ndarray[Any, Any]
@@ -89,19 +88,19 @@ class SceneTree(NamedTuple):
         return rows
 
 
-def tree_of(scene: Scene, facts: SceneFacts, before: SceneTree | None = None) -> SceneTree | None:
+def tree_of(facts: SceneFacts, before: SceneTree | None = None) -> SceneTree | None:
     """The tree that rays find shapes by; None where they are compared one by one.
 
     Own trees that stand in the tree from `before` are not built again.
     """
-    boxes = list(_boxes(scene, facts))
+    boxes = list(_boxes(facts))
     if not boxes and not facts.shapes[MESH]:
         return None
-    meshes = scene.meshes
+    meshes = facts.scene.meshes
     joined = [mesh for number, mesh in enumerate(meshes) if number not in facts.instances]
     placed = [meshes[number] for number in facts.instances]
     own = own_trees(placed, before.own if before else None)
-    check_numbers(len(placed), facts.instance_bits, len(scene.objects))
+    check_numbers(len(placed), facts.instance_bits, len(facts.scene.objects))
     instances = instances_of(meshes, facts.instances, own)
     fixed = [instances.boxes] if placed else []
     corners = [(some.lower, some.upper) for some in (*boxes, *fixed)]
@@ -173,9 +172,9 @@ def _room_for(shapes: int, triangles: int) -> int:
     return math.ceil(SLOTS_OF_SHAPE * shapes + SLOTS_OF_TRIANGLE * triangles + few)
 
 
-def _boxes(scene: Scene, facts: SceneFacts) -> Iterator[Boxes]:
+def _boxes(facts: SceneFacts) -> Iterator[Boxes]:
     """Of the shapes that are not compared one by one, a kind at a time."""
-    shapes, first = in_order(scene) if facts.tree_kinds else [], 0
+    shapes, first = in_order(facts.scene) if facts.tree_kinds else [], 0
     for kind in KINDS.values():
         some = [shape for shape in shapes if type(shape) is kind]
         if some and some[0].shape in facts.tree_kinds:

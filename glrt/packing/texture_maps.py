@@ -13,9 +13,9 @@ from glrt.packing.triangles import corner_meshes
 from glrt.plan.facts import SceneFacts
 from glrt.scene.images.texture_sizes import sizes_of
 from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.principled import Principled
 from glrt.scene.materials.textures import NormalTexture, Texture
-from glrt.scene.scene import Finish, Scene
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.texture_axes import texture_axes
 
@@ -35,14 +35,13 @@ _WRAPS = {"repeat": "REPEAT", "mirror": "MIRROR", "clamp": "CLAMP"}
 _CHANNELS = "rgba"
 
 
-def textures_of(scene: Scene, finishes: Sequence[Finish]) -> dict[Texture, None]:
+def textures_of(facts: SceneFacts) -> dict[Texture, None]:
     """The textures of the visible surfaces, each once."""
-    names = dict.fromkeys(finish.material for finish in finishes)
-    return {texture: None for name in names for texture in _textures(scene, name).values()}
+    materials = facts.materials.values()
+    return {texture: None for it in materials for texture in _textures(it).values()}
 
 
-def _textures(scene: Scene, name: str) -> Mapping[str, Texture]:
-    material = scene.materials[name]
+def _textures(material: Material) -> Mapping[str, Texture]:
     return material.textures if isinstance(material, Opaque) else {}
 
 
@@ -54,9 +53,9 @@ def images_of(textures: Mapping[Texture, None]) -> list[Texture]:
     return list(found.values())
 
 
-def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
+def pack_maps(facts: SceneFacts) -> dict[str, Array]:
     """Rows of the structs Map, one for each texture, and Maps, one for each finish; or none."""
-    textures = textures_of(scene, finishes)
+    textures, finishes = textures_of(facts), facts.finishes
     maps = np.zeros(len(textures), STRUCTS["Map"])
     images = images_of(textures)
     shapes = sizes_of([texture.texels.shape[:2] for texture in images])
@@ -75,18 +74,16 @@ def pack_maps(scene: Scene, finishes: Sequence[Finish]) -> dict[str, Array]:
     of_material = np.zeros(len(finishes) if len(textures) else 0, STRUCTS["Maps"])
     numbers = {texture: number for number, texture in enumerate(textures)}
     for row, finish in zip(of_material, finishes, strict=False):
-        own = _textures(scene, finish.material)
+        material = facts.materials[finish.material]
+        own = _textures(material)
         for key, field in FIELDS.items():
             row[field] = numbers[own[key]] if key in own else NO_MAP
-        material = scene.materials[finish.material]
         cutoff = material.alpha_cutoff if isinstance(material, Principled) else None
         row["cutoff"] = -1.0 if cutoff is None else cutoff
     return {"Map": maps, "Maps": of_material}
 
 
-def pack_coordinates(
-    scene: Scene, shapes: Sequence[Shape], facts: SceneFacts, eye: Array
-) -> dict[str, Array]:
+def pack_coordinates(facts: SceneFacts, shapes: Sequence[Shape], eye: Array) -> dict[str, Array]:
     """Rows of the structs Axes, of planes, quads and disks, and Uv and Tangent, of corners.
 
     None where there are no images; Tangent where there are none of normals.
@@ -96,8 +93,8 @@ def pack_coordinates(
     axes_rows = np.zeros(len(flat) if is_mapped else 0, STRUCTS["Axes"])
     for row, axes in zip(axes_rows, flat, strict=False):
         row["origin"], row["u"], row["v"] = axes.origin - eye, axes.u, axes.v
-    meshes = corner_meshes(scene, facts) if is_mapped else []
-    own = len(scene.meshes) - len(facts.instances)  # from here on, each in its own frame
+    meshes = corner_meshes(facts) if is_mapped else []
+    own = len(facts.scene.meshes) - len(facts.instances)  # from here on, each in its own frame
     count = sum(len(mesh.triangles.vertices) for mesh in meshes)
     uv_rows = np.zeros(count, STRUCTS["Uv"])
     tangents = np.zeros(count if is_bumpy else 0, STRUCTS["Tangent"])

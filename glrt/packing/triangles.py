@@ -17,7 +17,6 @@ from glrt.accel.wide_tree import LEAF, LINK_BITS, SLOT, Grid
 from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.plan.facts import SceneFacts
 from glrt.scene.instancing import distinct
-from glrt.scene.scene import Scene
 from glrt.scene.shapes.mesh import Mesh
 
 Array = np.ndarray[Any, Any]
@@ -82,19 +81,19 @@ def _leaves(local: Array, pairs: Pairs, of: Array) -> Array:
     return rows
 
 
-def corner_meshes(scene: Scene, facts: SceneFacts) -> list[Mesh]:
+def corner_meshes(facts: SceneFacts) -> list[Mesh]:
     """The meshes whose vertices are the rows of the struct Corner, in their order."""
-    placed = scene.meshes
+    placed = facts.scene.meshes
     own = distinct([placed[number] for number in facts.instances])[0]
     shared = [mesh for number, mesh in enumerate(placed) if number not in facts.instances]
     return [*shared, *own]
 
 
-def pack_tints(scene: Scene, facts: SceneFacts) -> Array:
+def pack_tints(facts: SceneFacts) -> Array:
     """Rows of the struct Tint, one for each corner: white where a mesh has no colours."""
     if not facts.is_colored:
         return np.zeros(0, STRUCTS["Tint"])
-    meshes = [mesh.triangles for mesh in corner_meshes(scene, facts)]
+    meshes = [mesh.triangles for mesh in corner_meshes(facts)]
     rows = np.zeros(sum(len(mesh.vertices) for mesh in meshes), STRUCTS["Tint"])
     first = 0
     for mesh in meshes:

@@ -9,11 +9,15 @@ from collections.abc import Collection, Iterator
 from enum import StrEnum
 from itertools import combinations
 
+import numpy as np
+
 from glrt.core.errors import UsageError
+from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, reuses_points
-from glrt.plan.particles import refusal
 from glrt.plan.plan import Layering
-from glrt.scene.scene import Scene
+from glrt.scene.glasses import holds
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.plane import Plane
 from glrt.settings import Settings
 
 
@@ -166,13 +170,13 @@ def check(ways: Collection[Way]) -> None:
 
 
 def check_render(
-    scene: Scene, settings: Settings, layering: Layering, is_part: bool, is_fragment: bool
+    facts: SceneFacts, settings: Settings, layering: Layering, is_part: bool, is_fragment: bool
 ) -> None:
     """UsageError where a renderer cannot render so."""
     ways = ways_of(settings, layering)
     ways |= {Way.PART} if is_part else set()
     check(ways | ({Way.FRAGMENT} if is_fragment else set()))
-    if reason := refusal(scene, settings):
+    if reason := refusal(facts, settings):
         raise UsageError(f"--caustics on does not fit here: {reason}. Leave it out.")
 
 
@@ -190,3 +194,46 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.DENOISE: settings.denoise != "none",
     }
     return {way for way, is_asked in found.items() if is_asked}
+
+
+def refusal(facts: SceneFacts, settings: Settings) -> str | None:
+    """Why particles that are asked for cannot be followed; None if they can, or if none are."""
+    return next(_refusals(facts, settings), None) if settings.caustics == "on" else None
+
+
+def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
+    particles = facts.particles
+    if not METHODS[settings.method].weighs_particles:
+        yield f"particles are weighed by the method mis alone, not by {settings.method}"
+    if not (particles.lamps or particles.sun_sends or particles.sky_sends):
+        yield "no sphere, quad, disk, mesh, sun or sky shines: particles leave these alone"
+    if facts.has_many_lights:
+        yield f"of {facts.sampled_lamps} lamps, too many to choose among for each particle"
+    if facts.holed:
+        yield "some surfaces have holes, which particles do not follow yet"
+    if _shines_in_tinted_glass(facts) or _sun_shines_in_it(facts):
+        yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
+    if facts.camera_medium.counts:
+        yield "the camera is in glass with a priority, where nothing is linked to it"
+
+
+def _dense(facts: SceneFacts) -> list[Shape]:
+    """Shapes of tinted glass or of glass with a priority."""
+    glasses = facts.glasses.items()
+    dense = {name for name, it in glasses if any(it.absorption) or it.priority is not None}
+    return [thing for thing in facts.scene.visible if thing.material in dense]
+
+
+def _shines_in_tinted_glass(facts: SceneFacts) -> bool:
+    around = _dense(facts)
+    lamps = facts.particles.lamps if around else []
+    centers = [np.array(lamp.middle, np.float64) for lamp in lamps]
+    return any(holds(glass, center) for glass in around for center in centers)
+
+
+def _sun_shines_in_it(facts: SceneFacts) -> bool:
+    """Whether the sun stands on the inner side of a plane of such glass; a part of the sky does."""
+    planes, sun = [it for it in _dense(facts) if isinstance(it, Plane)], facts.scene.sun
+    if facts.particles.sky_sends:
+        return bool(planes)
+    return sun is not None and any(float(np.dot(plane.normal, sun.towards)) < 0 for plane in planes)

@@ -13,11 +13,10 @@ from glrt.plan.facts import (
     SPHERES_FROM,
     TREE_FROM,
     SceneFacts,
-    facts_of,
 )
-from glrt.plan.features import WITHOUT_OWN_FLAG, Needs, needs_of
+from glrt.plan.features import WITHOUT_OWN_FLAG, Needs
 from glrt.plan.methods import CLASSIC, METHODS
-from glrt.scene.coincidence import coincidence_of
+from glrt.plan.plan import Plan
 from glrt.scene.materials.kinds import TYPES, Material
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
@@ -42,10 +41,9 @@ class Feature(NamedTuple):
     reason: str
 
 
-def explain(scene: Scene, settings: Settings) -> list[Feature]:
+def explain(plan: Plan) -> list[Feature]:
     """Every feature of the kernel: in or out, and what in the scene decides that."""
-    found = facts_of(scene)
-    needs = needs_of(scene, settings, found)
+    scene, settings, found, needs = plan.scene, plan.settings, plan.facts, plan.needs
     used = found.materials
 
     def made_of(kind: str, **limits: bool) -> list[str]:
@@ -83,7 +81,7 @@ def explain(scene: Scene, settings: Settings) -> list[Feature]:
         *_kinds_of_glass(needs, found),
         Feature("lens", needs.has_lens, f"camera.defocus_angle is {lens:g}"),
         *_aims(needs, found),
-        Feature("lamps in shared places", needs.has_coincident, _coincident(scene)),
+        Feature("lamps in shared places", needs.has_coincident, _coincident(found)),
         Feature("background", needs.has_background, _background(scene)),
         Feature("horizon", needs.has_horizon, _horizon(scene)),
         Feature("image of the sky", needs.has_environment, _environment(scene)),
@@ -143,8 +141,8 @@ def _aims(needs: Needs, found: SceneFacts) -> list[Feature]:
     ]
 
 
-def _coincident(scene: Scene) -> str:
-    pairs = len(coincidence_of(scene).pairs)
+def _coincident(found: SceneFacts) -> str:
+    pairs = len(found.coincidence.pairs)
     if not pairs:
         return "no flat lamp lies in the plane of another surface and overlaps it"
     return f"{counted(pairs, 'pair')} of a lamp and another object overlap in one plane"

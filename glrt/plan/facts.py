@@ -1,17 +1,22 @@
-"""What is in a scene, counted, and by which trees rays are to find its shapes."""
+"""Facts that follow from a scene alone: counts, lamps, glasses, and the BVHs of its shapes."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
+from glrt.plan.particles import ParticleFacts, is_sampled
+from glrt.scene.coincidence import Coincidence, coincidence_of
+from glrt.scene.glasses import Around, around_camera, glasses_of
 from glrt.scene.instancing import Apart, tree_sizes, with_own_tree
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import Finish, Scene
+from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.values import Radiance
 
 TREE_FROM = 33  # bounded shapes: more than are baked, and there a tree pays (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a tree of their own is faster
@@ -25,18 +30,112 @@ MESH = "mesh"  # the kind whose triangles rays always find by a tree
 
 @dataclass(frozen=True)
 class SceneFacts:
-    """What is in a scene, counted once for all that ask."""
+    """What follows from a scene, each fact derived once, when it is first used."""
 
-    shapes: dict[str, int]  # how many of each kind
-    materials: dict[str, Material]  # those that are used, in the order of the scene file
-    finishes: tuple[Finish, ...]  # of what surfaces are, in the order of their materials
-    lamps: dict[str, int]  # how many of each kind of shape emit
-    triangles: int  # that are kept: once of meshes with a tree of their own
-    bright_triangles: int  # of those that emit
-    instances: tuple[int, ...]  # the meshes with a tree of their own, by number
-    largest_tree: int  # triangles in one tree, at most
-    is_smooth: bool  # whether some mesh interpolates normals
-    is_colored: bool  # whether some mesh multiplies colours of its vertices with its material's
+    scene: Scene
+    apart: Apart = "repeated"  # which meshes have a BVH of their own
+
+    @cached_property
+    def finishes(self) -> tuple[Finish, ...]:
+        """Finishes of the visible surfaces, in the order of their materials."""
+        return tuple(self.scene.finishes)
+
+    @cached_property
+    def materials(self) -> dict[str, Material]:
+        """Materials that visible surfaces use, in the order of the scene file."""
+        return {it.material: self.scene.materials[it.material] for it in self.finishes}
+
+    @cached_property
+    def shapes(self) -> dict[str, int]:
+        """Number of visible shapes of each kind."""
+        found = dict.fromkeys(KINDS, 0)
+        for shape in self.scene.visible:
+            found[shape.shape] += 1
+        return found
+
+    @cached_property
+    def lamps(self) -> dict[str, int]:
+        """Number of visible shapes of each kind whose emission can be sampled."""
+        samples = {name: is_sampled(it) for name, it in self.scene.materials.items()}
+        found = dict.fromkeys(KINDS, 0)
+        for shape in self.scene.visible:
+            found[shape.shape] += samples[shape.material]
+        return found
+
+    @cached_property
+    def instances(self) -> tuple[int, ...]:
+        """Numbers of the meshes with a BVH of their own."""
+        return with_own_tree(self.scene.meshes, self.scene.materials, self.apart)
+
+    @cached_property
+    def _tree_sizes(self) -> tuple[int, list[int]]:
+        return tree_sizes(self.scene.meshes, self.instances)
+
+    @property
+    def triangles(self) -> int:
+        """Number of triangles in memory: meshes that share a BVH count once."""
+        shared, own = self._tree_sizes
+        return shared + sum(own)
+
+    @property
+    def largest_tree(self) -> int:
+        """Number of triangles in the largest BVH."""
+        shared, own = self._tree_sizes
+        return max([shared, *own])
+
+    @cached_property
+    def bright_triangles(self) -> int:
+        """Number of triangles that emit."""
+        materials = self.scene.materials
+        lit = (mesh for mesh in self.scene.meshes if is_sampled(materials[mesh.material]))
+        return sum(len(mesh.triangles.faces) for mesh in lit)
+
+    @property
+    def is_smooth(self) -> bool:
+        """Whether some mesh interpolates normals."""
+        return any(mesh.smooth for mesh in self.scene.meshes)
+
+    @cached_property
+    def is_colored(self) -> bool:
+        """Whether some mesh multiplies colours of its vertices with those of its material."""
+        return any(has_vertex_colors(self.scene, mesh) for mesh in self.scene.meshes)
+
+    @cached_property
+    def emissions(self) -> dict[str, list[Radiance]]:
+        """Emissions at intensity 1 of each light group with a lamp, of the sun, and of the sky.
+
+        Lamps that are black count, so that the kernel stays the same when they shine.
+        """
+        found: dict[str, list[Radiance]] = {}
+        for finish in self.finishes:
+            material = self.scene.materials[finish.material]
+            if finish.group and isinstance(material, Opaque):
+                found.setdefault(finish.group, []).append(material.emission)
+        if any(self.scene.sun_irradiance):
+            found.setdefault(SUN_GROUP, []).append(self.scene.sun_irradiance)
+        if any(map(any, self.scene.background.gradient)):
+            found[SKY_GROUP] = list(self.scene.background.gradient)
+        return found
+
+    @cached_property
+    def coincidence(self) -> Coincidence:
+        """Lamps that share a place with other surfaces."""
+        return coincidence_of(self.scene)
+
+    @cached_property
+    def glasses(self) -> dict[str, Dielectric]:
+        """Glasses that are more than clear and smooth, by name; highest priority first."""
+        return glasses_of(self.scene, self.finishes)
+
+    @cached_property
+    def camera_medium(self) -> Around:
+        """The glass around the camera."""
+        return around_camera(self.scene, self.glasses)
+
+    @cached_property
+    def particles(self) -> ParticleFacts:
+        """Facts that particles from lamps need."""
+        return ParticleFacts(self.scene, self.has_sphere_tree)
 
     @property
     def sampled_lamps(self) -> int:
@@ -172,41 +271,6 @@ class SceneFacts:
     def clusters(self) -> int:
         """How many clusters of lamps are weighed at each point; of few lamps each is one."""
         return min(self.sampled_lamps, MOST_NEAR)
-
-
-def facts_of(scene: Scene, apart: Apart = "repeated") -> SceneFacts:
-    """Count what is in a scene; `apart` are the meshes with trees of their own."""
-    shapes = dict.fromkeys(KINDS, 0)
-    lamps = dict.fromkeys(KINDS, 0)
-    samples = {name: is_sampled(material) for name, material in scene.materials.items()}
-    for shape in scene.visible:
-        shapes[shape.shape] += 1
-        lamps[shape.shape] += samples[shape.material]
-    meshes = scene.meshes
-    instances = with_own_tree(meshes, scene.materials, apart)
-    shared, own = tree_sizes(meshes, instances)
-    finishes = tuple(scene.finishes)
-    return SceneFacts(
-        shapes,
-        {finish.material: scene.materials[finish.material] for finish in finishes},
-        finishes,
-        lamps,
-        triangles=shared + sum(own),
-        bright_triangles=sum(
-            len(mesh.triangles.faces) for mesh in meshes if samples[mesh.material]
-        ),
-        instances=instances,
-        largest_tree=max([shared, *own]),
-        is_smooth=any(mesh.smooth for mesh in meshes),
-        is_colored=any(has_vertex_colors(scene, mesh) for mesh in meshes),
-    )
-
-
-def is_sampled(material: Material) -> bool:
-    """Whether a lamp of this material can be sampled: not by an image, and not with holes."""
-    if isinstance(material, Principled) and material.has_holes:
-        return False
-    return material.emits and not (isinstance(material, Opaque) and "emission" in material.textures)
 
 
 def has_vertex_colors(scene: Scene, mesh: Mesh) -> bool:

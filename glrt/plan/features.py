@@ -4,16 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-from glrt.plan.facts import SAMPLED, SceneFacts, facts_of
+from glrt.plan.facts import SAMPLED, SceneFacts
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
-from glrt.plan.particles import (
-    caster_bits,
-    link_bits,
-    sky_sends_particles,
-    sun_sends_particles,
-    targets_of,
-)
-from glrt.scene.coincidence import coincidence_of
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
@@ -134,46 +126,46 @@ _SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
 
-def needs_of(scene: Scene, settings: Settings, facts: SceneFacts | None = None) -> Needs:
+def needs_of(facts: SceneFacts, settings: Settings) -> Needs:
     """The features that this scene, rendered with these settings, makes use of."""
-    found, traits = facts or facts_of(scene), METHODS[settings.method]
-    is_lit = traits.uses_lamps and found.sampled_lamps > 0
+    scene, particles, traits = facts.scene, facts.particles, METHODS[settings.method]
+    is_lit = traits.uses_lamps and facts.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
-    sends_particles = is_lit or sun_sends_particles(scene) or sky_sends_particles(scene)
+    sends_particles = is_lit or particles.sun_sends or particles.sky_sends
     follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
-    metals = [m for m in found.materials.values() if m.type == "metal"]
+    metals = [m for m in facts.materials.values() if m.type == "metal"]
     return Needs(
-        shapes=frozenset(kind for kind, count in found.shapes.items() if count),
-        materials=_types(found, traits.follows),
-        lamps=frozenset(found.sampled if is_lit else ()),
-        has_sphere_tree=found.has_sphere_tree,
-        has_tree=bool(found.tree_kinds),
-        has_instance=bool(found.instances),
-        instance_bits=found.instance_bits,
-        has_smooth=found.is_smooth,
-        has_vertex_color=found.is_colored,
-        has_map=bool(found.mapped),
-        has_color_map="color" in found.mapped,
-        has_emission_map="emission" in found.mapped,
-        has_gloss_map=bool(found.mapped & {"metallic", "roughness"}),
-        has_normal_map="normal" in found.mapped,
-        has_coverage_map="alpha" in found.mapped,
-        has_transmission_map="transmission" in found.mapped,
+        shapes=frozenset(kind for kind, count in facts.shapes.items() if count),
+        materials=_types(facts, traits.follows),
+        lamps=frozenset(facts.sampled if is_lit else ()),
+        has_sphere_tree=facts.has_sphere_tree,
+        has_tree=bool(facts.tree_kinds),
+        has_instance=bool(facts.instances),
+        instance_bits=facts.instance_bits,
+        has_smooth=facts.is_smooth,
+        has_vertex_color=facts.is_colored,
+        has_map=bool(facts.mapped),
+        has_color_map="color" in facts.mapped,
+        has_emission_map="emission" in facts.mapped,
+        has_gloss_map=bool(facts.mapped & {"metallic", "roughness"}),
+        has_normal_map="normal" in facts.mapped,
+        has_coverage_map="alpha" in facts.mapped,
+        has_transmission_map="transmission" in facts.mapped,
         has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
         has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
-        has_rough_glass=traits.follows and traits.has_rough and bool(found.rough_glasses),
-        has_transmission=bool(found.transmitting),
-        has_hole=bool(found.holed),
-        has_coat=bool(found.coated),
-        has_conductor=bool(found.conductors),
-        has_pane=traits.follows and bool(found.panes),
-        has_attenuation=traits.follows and bool(found.tinted),
-        has_nested=traits.follows and bool(found.media),
-        media=len(found.media) if traits.follows else 0,
+        has_rough_glass=traits.follows and traits.has_rough and bool(facts.rough_glasses),
+        has_transmission=bool(facts.transmitting),
+        has_hole=bool(facts.holed),
+        has_coat=bool(facts.coated),
+        has_conductor=bool(facts.conductors),
+        has_pane=traits.follows and bool(facts.panes),
+        has_attenuation=traits.follows and bool(facts.tinted),
+        has_nested=traits.follows and bool(facts.media),
+        media=len(facts.media) if traits.follows else 0,
         has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
-        has_cone=bool(found.cones),
-        has_one_sided=bool(found.one_sided),
-        has_coincident=bool(coincidence_of(scene).pairs),
+        has_cone=bool(facts.cones),
+        has_one_sided=bool(facts.one_sided),
+        has_coincident=bool(facts.coincidence.pairs),
         has_background=any(map(any, scene.background_colors)),
         has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
         has_environment=is_pictured,
@@ -182,16 +174,16 @@ def needs_of(scene: Scene, settings: Settings, facts: SceneFacts | None = None) 
         sample_sun=has_sun and traits.samples_lights,
         sample_lights=is_lit and traits.samples_lights,
         weight_both=(is_lit or is_pictured or has_sun) and traits.weights_both,
-        quads_by_area=is_lit and traits.weights_both and found.lamps["quad"] > 0,
+        quads_by_area=is_lit and traits.weights_both and facts.lamps["quad"] > 0,
         has_particles=follows_particles,
-        casters=caster_bits(scene) if follows_particles and settings.aimed else 0,
-        targets=len(targets_of(scene)) if follows_particles and settings.aimed else 0,
-        linked=link_bits(scene) if follows_particles and settings.linked else 0,
-        **_of_probes(settings, found),
+        casters=particles.casters if follows_particles and settings.aimed else 0,
+        targets=len(particles.targets) if follows_particles and settings.aimed else 0,
+        linked=particles.links if follows_particles and settings.linked else 0,
+        **_of_probes(settings, facts),
         roulette=settings.roulette and traits.follows,
         model=_model_number(settings.method, metals),
-        many_lights=traits.chooses_lights and found.has_many_lights,
-        clusters=found.clusters if traits.chooses_lights else 0,
+        many_lights=traits.chooses_lights and facts.has_many_lights,
+        clusters=facts.clusters if traits.chooses_lights else 0,
         block=settings.block,
     )
 

@@ -2,34 +2,33 @@
 
 from collections.abc import Iterator
 
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import CLASSIC, METHODS, reuses_points
 from glrt.plan.probe_grid import grid_of
 from glrt.scene.materials.kinds import glass_of
-from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
 from glrt.settings import Settings
 
 
-def omissions(scene: Scene, settings: Settings) -> list[str]:
+def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
     """The light that this method does not show in this scene; nothing for those that trace paths.
 
     What a limit of bounces cuts off is not among it.
     """
     if METHODS[settings.method].has_probes:
-        return list(_blurred(scene, settings))
-    return list(_omissions(scene, settings.method)) if settings.method in CLASSIC else []
+        return list(_blurred(facts, settings))
+    return list(_omissions(facts, settings.method)) if settings.method in CLASSIC else []
 
 
-def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
+def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
     """What probes do not hold of the light that paths leave to them."""
     gathers = METHODS[settings.method].gathers
-    if settings.bounces < 2 + gathers or not scene.visible:
+    if settings.bounces < 2 + gathers or not facts.scene.visible:
         return
-    kinds = {material.type for material in facts_of(scene).materials.values()}
+    kinds = {material.type for material in facts.materials.values()}
     if "lambertian" not in kinds:
         return
-    cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(scene, settings).cell)
+    cell = "{:.2g} x {:.2g} x {:.2g}".format(*grid_of(facts.scene, settings).cell)
     light = "light over three matte surfaces or more" if gathers else "indirect light"
     yield f"of {light} what is finer than its probes, {cell} apart"
     if reuses_points(settings) and not settings.unbiased:
@@ -39,10 +38,9 @@ def _blurred(scene: Scene, settings: Settings) -> Iterator[str]:
         yield f"light over mirrors or through glass onto {lit}"
 
 
-def _omissions(scene: Scene, method: str) -> Iterator[str]:
+def _omissions(facts: SceneFacts, method: str) -> Iterator[str]:
     """From what usually weighs most to what weighs least."""
-    facts = facts_of(scene)
-    materials = facts.materials.values()
+    scene, materials = facts.scene, facts.materials.values()
     kinds = {material.type for material in materials}
     metals = [material for material in materials if material.type == "metal"]
     is_local = not METHODS[method].follows

@@ -1,13 +1,12 @@
 """Particles from lamps: which they leave, what they are aimed at, and where they cannot go."""
 
-from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from glrt.plan.facts import SceneFacts, facts_of, is_sampled
-from glrt.plan.methods import METHODS
-from glrt.scene.glasses import around_camera, glasses_of, holds
+from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.metal import Metal
@@ -17,7 +16,6 @@ from glrt.scene.shapes.base import Array, Object
 from glrt.scene.shapes.box import Box
 from glrt.scene.shapes.cylinder import Cylinder
 from glrt.scene.shapes.disk import Disk
-from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.quad import Quad
@@ -60,41 +58,89 @@ def linked_groups(settings: Settings) -> int:
     return max(1, round(settings.linked * particle_groups(settings)))
 
 
-def emitters_of(scene: Scene) -> list[Object]:
-    """The lamps that particles leave, beside the sun."""
-    known = (thing for thing in scene.visible if isinstance(thing, Sphere | Quad | Disk | Mesh))
-    return [thing for thing in known if is_sampled(scene.materials[thing.material])]
+def is_sampled(material: Material) -> bool:
+    """Whether a lamp of this material can be sampled: not by an image, and not with holes."""
+    if isinstance(material, Principled) and material.has_holes:
+        return False
+    return material.emits and not (isinstance(material, Opaque) and "emission" in material.textures)
 
 
-def sun_sends_particles(scene: Scene) -> bool:
-    """Whether the sun shines on shapes that a ball holds."""
-    finite = any(not isinstance(thing, Plane) for thing in scene.visible)
-    return finite and any(scene.sun_radiance)
+@dataclass(frozen=True)
+class ParticleFacts:
+    """Facts of a scene that particles need, each derived once, when it is first used."""
 
+    scene: Scene
+    has_sphere_tree: bool  # whether rays find spheres by a BVH
 
-def sky_sends_particles(scene: Scene) -> bool:
-    """Whether the sky does: it shines on shapes that a ball holds, and nothing else sends any."""
-    finite = any(not isinstance(thing, Plane) for thing in scene.visible)
-    others = bool(emitters_of(scene)) or any(scene.sun_radiance)
-    return finite and not others and any(map(any, scene.background_colors))
+    @cached_property
+    def lamps(self) -> list[Object]:
+        """Lamps that particles leave, in addition to the sun."""
+        kinds = Sphere | Quad | Disk | Mesh
+        known = (thing for thing in self.scene.visible if isinstance(thing, kinds))
+        return [thing for thing in known if is_sampled(self.scene.materials[thing.material])]
 
+    @cached_property
+    def _is_finite(self) -> bool:
+        return any(not isinstance(thing, Plane) for thing in self.scene.visible)
 
-def targets_of(scene: Scene) -> list[Ball]:
-    """Balls around boxes, cylinders and meshes that make caustics: particles are aimed there.
+    @property
+    def sun_sends(self) -> bool:
+        """Whether the sun shines on shapes with bounds."""
+        return self._is_finite and any(self.scene.sun_radiance)
 
-    The largest come first; one within another is left out, as are those beyond MOST_TARGETS.
-    """
-    solids = (thing for thing in scene.visible if isinstance(thing, Box | Cylinder | Mesh))
-    casters = (thing for thing in solids if makes_caustics(scene.materials[thing.material]))
-    found: list[Ball] = []
-    for ball in sorted(map(_ball, casters), key=lambda ball: -ball.radius):
-        if len(found) < MOST_TARGETS and not any(other.holds(ball) for other in found):
-            found.append(ball)
-    return found
+    @property
+    def sky_sends(self) -> bool:
+        """Whether the sky is the only light, and shines on shapes with bounds."""
+        others = bool(self.lamps) or any(self.scene.sun_radiance)
+        return self._is_finite and not others and any(map(any, self.scene.background_colors))
+
+    @cached_property
+    def targets(self) -> list[Ball]:
+        """Balls around boxes, cylinders and meshes that make caustics: particles are aimed there.
+
+        The largest come first. A ball within another is left out, as are those beyond MOST_TARGETS.
+        """
+        materials = self.scene.materials
+        solids = (it for it in self.scene.visible if isinstance(it, Box | Cylinder | Mesh))
+        casters = (thing for thing in solids if makes_caustics(materials[thing.material]))
+        found: list[Ball] = []
+        for ball in sorted(map(_ball, casters), key=lambda ball: -ball.radius):
+            if len(found) < MOST_TARGETS and not any(other.holds(ball) for other in found):
+                found.append(ball)
+        return found
+
+    @cached_property
+    def bounds(self) -> Ball | None:
+        """A ball around all shapes except planes, or None without such shapes."""
+        return ball_around(self.scene)
+
+    @cached_property
+    def casters(self) -> int:
+        """Bits of the spheres that make caustics, at which particles can be aimed.
+
+        A bit is the number of a sphere among the spheres. Spheres beyond bit 30 are left out, and
+        all spheres where rays find them by a BVH.
+        """
+        spheres = [thing for thing in self.scene.visible if isinstance(thing, Sphere)]
+        known = [] if self.has_sphere_tree else spheres[:BITS]
+        materials = self.scene.materials
+        return sum(1 << n for n, it in enumerate(known) if makes_caustics(materials[it.material]))
+
+    @cached_property
+    def links(self) -> int:
+        """Bits of the spheres through which particles can be linked to the camera.
+
+        They are smooth casters. Left out are thin glass, glass with a priority, glass that lies in
+        denser glass, glass in part, and spheres that something reaches into.
+        """
+        scene = self.scene
+        spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
+        found = [(1 << n, it) for n, it in enumerate(spheres[:BITS]) if self.casters >> n & 1]
+        return sum(bit for bit, it in found if _bends_as_known(scene, it) and _is_empty(scene, it))
 
 
 def ball_around(scene: Scene) -> Ball | None:
-    """Around all shapes but planes: where particles from afar go. None where there are none."""
+    """A ball around all shapes except planes, or None without such shapes."""
     balls = [_ball(thing) for thing in scene.visible if not isinstance(thing, Plane)]
     if not balls:
         return None
@@ -107,30 +153,6 @@ def ball_around(scene: Scene) -> Ball | None:
 
 def _ball(thing: Object) -> Ball:
     return Ball(np.array(thing.middle, np.float64), thing.reach)
-
-
-def caster_bits(scene: Scene) -> int:
-    """The spheres that make caustics, at which particles can be aimed: a bit for each.
-
-    By its number among the spheres. Those beyond bit 30 are left out, and all where there are so
-    many that rays find them by a tree.
-    """
-    spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
-    known = [] if facts_of(scene).has_sphere_tree else spheres[:BITS]
-    return sum(1 << n for n, it in enumerate(known) if makes_caustics(scene.materials[it.material]))
-
-
-def link_bits(scene: Scene) -> int:
-    """The spheres through which particles can be linked to the camera: a bit for each.
-
-    Of those that particles are aimed at, but smooth ones alone, and not of thin glass, of glass
-    with a priority, of glass that lies in denser one, of glass in part, and of those within which
-    something lies.
-    """
-    spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
-    bits = caster_bits(scene)
-    found = [(1 << n, it) for n, it in enumerate(spheres[:BITS]) if bits >> n & 1]
-    return sum(bit for bit, it in found if _bends_as_known(scene, it) and _is_empty(scene, it))
 
 
 def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
@@ -173,55 +195,3 @@ def makes_caustics(material: Material) -> bool:
     if isinstance(material, Metal):
         return material.alpha <= ROUGHEST
     return isinstance(material, Dielectric)
-
-
-def refusal(scene: Scene, settings: Settings) -> str | None:
-    """Why particles that are asked for cannot be followed; None if they can, or if none are."""
-    return next(_refusals(scene, settings), None) if settings.caustics == "on" else None
-
-
-def _refusals(scene: Scene, settings: Settings) -> Iterator[str]:
-    found = facts_of(scene)
-    if not METHODS[settings.method].weighs_particles:
-        yield f"particles are weighed by the method mis alone, not by {settings.method}"
-    sends = emitters_of(scene) or sun_sends_particles(scene) or sky_sends_particles(scene)
-    if not sends:
-        yield "no sphere, quad, disk, mesh, sun or sky shines: particles leave these alone"
-    if found.has_many_lights:
-        yield f"of {found.sampled_lamps} lamps, too many to choose among for each particle"
-    for what, there in _beyond(found).items():
-        if there:
-            yield f"{what}, which particles do not follow yet"
-    if _shines_in_tinted_glass(scene) or _sun_shines_in_it(scene):
-        yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
-    if around_camera(scene, scene.finishes).counts:
-        yield "the camera is in glass with a priority, where nothing is linked to it"
-
-
-def _beyond(found: SceneFacts) -> dict[str, bool]:
-    return {
-        "some surfaces have holes": bool(found.holed),
-    }
-
-
-def _dense(scene: Scene) -> list[Shape]:
-    """What is of tinted glass or of glass with a priority."""
-    glasses = glasses_of(scene, scene.finishes)
-    dense = {n for n, it in glasses.items() if any(it.absorption) or it.priority is not None}
-    return [thing for thing in scene.visible if thing.material in dense]
-
-
-def _shines_in_tinted_glass(scene: Scene) -> bool:
-    around = _dense(scene)
-    centers = [np.array(lamp.middle, np.float64) for lamp in emitters_of(scene)] if around else []
-    return any(holds(glass, center) for glass in around for center in centers)
-
-
-def _sun_shines_in_it(scene: Scene) -> bool:
-    """Whether it stands on the inner side of a plane of such glass; of the sky, a part does."""
-    planes = [thing for thing in _dense(scene) if isinstance(thing, Plane)]
-    if sky_sends_particles(scene):
-        return bool(planes)
-    return scene.sun is not None and any(
-        float(np.dot(plane.normal, scene.sun.towards)) < 0 for plane in planes
-    )

@@ -6,14 +6,16 @@ other intensities and colours of its lamps, or fewer bounces, at the cost of a s
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.plan.facts import SceneFacts, facts_of
-from glrt.plan.features import needs_of
+from glrt.plan.facts import SceneFacts
+from glrt.plan.features import Needs, needs_of
+from glrt.plan.particles import Ball
+from glrt.plan.probe_grid import Grid, grid_of
 from glrt.scene.instancing import Apart, after_moves
-from glrt.scene.materials.base import Opaque
 from glrt.scene.nameless import less_names
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
 from glrt.scene.values import Radiance
@@ -32,31 +34,51 @@ NONE: Weight = (0.0, 0.0, 0.0)
 class Plan:
     """What is traced onto a film by layers, and the weights that make it what is wanted."""
 
-    scene: Scene
+    facts: SceneFacts
     settings: Settings
     layering: Layering
     weights: Weights = (ONE,)
     first_sample: int = 0  # above 0 for a part of a render
-    apart: Apart = "repeated"  # which meshes have trees of their own
 
     @property
-    def facts(self) -> SceneFacts:
-        """What is in its scene."""
-        return facts_of(self.scene, self.apart)
+    def scene(self) -> Scene:
+        """The scene that is traced."""
+        return self.facts.scene
+
+    @property
+    def apart(self) -> Apart:
+        """Which meshes have a BVH of their own."""
+        return self.facts.apart
+
+    @cached_property
+    def needs(self) -> Needs:
+        """The features of its kernel."""
+        return needs_of(self.facts, self.settings)
+
+    @cached_property
+    def grid(self) -> Grid | None:
+        """The grid of probes, for methods that have some."""
+        return grid_of(self.scene, self.settings) if self.needs.has_probes else None
+
+    @property
+    def bounds(self) -> Ball | None:
+        """The ball that particles from the sun or the sky fill, or None without such particles."""
+        sends = self.needs.has_sun or self.facts.particles.sky_sends
+        return self.facts.particles.bounds if self.needs.has_particles and sends else None
 
     @property
     def layers(self) -> int:
         """How many layers the film keeps beside its mean: none where the mean alone suffices."""
         counts = {
             "none": 0,
-            "groups": len(set(layer_of_group(self.scene).values())),
+            "groups": len(set(layer_of_group(self.facts).values())),
             "lengths": min(self.settings.bounces + 1, MOST_LAYERS),
         }
         return counts[self.layering] if counts[self.layering] > 1 else 0
 
     def constants(self) -> dict[str, bool | int]:
         """The prelude of a kernel that fills the layers."""
-        layer_of = layer_of_group(self.scene) if self.layers else {}
+        layer_of = layer_of_group(self.facts) if self.layers else {}
         return {
             "LAYERS": self.layers,
             "BY_LENGTH": self.layering == "lengths",
@@ -74,8 +96,7 @@ class Plan:
         if relit := self.relit(scene, settings, layering):
             return Cost.FREE if relit == self else Cost.RELIGHT
         after = self.followed_by(scene, settings, layering, self.first_sample)
-        needs = (needs_of(plan.scene, plan.settings, plan.facts) for plan in (self, after))
-        is_same = len(set(needs)) == 1 and self.constants() == after.constants()
+        is_same = self.needs == after.needs and self.constants() == after.constants()
         return Cost.RESTART if is_same else Cost.RECOMPILE
 
     def followed_by(
@@ -83,7 +104,7 @@ class Plan:
     ) -> "Plan":
         """What to trace after an edit."""
         apart = after_moves(self.apart, self.scene.meshes, scene.meshes)
-        return plan_for(scene, settings, layering, first_sample, apart)
+        return prepare(scene, settings, layering, first_sample, apart)
 
     def alone(self, length: int) -> Weights:
         """The light of the paths of one length; the last layer holds all that are longer."""
@@ -91,47 +112,30 @@ class Plan:
         return tuple(ONE if layer == shown else NONE for layer in range(self.layers))
 
 
-def plan_for(
+def prepare(
     scene: Scene,
     settings: Settings,
-    layering: Layering,
+    layering: Layering = "none",
     first_sample: int = 0,
     apart: Apart = "repeated",
 ) -> Plan:
-    """What to trace: with light groups apart, lamps that are off are traced at 1.
+    """Plan what to trace. With layers by light group, groups that are off are traced at 1.
 
-    So one that is turned on is there at once.
+    So a lamp that is turned on needs no new samples.
     """
-    intensities = scene.light_groups
-    dark = [group for group in emitters(scene) if intensities[group] == 0]
-    plan = Plan(scene, settings, layering, first_sample=first_sample, apart=apart)
+    facts, intensities = SceneFacts(scene, apart), scene.light_groups
+    plan = Plan(facts, settings, layering, first_sample=first_sample)
+    dark = [group for group in facts.emissions if intensities[group] == 0]
     if layering != "groups" or not dark:
         return plan
-    lights = {**scene.lights, **dict.fromkeys(dark, 1.0)}
-    plan = replace(plan, scene=scene.model_copy(update={"lights": lights}))
+    lit = scene.model_copy(update={"lights": {**scene.lights, **dict.fromkeys(dark, 1.0)}})
+    plan = replace(plan, facts=SceneFacts(lit, apart))
     return plan.relit(scene, settings, layering) or plan
 
 
-def emitters(scene: Scene) -> dict[str, list[Radiance]]:
-    """The light groups of the lamps and of a sky that shines, with their emissions at 1.
-
-    Lamps that are black count, so that the kernel is the same when they shine.
-    """
-    found: dict[str, list[Radiance]] = {}
-    for finish in scene.finishes:
-        material = scene.materials[finish.material]
-        if finish.group and isinstance(material, Opaque):
-            found.setdefault(finish.group, []).append(material.emission)
-    if any(scene.sun_irradiance):
-        found.setdefault(SUN_GROUP, []).append(scene.sun_irradiance)
-    if any(map(any, scene.background.gradient)):
-        found[SKY_GROUP] = list(scene.background.gradient)
-    return found
-
-
-def layer_of_group(scene: Scene) -> dict[str, int]:
-    """The layer of each light group that shines; what is beyond the last layer shares it."""
-    return {group: min(n, MOST_LAYERS - 1) for n, group in enumerate(emitters(scene))}
+def layer_of_group(facts: SceneFacts) -> dict[str, int]:
+    """The layer of each light group that shines; groups beyond the last layer share it."""
+    return {group: min(n, MOST_LAYERS - 1) for n, group in enumerate(facts.emissions)}
 
 
 def are_trivial(weights: Weights) -> bool:
@@ -150,7 +154,7 @@ def _weights(film: Plan, scene: Scene, settings: Settings) -> Weights | None:
         return (ONE,)
     if film.layering == "none" or _unlit(traced) != _unlit(wanted):
         return None
-    return _group_weights(traced, wanted)
+    return _group_weights(SceneFacts(traced), SceneFacts(wanted))
 
 
 def _length_weights(film: Plan, settings: Settings) -> Weights | None:
@@ -165,10 +169,10 @@ def _length_weights(film: Plan, settings: Settings) -> Weights | None:
     return tuple(ONE if length <= limit else NONE for length in range(count))
 
 
-def _group_weights(film: Scene, wanted: Scene) -> Weights | None:
+def _group_weights(film: SceneFacts, wanted: SceneFacts) -> Weights | None:
     """A weight for each layer; None where a layer would need two, or light that it lacks."""
     traced, layers = layer_of_group(film), dict[int, Weight]()
-    if emitters(wanted).keys() != traced.keys():
+    if wanted.emissions.keys() != traced.keys():
         return None
     for group, layer in traced.items():
         weight = _group_weight(film, wanted, group)
@@ -177,14 +181,14 @@ def _group_weights(film: Scene, wanted: Scene) -> Weights | None:
     return tuple(layers[layer] for layer in sorted(layers)) or (ONE,)
 
 
-def _group_weight(film: Scene, wanted: Scene, group: str) -> Weight | None:
+def _group_weight(film: SceneFacts, wanted: SceneFacts, group: str) -> Weight | None:
     """Intensity and colour wanted over those traced; None if its lamps do not change alike."""
-    tints = set(_tints(emitters(film)[group], emitters(wanted)[group]))
+    tints = set(_tints(film.emissions[group], wanted.emissions[group]))
     if len(tints) != 1 or None in tints:
         return None
     tint = tints.pop()
     assert tint
-    ratio = wanted.light_groups[group] / film.light_groups[group]
+    ratio = wanted.scene.light_groups[group] / film.scene.light_groups[group]
     return (ratio * tint[0], ratio * tint[1], ratio * tint[2])
 
 

@@ -1,29 +1,28 @@
 """Why a scene is slow, where the user can change it."""
 
 from glrt.core.text import counted
-from glrt.plan.facts import MOST_LAMPS, facts_of
+from glrt.plan.facts import MOST_LAMPS, SceneFacts
 from glrt.plan.methods import CLASSIC, METHODS
-from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 MOST_PLANES = 32  # as many shapes as a kernel holds as constants
 LONG = 16  # bounces: paths that are followed further have hardly any light left
 
 
-def slow_because(scene: Scene, settings: Settings) -> list[str]:
+def slow_because(facts: SceneFacts, settings: Settings) -> list[str]:
     """A sentence or two for each reason: what takes the time, and what to do."""
     found = (
-        _one_by_one(scene),
-        _unsampled(scene, settings),
+        _one_by_one(facts),
+        _unsampled(facts, settings),
         _no_roulette(settings),
         _particles_of_a_crop(settings),
     )
     return [text for text in found if text]
 
 
-def _one_by_one(scene: Scene) -> str:
+def _one_by_one(facts: SceneFacts) -> str:
     """Shapes that no tree holds."""
-    planes = facts_of(scene).shapes["plane"]
+    planes = facts.shapes["plane"]
     if planes <= MOST_PLANES:
         return ""
     return (
@@ -32,13 +31,12 @@ def _one_by_one(scene: Scene) -> str:
     )
 
 
-def _unsampled(scene: Scene, settings: Settings) -> str:
+def _unsampled(facts: SceneFacts, settings: Settings) -> str:
     """Triangles that emit, and are too many to be sampled."""
-    found = facts_of(scene)
-    if not METHODS[settings.method].uses_lamps or found.bright_triangles == found.lamp_triangles:
+    if not METHODS[settings.method].uses_lamps or facts.bright_triangles == facts.lamp_triangles:
         return ""
     return (
-        f"{found.bright_triangles:,} triangles emit light, and a scene may have {MOST_LAMPS:,} "
+        f"{facts.bright_triangles:,} triangles emit light, and a scene may have {MOST_LAMPS:,} "
         "lamps that are sampled: the light of meshes is found by scattering alone, and noisy. Use "
         "a mesh of fewer triangles for the lamp, or a quad."
     )

@@ -212,14 +212,13 @@ def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> i
 
 def _rounds_of_rays(plan: Plan) -> tuple[int, int]:
     """Of the loops of one camera ray: as many as are likely, and those that are certain."""
-    return 1 + rounds_of_search(plan.scene), 1 + rounds_of_search(plan.scene, 0)
+    return 1 + rounds_of_search(plan.facts), 1 + rounds_of_search(plan.facts, 0)
 
 
 def _rounds_of_paths(plan: Plan) -> tuple[int, int]:
     """The same of a whole path."""
-    more = rounds_for_particles(plan.scene, plan.settings)
-    likely = iterations_per_sample(plan.scene, plan.settings)
-    return likely + more, iterations_per_sample(plan.scene, plan.settings, 0) + more
+    more = rounds_for_particles(plan)
+    return iterations_per_sample(plan) + more, iterations_per_sample(plan, 0) + more
 
 
 def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:

@@ -16,16 +16,13 @@ from glrt.gpu.struct_arrays import FILE, Arrays, block_of, write_rows
 from glrt.packing.image_texture import ImageTexture
 from glrt.packing.kernel_structs import STRUCTS
 from glrt.packing.particles import with_particles
-from glrt.packing.scene_arrays import pack_frame, pack_scene
+from glrt.packing.scene_arrays import Dispatch, pack_frame, pack_scene
 from glrt.packing.scene_tree import SceneTree, tree_of
 from glrt.packing.sky_table import SkyTable
 from glrt.packing.texel_texture import TexelTexture
 from glrt.packing.texture_maps import images_of, textures_of
 from glrt.plan.facts import SceneFacts
-from glrt.plan.features import needs_of
-from glrt.plan.particles import ball_around, sky_sends_particles
 from glrt.plan.plan import Plan
-from glrt.plan.probe_grid import grid_of
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
@@ -40,7 +37,6 @@ from glrt.rendering.pipelines import (
     upload,
 )
 from glrt.rendering.schedule import DispatchRange, stride_of
-from glrt.scene.glasses import around_camera
 from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 
@@ -76,22 +72,16 @@ class DeviceScene:
         The same scene as `before` is not packed again. RenderError if the driver has no room.
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
-        facts = plan.facts
         start = time.perf_counter()
-        self._tree = _tree(plan.scene, facts, before)
+        self._tree = _tree(plan.facts, before)
         built = time.perf_counter()
-        packed = _packed(plan.scene, facts, self._tree, before)
-        self._arrays = with_particles(packed, plan.scene, plan.settings)
+        self._arrays = with_particles(_packed(plan.facts, self._tree, before), plan)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
-        self._glass = around_camera(plan.scene, facts.finishes)
-        needs = needs_of(plan.scene, plan.settings, facts)
-        sends = needs.has_sun or sky_sends_particles(plan.scene)
-        self._bounds = ball_around(plan.scene) if needs.has_particles and sends else None
-        self.grid = grid_of(plan.scene, plan.settings) if needs.has_probes else None
+        self.grid = plan.grid
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
-        self._constants = {**needs.constants(), **plan.constants(), **stack, **variant}
-        self._has_tree = facts.has_trees  # without one none are lost
+        self._constants = {**plan.needs.constants(), **plan.constants(), **stack, **variant}
+        self._has_tree = plan.facts.has_trees  # without one none are lost
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
@@ -105,7 +95,7 @@ class DeviceScene:
                 self._upload(before)
                 self._sky = _sky_image(context, plan.scene, before._sky if before else None)
                 self._texels = _texel_texture(context, plan, before._texels if before else None)
-                if needs.sample_sky:
+                if plan.needs.sample_sky:
                     known = before._sky_table if before else None
                     self._sky_table = _sky_table(context, plan.scene, known)
         except (RenderError, SceneError):
@@ -156,10 +146,11 @@ class DeviceScene:
 
         `own` are blocks of the kernel beside those of the scene.
         """
-        numbers = film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
+        now = Dispatch(
+            film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
+        )
         density = self._sky_table.density if self._sky_table else 0.0
-        around = self._tree, self._glass, density, self._bounds, self.grid
-        self._frame.write(pack_frame(plan.scene, plan.settings, self._counts, *numbers, *around))
+        self._frame.write(pack_frame(plan, self._counts, now, self._tree, density))
         self._write_tree()
         resources = {**self._resources, **own}
         if self._sky:
@@ -261,27 +252,25 @@ def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTab
 
 
 def _texel_texture(context: Context, plan: Plan, known: TexelTexture | None) -> TexelTexture | None:
-    images = images_of(textures_of(plan.scene, plan.facts.finishes))
+    images = images_of(textures_of(plan.facts))
     if not images:
         return None
     return known.shared() if known and known.holds(images) else TexelTexture(context, images)
 
 
-def _tree(scene: Scene, facts: SceneFacts, before: DeviceScene | None) -> SceneTree | None:
+def _tree(facts: SceneFacts, before: DeviceScene | None) -> SceneTree | None:
     """The tree of a scene; the one from before if nothing has moved since."""
-    if before and before._scene.objects == scene.objects:
+    if before and before._scene.objects == facts.scene.objects:
         return before._tree
-    return tree_of(scene, facts, before._tree if before else None)
+    return tree_of(facts, before._tree if before else None)
 
 
-def _packed(
-    scene: Scene, facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | None
-) -> Arrays:
+def _packed(facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | None) -> Arrays:
     """The arrays of a scene; nodes of spheres from before are not built again."""
-    if before and before._scene == scene:
+    if before and before._scene == facts.scene:
         return before._arrays
-    nodes = before._arrays["Node"] if before and before._scene.objects == scene.objects else None
-    return pack_scene(scene, facts, nodes, tree)
+    is_same = before and before._scene.objects == facts.scene.objects
+    return pack_scene(facts, tree, before._arrays["Node"] if before and is_same else None)
 
 
 def _equal(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:

@@ -216,8 +216,7 @@ def _block_of_sums(context: Context, what: str, size: int) -> moderngl.Buffer:
 
 def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     """How many rounds of loops a dispatch may take, None: any; and how many particles a lane."""
-    iterations = iterations_per_sample(plan.scene, plan.settings)
-    iterations += rounds_for_particles(plan.scene, plan.settings)
+    iterations = iterations_per_sample(plan) + rounds_for_particles(plan)
     rounds = usable_rounds(context)
     block = plan.settings.block
     return rounds, block if rounds is None else max(1, min(block, rounds // iterations))

@@ -20,7 +20,8 @@ from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
 from glrt.plan.combinations import check_render
-from glrt.plan.plan import ONE, Layering, Weights, plan_for
+from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import ONE, Layering, Weights, prepare
 from glrt.rendering.first_half import Halver, check_rest
 from glrt.rendering.layer_weights import Mixer, Reading, gathered, mixed, read_row
 from glrt.rendering.pass_film import Array
@@ -68,7 +69,8 @@ class Renderer(Progress):
         self.settings = with_filter(settings_for(settings or scene.render, **overrides))
         self._decisions = decisions, self.settings
         self._part: Partition | None = one_part(*part, self.settings) if part else None
-        wanted = scene, self.settings, layering, part is not None
+        self.plan = prepare(scene, self.settings, layering, self._samples.start, apart)
+        wanted = SceneFacts(scene, apart), self.settings, layering, part is not None
         check_render(*wanted, pipeline == "fragment")
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
@@ -77,7 +79,6 @@ class Renderer(Progress):
                 refused.callback(self.context.gl.release)
             self.pipeline = resolve(pipeline, self.context)
             check_render(*wanted, self.pipeline == "fragment")
-            self.plan = plan_for(scene, self.settings, layering, self._samples.start, apart)
             with self.context.gl:
                 options = KernelOptions(self.pipeline, tier, variant)
                 self._tracer = Tracer(self.context, self.plan, options)
@@ -140,7 +141,8 @@ class Renderer(Progress):
         is_same = hysteresis == self.probes.hysteresis
         if is_same and (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
-        check_render(*after, layering, self._part is not None, self.pipeline == "fragment")
+        is_fragment = self.pipeline == "fragment"
+        check_render(SceneFacts(after[0]), after[1], layering, self._part is not None, is_fragment)
         self._halver.restart()
         wanted = wanted_range(self._part, after[1])
         is_other_part = self._part is not None and wanted != self._samples

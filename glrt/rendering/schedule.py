@@ -16,13 +16,12 @@ from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.packing.kernel_structs import CONSTANTS
-from glrt.plan.facts import MESH, SceneFacts, facts_of
+from glrt.plan.facts import MESH, SceneFacts
 from glrt.plan.features import NEAR, has_image
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
-from glrt.plan.particles import caster_bits, link_bits, sky_sends_particles, targets_of
 from glrt.plan.plan import Plan
 from glrt.scene.scene import Scene
-from glrt.settings import RenderSettings, Settings
+from glrt.settings import RenderSettings
 
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
 FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
@@ -53,9 +52,7 @@ HEADLESS = DispatchPolicy(0.5, 1 / 8, math.inf)
 INTERACTIVE = DispatchPolicy(0.1, 1 / 4, 1.0)
 
 
-def iterations_per_sample(
-    scene: Scene, settings: RenderSettings, tree_rounds: float = TREE_ROUNDS
-) -> int:
+def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
     """Rounds of all loops for one sample: each segment runs over the shapes, once or twice.
 
     At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
@@ -63,41 +60,42 @@ def iterations_per_sample(
     others. Of many, the parts of a cluster are weighed so too, and their sum for the density of the
     lamp that is sampled, and of the one that is met.
     """
-    found = facts_of(scene)
-    search = rounds_of_search(scene, tree_rounds, found)
+    facts, settings = plan.facts, plan.settings
+    search = rounds_of_search(facts, tree_rounds)
     traits = METHODS[settings.method]
     if traits.model and not traits.chooses_lights:
-        return 1 + _rounds_of_shading(found, settings, search)
-    rays, choice = (2, _rounds_of_choice(found)) if traits.uses_lamps else (1, 0)
-    if traits.samples_lights and (levels := _levels_of_sky(scene)):
+        return 1 + _rounds_of_shading(facts, settings, search)
+    rays, choice = (2, _rounds_of_choice(facts)) if traits.uses_lamps else (1, 0)
+    if traits.samples_lights and (levels := _levels_of_sky(plan.scene)):
         rays, choice = rays + 1, choice + levels + 1
-    rays += traits.samples_lights and scene.sun is not None
-    segments = (settings.bounces + 1) * (1 + _passed(scene, found))
+    rays += traits.samples_lights and plan.scene.sun is not None
+    segments = (settings.bounces + 1) * (1 + _passed(facts))
     return 1 + segments * (1 + rays * search + choice)
 
 
-def rounds_for_particles(scene: Scene, settings: Settings) -> int:
-    """Rounds beside those: paths weighed against aimed particles, and links through spheres."""
+def rounds_for_particles(plan: Plan) -> int:
+    """Further rounds: paths weighed against aimed particles, and links through spheres."""
+    settings, particles = plan.settings, plan.facts.particles
     if settings.caustics == "off":
         return 0
-    found = facts_of(scene)
-    spheres = 1 + found.shapes["sphere"]
-    weighed = 2 * spheres if settings.aimed and caster_bits(scene) else 0
-    if settings.aimed and (targets := targets_of(scene)):
-        weighed += 2 * (1 + len(targets))
-    if scene.sun or sky_sends_particles(scene):
-        weighed += 1 + found.shapes["plane"]
-    linked = settings.linked and link_bits(scene)
-    links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(scene) if linked else 0
+    spheres = 1 + plan.facts.shapes["sphere"]
+    weighed = 2 * spheres if settings.aimed and particles.casters else 0
+    if settings.aimed and particles.targets:
+        weighed += 2 * (1 + len(particles.targets))
+    if plan.scene.sun or particles.sky_sends:
+        weighed += 1 + plan.facts.shapes["plane"]
+    linked = settings.linked and particles.links
+    links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(plan.facts) if linked else 0
     return (settings.bounces + 1) * (weighed + links)
 
 
-def rounds_for_reuse(scene: Scene, settings: Settings) -> int:
-    """Rounds beside those of points that other samples have kept: a ray to each."""
-    if not reuses_points(settings):
+def rounds_for_reuse(plan: Plan) -> int:
+    """Further rounds for points that other samples have kept: a ray to each."""
+    reuse = plan.settings.reuse
+    if not reuses_points(plan.settings):
         return 0
-    asked = 1 + (settings.reuse in TEMPORAL) + NEAR * (settings.reuse in SPATIAL)
-    return 2 * asked + asked * rounds_of_search(scene)
+    asked = 1 + (reuse in TEMPORAL) + NEAR * (reuse in SPATIAL)
+    return 2 * asked + asked * rounds_of_search(plan.facts)
 
 
 def _levels_of_sky(scene: Scene) -> int:
@@ -109,31 +107,27 @@ def _levels_of_sky(scene: Scene) -> int:
     return int(max(width, height + 1) - 1).bit_length()
 
 
-def _passed(scene: Scene, found: SceneFacts) -> int:
+def _passed(facts: SceneFacts) -> int:
     """Holes, and surfaces inside other glass, that a segment may pass; of more it is a guess."""
-    passed = {*found.media, *found.holed}
-    return (
-        min(sum(thing.material in passed for thing in scene.visible), MOST_PASSED) if passed else 0
-    )
+    passed = {*facts.media, *facts.holed}
+    shapes = facts.scene.visible if passed else ()
+    return min(sum(thing.material in passed for thing in shapes), MOST_PASSED)
 
 
-def rounds_of_search(
-    scene: Scene, tree_rounds: float = TREE_ROUNDS, facts: SceneFacts | None = None
-) -> int:
-    """Rounds of the loops that find what one ray meets; `contents` are those of the scene.
+def rounds_of_search(facts: SceneFacts, tree_rounds: float = TREE_ROUNDS) -> int:
+    """Rounds of the loops that find what one ray meets.
 
     A loop over the shapes of one kind takes a round more than there are shapes: the one in which
     it finds that there are no more. With a tree it is a guess.
     """
-    found = facts or facts_of(scene)
-    in_trees = [*found.tree_kinds, *(["sphere"] if found.has_sphere_tree else [])]
+    in_trees = [*facts.tree_kinds, *(["sphere"] if facts.has_sphere_tree else [])]
     counts = [
-        found.count_of(found.tree_kinds) + len(found.instances) + found.triangles,
-        found.has_sphere_tree * found.shapes["sphere"],
+        facts.count_of(facts.tree_kinds) + len(facts.instances) + facts.triangles,
+        facts.has_sphere_tree * facts.shapes["sphere"],
     ]
     by_tree = sum(round(tree_rounds * math.log2(count)) for count in counts if count)
     in_trees.append(MESH)
-    single = [count for kind, count in found.shapes.items() if count and kind not in in_trees]
+    single = [count for kind, count in facts.shapes.items() if count and kind not in in_trees]
     return sum(single) + len(single) + by_tree
 
 
@@ -155,11 +149,10 @@ def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
 
     SceneError if not one.
     """
-    scene, settings = plan.scene, plan.settings
-    more = rounds_for_particles(scene, settings) + rounds_for_reuse(scene, settings)
-    iterations = iterations_per_sample(scene, settings) + more
+    more = rounds_for_particles(plan) + rounds_for_reuse(plan)
+    iterations = iterations_per_sample(plan) + more
     rounds = usable_rounds(context)
-    least = iterations_per_sample(scene, settings, 0) + more
+    least = iterations_per_sample(plan, 0) + more
     return rounds, most_samples(iterations, rounds, least)
 
 

@@ -12,19 +12,16 @@ from glrt.gpu.struct_arrays import FILE, Arrays
 from glrt.packing.image_texture import texture_of
 from glrt.packing.kernel_structs import STRUCTS
 from glrt.packing.particles import with_particles
-from glrt.packing.scene_arrays import pack_frame, pack_scene
+from glrt.packing.scene_arrays import Dispatch, pack_frame, pack_scene
 from glrt.packing.scene_tree import SceneTree, tree_of
 from glrt.packing.shapes import NUMBERED
 from glrt.packing.sky_table import sky_sampling, tree_texture
 from glrt.packing.texel_texture import texture_of as texels_of
 from glrt.packing.texture_maps import images_of, textures_of
-from glrt.plan.facts import SceneFacts, facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import everything
-from glrt.plan.methods import METHODS
-from glrt.plan.particles import ball_around
-from glrt.plan.probe_grid import grid_of
+from glrt.plan.plan import Plan, prepare
 from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, scene_text, upload
-from glrt.scene.glasses import around_camera
 from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -50,21 +47,20 @@ def evaluate(
     otherwise; `apart` are meshes with trees of their own; the frame is of `settings`, or of what
     the scene wishes. The context must be current.
     """
-    facts = facts_of(scene, apart) if scene else None
-    tree = tree_of(scene, facts) if scene and facts else None
+    settings = settings or (settings_for(scene.render) if scene else None)
+    plan = prepare(scene, settings, apart=apart) if scene and settings else None
+    tree = tree_of(plan.facts) if plan else None
     stack = {"TREE_STACK": tree.stack if tree else 0}
     prelude = {
         **everything(),
-        **(_choice(facts) if facts else {}),
+        **(_choice(plan.facts) if plan else {}),
         **stack,
         **(constants or {}),
     }
-    arrays = pack_scene(scene, facts, tree=tree) if scene else no_rows()
-    if scene and settings:
-        arrays = with_particles(arrays, scene, settings)
+    arrays = with_particles(pack_scene(plan.facts, tree), plan) if plan else no_rows()
     texts = {FILE: scene_text(gl, arrays, "generic")}
     probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
-    resources = resources_of(gl, scene, arrays, tree, settings)
+    resources = resources_of(gl, plan, arrays, tree)
     try:
         return probe.run(gl, inputs, resources)
     finally:
@@ -73,31 +69,21 @@ def evaluate(
 
 
 def resources_of(
-    gl: moderngl.Context,
-    scene: Scene | None,
-    arrays: Arrays,
-    tree: SceneTree | None = None,
-    settings: Settings | None = None,
+    gl: moderngl.Context, plan: Plan | None, arrays: Arrays, tree: SceneTree | None = None
 ) -> dict[str, Resource]:
-    """The buffers and textures that the functions read; a frame of zeros without a scene."""
+    """The buffers and textures that the functions read; a frame of zeros without a plan."""
     frame = bytes(STRUCTS["Frame"].itemsize)
-    picture = scene.sky if scene else None
+    picture = plan.scene.sky if plan else None
     pixels = picture.pixels if picture else None
     sampling = sky_sampling(pixels) if pixels is not None else None
-    if scene:
+    if plan:
         counts = {struct: len(rows) for struct, rows in arrays.items()}
-        glass = around_camera(scene, scene.finishes)
         density = sampling.density if sampling else 0.0
-        around: Any = {"tree": tree, "glass": glass, "sky_density": density}
-        around["bounds"] = ball_around(scene)
-        settings = settings or settings_for(scene.render)
-        if METHODS[settings.method].has_probes:
-            around["grid"] = grid_of(scene, settings)
-        frame = pack_frame(scene, settings, counts, 0, 1, **around)
+        frame = pack_frame(plan, counts, Dispatch(0, 1), tree, density)
     sky: dict[str, Resource] = {}
     if pixels is not None and sampling:
         sky = {ENVIRONMENT: texture_of(gl, pixels), SKY_TREE: tree_texture(gl, sampling.tree)}
-    if scene and (images := images_of(textures_of(scene, scene.finishes))):
+    if plan and (images := images_of(textures_of(plan.facts))):
         sky[TEXELS] = texels_of(gl, images)
     return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 

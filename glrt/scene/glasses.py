@@ -49,12 +49,11 @@ def media_of(glasses: dict[str, Dielectric]) -> list[str]:
     return [name for name, glass in glasses.items() if glass.priority is not None]
 
 
-def around_camera(scene: Scene, finishes: Iterable[Finish]) -> Around:
+def around_camera(scene: Scene, glasses: dict[str, Dielectric]) -> Around:
     """The glass around the middle of the lens: of priorities the highest, else the smallest object.
 
-    `finishes` are those of the scene.
+    `glasses` as `glasses_of` gives them.
     """
-    glasses = glasses_of(scene, finishes)
     if not glasses:
         return AIR
     point = np.array(scene.camera.position, np.float64)

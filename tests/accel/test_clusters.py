@@ -11,7 +11,6 @@ from glrt.gpu.context import Context
 from glrt.packing import lights
 from glrt.packing.lamp_bounds import bodies_of
 from glrt.packing.lights import PARTS, radiance
-from glrt.packing.scene_arrays import pack_scene
 from glrt.packing.shapes import in_order
 from glrt.plan import facts
 from glrt.plan.facts import MOST_NEAR
@@ -21,6 +20,7 @@ from tests.shaders.test_light import LAMPS
 from tests.support.alarms import assert_fits
 from tests.support.builders import plane, quad, scene_of, sphere
 from tests.support.numerics import BELOW_ONE, Array
+from tests.support.packed import packed
 from tests.support.renders import assert_agree, rendered
 
 COUNTS = [MOST_NEAR + 1, 100, 999]
@@ -54,7 +54,7 @@ def weights(rows: Array, origin: Array) -> Array:
 
 def chances(scene: Scene, origin: Array) -> Array:
     """Of each lamp at a point: its cluster's and its part's by flux and nearness, then by flux."""
-    rows = pack_scene(scene)
+    rows = packed(scene)
     clusters, parts = rows["Cluster"][:MOST_NEAR], parts_of(rows)
     chance = weights(clusters, origin)[:, None] / weights(clusters, origin).sum()
     chance = chance * weights(parts, origin) / weights(parts, origin).sum(axis=1, keepdims=True)
@@ -96,7 +96,7 @@ def test_lamps_in_one_place_are_grouped_somehow() -> None:
 
 
 def test_the_order_of_lamps_that_are_few_stays_that_of_the_scene() -> None:
-    rows = pack_scene(mixed(MOST_NEAR))
+    rows = packed(mixed(MOST_NEAR))
     spheres = MOST_NEAR // 2
     assert rows["Light"]["shape"].tolist() == list(range(MOST_NEAR))
     assert rows["Cluster"]["shape"].tolist() == list(range(MOST_NEAR))
@@ -107,7 +107,7 @@ def test_the_order_of_lamps_that_are_few_stays_that_of_the_scene() -> None:
 def test_clusters_and_their_parts_hold_all_lamps_with_their_flux(count: int) -> None:
     """The parts of a cluster, one after the other, have its lamps; what is left has no weight."""
     scene = mixed(count)
-    rows, shapes = pack_scene(scene), in_order(scene)
+    rows, shapes = packed(scene), in_order(scene)
     lamps = [shapes[n] for n in rows["Light"]["shape"]]
     emission = [radiance(scene, lamp) for lamp in lamps]
     flux = light_probabilities(list(bodies_of(lamps).area * emission))
@@ -130,7 +130,7 @@ def test_clusters_and_their_parts_hold_all_lamps_with_their_flux(count: int) -> 
 @pytest.mark.parametrize("count", COUNTS)
 def test_tables_choose_by_flux_within_a_part(count: int) -> None:
     """And stay within it."""
-    rows = pack_scene(mixed(count))
+    rows = packed(mixed(count))
     for number, part in enumerate(rows["Cluster"]):
         if number < MOST_NEAR or not part["count"]:
             continue
@@ -146,7 +146,7 @@ def test_the_reach_of_a_cluster_is_the_mean_squared_distance_of_its_light(count:
     """Taken from points all over its lamps: balls of one radius, of one brightness."""
     random = np.random.default_rng(count)
     places = random.uniform(-2, 2, (count, 3))
-    rows = pack_scene(scene_of([sphere(place, 0.3, "lamp") for place in places], LAMPS))
+    rows = packed(scene_of([sphere(place, 0.3, "lamp") for place in places], LAMPS))
     surface = random.normal(size=(4096, 3))
     surface *= 0.3 / np.linalg.norm(surface, axis=1, keepdims=True)
     for cluster in rows["Cluster"][: MOST_NEAR + PARTS]:
@@ -162,7 +162,7 @@ def test_the_reach_of_a_cluster_is_the_mean_squared_distance_of_its_light(count:
 def test_a_moved_camera_does_not_group_lamps_again() -> None:
     scene = mixed(100)
     camera = scene.camera.model_copy(update={"position": (0.3, 7.1, -2.9)})
-    rows, moved = pack_scene(scene), pack_scene(scene.model_copy(update={"camera": camera}))
+    rows, moved = packed(scene), packed(scene.model_copy(update={"camera": camera}))
     assert np.all(rows["Light"]["shape"] == moved["Light"]["shape"])
     shift = (rows["Cluster"]["center"] - moved["Cluster"]["center"])[:MOST_NEAR]
     assert_allclose(shift, np.tile(camera.position, (MOST_NEAR, 1)), atol=1e-5)

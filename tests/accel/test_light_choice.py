@@ -6,8 +6,7 @@ from numpy.testing import assert_allclose
 
 from glrt.accel.light_clusters import alias_table, light_probabilities
 from glrt.gpu.context import Context
-from glrt.packing.scene_arrays import pack_scene
-from glrt.plan.facts import MOST_NEAR
+from glrt.plan.facts import MOST_NEAR, SceneFacts
 from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, settings_for
@@ -15,6 +14,7 @@ from tests.conftest import CallGlsl
 from tests.shaders.test_light import LAMPS, MANY
 from tests.support.builders import scene_of, sphere
 from tests.support.numerics import BELOW_ONE, Array
+from tests.support.packed import packed
 from tests.support.renders import rendering
 
 
@@ -60,7 +60,7 @@ def test_a_table_for_any_probabilities_stands_for_them() -> None:
 
 
 def test_lamps_are_weighed_by_flux() -> None:
-    lights = pack_scene(MANY)["Cluster"]
+    lights = packed(MANY)["Cluster"]
     flux = np.array([4 * np.pi * 30, np.pi * 2, np.pi / 4 * 2, 2 * 4 * 2, 0])  # area x radiance
     assert_allclose(lights["probability"], 0.1 + 0.5 * flux / flux.sum(), rtol=1e-6)
 
@@ -76,7 +76,7 @@ CHOSEN = (
 
 def weights(scene: Scene, origin: Array) -> Array:
     """Of each lamp at each point, (n, lamps) float64: flux over squared distance."""
-    lights = pack_scene(scene)["Cluster"]
+    lights = packed(scene)["Cluster"]
     away = lights["center"].astype(np.float64) - origin[:, None]
     nearness: Array = 1 / np.maximum((away**2).sum(axis=-1), lights["reach2"])
     return lights["probability"] * nearness
@@ -126,9 +126,9 @@ def test_more_lamps_than_that_are_weighed_in_clusters() -> None:
     """And one lamp is not chosen at all; naive chooses none."""
     for count, clusters in ((1, 1), (2, 2), (MOST_NEAR, MOST_NEAR), (MOST_NEAR + 1, MOST_NEAR)):
         scene = balls(count)
-        needs = needs_of(scene, settings_for(scene.render))
+        needs = needs_of(SceneFacts(scene), settings_for(scene.render))
         assert (needs.clusters, needs.many_lights) == (clusters, count > MOST_NEAR)
-        needs = needs_of(scene, settings_for(scene.render, method="naive"))
+        needs = needs_of(SceneFacts(scene), settings_for(scene.render, method="naive"))
         assert (needs.clusters, needs.many_lights) == (0, False)
 
 

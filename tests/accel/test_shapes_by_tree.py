@@ -7,7 +7,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.plan import facts
-from glrt.plan.facts import REST_FROM, TREE_FROM, facts_of
+from glrt.plan.facts import REST_FROM, TREE_FROM, SceneFacts
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.disk import Disk
 from glrt.settings import Cost
@@ -209,7 +209,7 @@ def test_spheres_have_a_tree_next_to_that_of_the_others(
     monkeypatch.setattr(facts, "SPHERES_FROM", TREE_FROM)
     balls, others = crowd(TREE_FROM, 13, ("sphere",)), crowd(rest, 17, KINDS[1:])
     scene = balls.model_copy(update={"objects": (*balls.objects, *others.objects[:-1])})
-    found = facts_of(scene)
+    found = SceneFacts(scene)
     assert found.has_sphere_tree
     assert bool(found.tree_kinds) == (rest >= REST_FROM)
     by_tree = rendered(scene, context, 3, **SETTINGS)

@@ -7,7 +7,6 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.packing.scene_arrays import pack_scene
 from glrt.plan import facts
 from glrt.plan.facts import SPHERES_FROM
 from glrt.scene.scene import Scene
@@ -15,6 +14,7 @@ from glrt.settings import Cost
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.mixed_scene import EYE, MATERIALS, OBJECTS, everything
+from tests.support.packed import packed
 from tests.support.renders import rendered, rendering, same
 
 Array = np.ndarray[Any, Any]
@@ -42,7 +42,7 @@ NEAR = 1.0
 def rays(kind: str) -> dict[str, Any]:
     """Origins, directions, and the sphere that each ray leaves, with its side."""
     rng = np.random.default_rng(9)
-    spheres = pack_scene(CROWD)["Sphere"]
+    spheres = packed(CROWD)["Sphere"]
     chosen = rng.integers(0, len(spheres), COUNT)
     center, radius = spheres["center"][chosen], spheres["radius"][chosen][:, None]
     direction = unit(rng.normal(size=(COUNT, 3)))
@@ -148,7 +148,7 @@ def unpacked(nodes: Array) -> tuple[Array, Array, Array, Array]:
 def test_boxes_are_wider_than_their_spheres_by_many_roundings(far: float) -> None:
     """And not by many cells of the grid, of which there are 2^15 or more along its longest side."""
     scene = scene_of(balls(300, 5), MATERIALS, {"position": [0, far, 0], "look_at": [1, far, 0]})
-    arrays = pack_scene(scene)
+    arrays = packed(scene)
     spheres = arrays["Sphere"]
     center, radius = spheres["center"].astype(float), spheres["radius"].astype(float)[:, None]
     rounding = 2.0**-24 * (np.abs(center).max(axis=1, keepdims=True) + radius)
@@ -195,7 +195,7 @@ def test_a_ray_is_as_uncertain_as_the_corner_of_the_grid(call_glsl: CallGlsl) ->
 
 
 def test_of_equal_spheres_the_first_is_hit(call_glsl: CallGlsl) -> None:
-    spheres = pack_scene(CROWD)["Sphere"]
+    spheres = packed(CROWD)["Sphere"]
     given = {**rays("to rims"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
     shapes = found(call_glsl, True, **given)[:, 1].astype(int)
     hit = spheres[shapes[shapes >= 0]]
@@ -209,7 +209,7 @@ def test_of_equal_spheres_the_first_is_hit(call_glsl: CallGlsl) -> None:
 def test_a_ray_finds_by_the_tree_what_float64_says(call_glsl: CallGlsl) -> None:
     given = {**rays("anywhere"), "limit": np.array([3.4e38]), "ignored": np.array([-1])}
     distance, shape, _ = found(call_glsl, True, **given).T
-    spheres = pack_scene(CROWD)["Sphere"]
+    spheres = packed(CROWD)["Sphere"]
     to_center = spheres["center"][None].astype(float) - given["o"][:, None]
     along = np.einsum("rsk,rk->rs", to_center, given["d"])
     rest = np.square(spheres["radius"].astype(float)) - np.square(to_center).sum(axis=2) + along**2

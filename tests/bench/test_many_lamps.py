@@ -6,14 +6,14 @@ import pytest
 from bench.efficiency import measure_scene
 from bench.many_lamps import SCENES, WAYS, main
 from glrt.gpu.context import Context
-from glrt.plan.facts import MOST_NEAR, facts_of
+from glrt.plan.facts import MOST_NEAR, SceneFacts
 
 
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("count", [2, 400])
 def test_a_scene_has_as_many_lamps_as_it_is_asked_for(name: str, count: int) -> None:
     scene = SCENES[name](count)
-    assert facts_of(scene).sampled_lamps == count
+    assert SceneFacts(scene).sampled_lamps == count
     panels = sum(shape.shape == "quad" for shape in scene.objects)
     assert panels == (count // 2 if name == "mixed" else 0)
 

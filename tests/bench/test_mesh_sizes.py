@@ -4,14 +4,14 @@ import pytest
 
 from bench.mesh_sizes import cluttered, displaced, main, measure, scene_of, table
 from glrt.gpu.context import Context
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene.shapes.mesh import Mesh
 
 
 def test_a_ball_is_closed_and_stands_in_an_open_box() -> None:
     mesh = Mesh(*displaced(2), material="clay")
     assert mesh.triangles.opening == ""
-    found = facts_of(scene_of(mesh))
+    found = SceneFacts(scene_of(mesh))
     assert (found.shapes["mesh"], found.triangles) == (2, 320 + 8)
 
 

@@ -10,7 +10,7 @@ from glrt.accel import shape_tree
 from glrt.packing import scene_tree, tree_cache
 from glrt.packing.scene_arrays import pack_scene
 from glrt.packing.scene_tree import SceneTree, tree_of
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene.scene import Scene
 from tests.support.builders import MATTE, quad, scene_of
 from tests.support.meshes import blob, mesh
@@ -45,13 +45,13 @@ def scene(steps: int = 2, quads: int = 0, **more: Any) -> Scene:
 
 
 def tree(of: Scene) -> SceneTree:
-    found = tree_of(of, facts_of(of))
+    found = tree_of(SceneFacts(of))
     assert found
     return found
 
 
 def same(a: SceneTree, b: SceneTree, of: Scene) -> bool:
-    packed = [pack_scene(of, tree=some) for some in (a, b)]
+    packed = [pack_scene(SceneFacts(of), some) for some in (a, b)]
     return a.stack == b.stack and all(
         packed[0][name].tobytes() == packed[1][name].tobytes()
         and packed[0][name].dtype == packed[1][name].dtype

@@ -10,6 +10,7 @@ from glrt.gpu.context import Context
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.image.sources import load
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.methods import CLASSIC, METHODS
 from glrt.rendering.pipelines import Tier
@@ -215,7 +216,7 @@ def test_cook_is_path_tracing_on_metal(context: Context) -> None:
 @pytest.mark.parametrize("method", MODELS)
 def test_a_kernel_has_nothing_that_its_model_cannot_see(method: str) -> None:
     scene = everything()
-    needs = needs_of(scene, settings_for(scene.render, method=method))
+    needs = needs_of(SceneFacts(scene), settings_for(scene.render, method=method))
     local = method in ("phong", "blinn")
     assert needs.model == METHODS[method].model
     assert ("dielectric" in needs.materials, needs.has_mirror, needs.roulette) == (not local,) * 3

@@ -16,7 +16,7 @@ from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Kernel
-from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM
+from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM, SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.scene import instancing
 from glrt.settings import settings_for
@@ -177,7 +177,7 @@ def needs_with(flags: set[str]) -> Needs:
         caustics="on" if "HAS_PARTICLES" in flags else "off",
         linked=0.0,
     )
-    return needs_of(scene, settings)
+    return needs_of(SceneFacts(scene), settings)
 
 
 @pytest.fixture

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
+from glrt.plan.facts import SceneFacts
 from glrt.plan.lamp_sides import front_shares
-from glrt.plan.particles import emitters_of
 from tests.support.builders import MATTE, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import Faces, icosphere, mesh
 
@@ -48,7 +48,7 @@ AROUND: dict[str, tuple[list[dict[str, Any]], float]] = {
 def test_most_particles_leave_the_side_that_is_close_to_something(kind: str, around: str) -> None:
     others, expected = AROUND[around]
     scene = scene_of([SHINING[kind], *others], {"lamp": lamp(2.0), "matte": MATTE})
-    assert front_shares(scene, emitters_of(scene)) == [pytest.approx(expected)]
+    assert front_shares(scene, SceneFacts(scene).particles.lamps) == [pytest.approx(expected)]
 
 
 @pytest.mark.parametrize("kind", SHINING)
@@ -56,9 +56,9 @@ def test_none_leaves_the_dark_side(kind: str) -> None:
     ceiling = plane([0, 1.1, 0], [0, -1, 0], "matte")
     shining = {**SHINING[kind], "emission_side": "front"}
     scene = scene_of([shining, ceiling], {"lamp": lamp(2.0), "matte": MATTE})
-    assert front_shares(scene, emitters_of(scene)) == [1]
+    assert front_shares(scene, SceneFacts(scene).particles.lamps) == [1]
 
 
 def test_a_ball_has_one_side() -> None:
     scene = scene_of([sphere([0, 1, 0], 0.2, "lamp")], {"lamp": lamp(2.0)})
-    assert front_shares(scene, emitters_of(scene)) == [0.5]
+    assert front_shares(scene, SceneFacts(scene).particles.lamps) == [0.5]

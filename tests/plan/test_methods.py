@@ -8,6 +8,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import scene_names
@@ -51,7 +52,7 @@ def test_methods_agree_closely_where_it_is_hard(context: Context, name: str) -> 
 def sampled(name: str) -> set[str]:
     """What `mis` samples in the scene: its lamps, its sun, its sky."""
     scene = load(name)
-    needs = needs_of(scene, settings_for(scene.render, method="mis"))
+    needs = needs_of(SceneFacts(scene), settings_for(scene.render, method="mis"))
     found = {"lamps": needs.sample_lights, "sun": needs.sample_sun, "sky": needs.sample_sky}
     return {source for source, is_sampled in found.items() if is_sampled}
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import CLASSIC
 from glrt.plan.omissions import omissions
 from glrt.settings import settings_for
@@ -53,7 +54,11 @@ def test_an_omission_is_reported_of_the_methods_that_make_it(
 ) -> None:
     scene = scene_of(objects, MATERIALS, **more)
     every = {method: settings_for(scene.render, method=method) for method in (*METHODS, *CLASSIC)}
-    found = {method for method, settings in every.items() if text in omissions(scene, settings)}
+    found = {
+        method
+        for method, settings in every.items()
+        if text in omissions(SceneFacts(scene), settings)
+    }
     assert found == methods
 
 
@@ -71,7 +76,7 @@ def test_what_probes_blur_is_distinguished_from_the_bounces_on_that_they_light(
     method: str, bounces: int, light: str, lit: str
 ) -> None:
     scene = scene_of([BALL, LAMP, sphere([2, 0, -3], 1, "glass")], MATERIALS)
-    found = omissions(scene, settings_for(scene.render, method=method, bounces=bounces))
+    found = omissions(SceneFacts(scene), settings_for(scene.render, method=method, bounces=bounces))
     assert [told.split(" what is finer")[0] for told in found[:1]] == [f"of {light}"][: bool(light)]
     assert (
         found[1:]
@@ -84,7 +89,8 @@ def test_a_lens_is_reported_of_the_methods_without_one() -> None:
     told = {
         method
         for method in CLASSIC
-        if "everything is in focus" in omissions(scene, settings_for(scene.render, method=method))
+        if "everything is in focus"
+        in omissions(SceneFacts(scene), settings_for(scene.render, method=method))
     }
     assert told == ALL - {"cook"}
 
@@ -117,5 +123,7 @@ def test_what_the_biased_form_of_reuse_lacks_is_reported(
     changes: dict[str, Any], is_told: bool
 ) -> None:
     scene = scene_of([BALL, LAMP], MATERIALS)
-    found = omissions(scene, settings_for(scene.render, **{"method": "resampled", **changes}))
+    found = omissions(
+        SceneFacts(scene), settings_for(scene.render, **{"method": "resampled", **changes})
+    )
     assert any("at contacts and edges" in told for told in found) == is_told

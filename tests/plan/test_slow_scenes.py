@@ -7,6 +7,7 @@ import pytest
 
 from glrt.cli.main import main
 from glrt.image.sources import load
+from glrt.plan.facts import SceneFacts
 from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml_writer import write_scene
@@ -25,8 +26,8 @@ def settings(**changes: object) -> Settings:
 
 
 def test_shapes_without_a_tree_are_counted() -> None:
-    assert slow_because(planes(32), settings()) == []
-    (text,) = slow_because(planes(600), settings())
+    assert slow_because(SceneFacts(planes(32)), settings()) == []
+    (text,) = slow_because(SceneFacts(planes(600)), settings())
     assert "compared with 600 planes one by one" in text
     assert "Quads have" in text
 
@@ -34,7 +35,7 @@ def test_shapes_without_a_tree_are_counted() -> None:
 def test_what_has_an_end_has_a_tree() -> None:
     things = [quad([0.2 * k, 0, -1], [0.1, 0, 0], [0, 0.1, 0], "white") for k in range(100)]
     things += [sphere([k, 0, -9], 0.4, "white") for k in range(40)]
-    assert slow_because(scene_of(things, {"white": MATTE}), settings()) == []
+    assert slow_because(SceneFacts(scene_of(things, {"white": MATTE})), settings()) == []
 
 
 @pytest.mark.parametrize(
@@ -45,7 +46,7 @@ def test_lamps_of_too_many_triangles_are_reported(count: int, method: str, is_sl
     vertices = np.concatenate([np.eye(3), np.random.default_rng(1).normal(size=(count - 1, 3))])
     faces = [[0, 1, 2]] + [[0, 1, k + 3] for k in range(count - 1)]
     scene = scene_of([mesh((vertices, np.array(faces)), "lamp")], {"lamp": lamp(1.0)})
-    found = slow_because(scene, settings(method=method))
+    found = slow_because(SceneFacts(scene), settings(method=method))
     assert ["65,536 triangles emit" in text for text in found] == [True] * is_slow
 
 
@@ -59,7 +60,7 @@ def test_lamps_of_too_many_triangles_are_reported(count: int, method: str, is_sl
     ],
 )
 def test_paths_without_an_end_are_reported(changes: dict[str, object], is_slow: bool) -> None:
-    found = slow_because(load("cornell"), settings(**changes))
+    found = slow_because(SceneFacts(load("cornell")), settings(**changes))
     assert ["--no-roulette" in text for text in found] == [True] * is_slow
 
 

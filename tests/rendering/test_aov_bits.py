@@ -198,7 +198,7 @@ def test_a_dispatch_that_runs_into_the_loop_limit_is_done_again(
     pile = [sphere([0.1, 0, -3], 1, "matte")] * 300
     scene = scene_of(pile, {"matte": MATTE}, background={"color": [1, 1, 1]})
     expected = gathered(scene, context, 512)
-    monkeypatch.setattr(schedule.rounds_of_search, "__defaults__", (0.0, None))
+    monkeypatch.setattr(schedule.rounds_of_search, "__defaults__", (0.0,))
     lost: list[bool] = []
     told = DeviceScene.lost_any
 

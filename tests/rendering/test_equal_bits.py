@@ -12,7 +12,7 @@ import pytest
 from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
-from glrt.plan.facts import SAMPLED
+from glrt.plan.facts import SAMPLED, SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.rendering.renderer import Renderer
 from glrt.scene import instancing
@@ -81,7 +81,7 @@ def usual(software: Context, name: str, known: dict[str, Image]) -> Image:
 def test_the_renders_use_every_feature() -> None:
     found: dict[str, set[Any]] = {field.name: set() for field in fields(Needs)}
     for scene, settings in RENDERS.values():
-        needs = needs_of(scene, settings_for(scene.render, **settings))
+        needs = needs_of(SceneFacts(scene), settings_for(scene.render, **settings))
         for feature, values in found.items():
             value = getattr(needs, feature)
             values |= value if isinstance(value, frozenset) else {value} - {0}

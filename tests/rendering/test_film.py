@@ -15,13 +15,14 @@ from glrt.gpu.program import Kernel
 from glrt.gpu.struct_arrays import FILE
 from glrt.image.film_state import empty_state
 from glrt.image.sources import load
-from glrt.packing.scene_arrays import pack_frame, pack_scene
-from glrt.plan.features import needs_of
+from glrt.packing.scene_arrays import Dispatch, pack_frame
+from glrt.plan.plan import prepare
 from glrt.rendering.film import Exposure, Extent, Film, standard_error
 from glrt.rendering.pipelines import scene_text, upload
 from glrt.settings import settings_for
 from tests.support.builders import lamp, scene_of, sphere
 from tests.support.numerics import Array
+from tests.support.packed import packed
 from tests.support.renders import rendering
 
 ONE = np.ones(3, np.float32)
@@ -42,16 +43,15 @@ Step = Callable[[Film, int], None]
 def step(ctx: moderngl.Context) -> Iterator[Step]:
     """`step(film, samples)`: one dispatch of the kernel for ROOM, and the swap after it."""
     settings = settings_for(ROOM.render, sampler="independent")
-    arrays = pack_scene(ROOM)
+    plan, arrays = prepare(ROOM, settings), packed(ROOM)
     counts = {struct: len(rows) for struct, rows in arrays.items()}
     texts = {FILE: scene_text(ctx, arrays, "generic")}
-    kernel = Kernel(ctx, Source("trace.comp", needs_of(ROOM, settings).constants(), texts=texts))
+    kernel = Kernel(ctx, Source("trace.comp", plan.needs.constants(), texts=texts))
     buffers = {**upload(ctx, arrays, "generic"), "Lost": ctx.buffer(bytes(4))}
 
     def dispatch(film: Film, samples: int) -> None:
-        frame = pack_frame(
-            ROOM, settings, counts, film.next_sample, samples, is_empty=not film.samples
-        )
+        now = Dispatch(film.next_sample, samples, is_empty=not film.samples)
+        frame = pack_frame(plan, counts, now, None)
         buffers["FrameBlock"] = ctx.buffer(frame)
         kernel.bind(buffers, film.images())
         kernel.run(WIDTH, HEIGHT)

@@ -9,7 +9,7 @@ from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.packing.instances import check_numbers
 from glrt.packing.scene_tree import tree_of
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene import instancing
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
@@ -49,12 +49,12 @@ def _always(monkeypatch: pytest.MonkeyPatch) -> None:
 def flat(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     """From here on they have none."""
     monkeypatch.setattr(instancing, "LEAST_SAVED", 1 << 40)
-    assert not facts_of(scene).instances
+    assert not SceneFacts(scene).instances
 
 
 def placed(*places: dict[str, Any], faces: Faces = BLOB, more: Any = ()) -> Scene:
     scene = scene_of([*more, *(mesh(faces, "white", **at) for at in places)], {"white": MATTE})
-    assert len(facts_of(scene).instances) == len(places)
+    assert len(SceneFacts(scene).instances) == len(places)
     return scene
 
 
@@ -71,7 +71,7 @@ def in_the_scene(scene: Scene) -> Faces:
 def objects_met(scene: Scene, seen: Array) -> Array:
     """The mesh that each ray met, by its place among the meshes; -1 for none."""
     number = seen[:, 1].astype(int) - len(scene.objects)
-    return np.where(number < 0, -1, (number >> facts_of(scene).instance_bits) - 1)
+    return np.where(number < 0, -1, (number >> SceneFacts(scene).instance_bits) - 1)
 
 
 @pytest.mark.slow
@@ -163,7 +163,7 @@ def test_a_ray_leaves_the_triangle_of_an_instance(
     direction = draw.normal(size=(count, 3))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
     direction *= np.sign((direction * normal).sum(axis=1))[:, None]
-    bits = facts_of(scene).instance_bits
+    bits = SceneFacts(scene).instance_bits
     leaves = picked + len(scene.objects) + (1 << bits)
     out = found(call_glsl, scene, origin, direction, leaves=leaves)
     assert not (objects_met(scene, out) == 0).any()
@@ -205,7 +205,7 @@ def test_instances_look_as_if_their_triangles_were_kept_apart(
 ) -> None:
     """By the same random numbers: what is left is rounding, which few paths feel."""
     settings: dict[str, Any] = {"method": method, "bounces": 6, "width": 24, "height": 24}
-    assert facts_of(group()).instances == (0, 1, 2)
+    assert SceneFacts(group()).instances == (0, 1, 2)
     ours = rendered(group(), context, 64, **settings).radiance
     flat(group(), monkeypatch)
     theirs = rendered(group(), context, 64, **settings).radiance
@@ -225,7 +225,7 @@ def test_stretched_instances_are_shaded_as_if_kept_apart(
     things += [mesh(icosphere(1), "red", translate=[0, -1, 0], scale=0.3), FLOOR]
     look = {"position": [0, 0, 3.5], "look_at": [0, 0, 0], "fov": 40}
     scene = scene_of(things, MATERIALS, look, background={"color": [0.5, 0.6, 0.7]})
-    assert facts_of(scene).instances == (0, 1)
+    assert SceneFacts(scene).instances == (0, 1)
     settings: dict[str, Any] = {"bounces": 1, "width": 32, "height": 32}
     ours = rendered(scene, context, 64, **settings).radiance
     flat(scene, monkeypatch)
@@ -251,13 +251,13 @@ def test_instances_far_from_the_origin_keep_their_bits(context: Context) -> None
 
 @pytest.mark.usefixtures("twins_stay")
 def test_the_triangles_of_instances_are_kept_once() -> None:
-    once = tree_of(scene := placed(*PLACES[:2]), facts_of(scene))
-    often = tree_of(scene := placed(*(4 * PLACES)), facts_of(scene))
+    once = tree_of(SceneFacts(scene := placed(*PLACES[:2])))
+    often = tree_of(SceneFacts(scene := placed(*(4 * PLACES))))
     assert once is not None
     assert often is not None
     assert len(once.triangles) == len(often.triangles) == len(BLOB[1])
     assert len(often.instances) == 16
-    assert facts_of(scene).triangles == len(BLOB[1])
+    assert SceneFacts(scene).triangles == len(BLOB[1])
 
 
 def test_numbers_of_instances_and_triangles_fit() -> None:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, box, plane, quad, scene_of, sphere
@@ -28,7 +28,7 @@ def of_meshes(*faces: Faces, more: tuple[dict[str, Any], ...] = ()) -> Scene:
 
 def found(call_glsl: CallGlsl, scene: Scene, origin: Array, direction: Array, **more: Any) -> Array:
     """Distance, shape, whether anything is met, and whether a loop was cut, of each ray."""
-    tree = bool(facts_of(scene).tree_kinds)
+    tree = bool(SceneFacts(scene).tree_kinds)
     return call_glsl(
         "vec4(hit.distance, float(hit.shape), float(hidden), float(loop_was_cut))",
         "vec4",
@@ -245,7 +245,7 @@ def test_meshes_and_shapes_in_one_tree(call_glsl: CallGlsl) -> None:
     origin, direction = rays(20_000, 6)
     heap = MESHES["a heap"]
     both = of_meshes(heap, more=(*things, FLOOR))
-    assert facts_of(both).tree_kinds == ("sphere", "quad", "box")
+    assert SceneFacts(both).tree_kinds == ("sphere", "quad", "box")
     alone = found(call_glsl, of_meshes(heap, more=(FLOOR,)), origin, direction)
     shapes = scene_of([*things, FLOOR], {"white": MATTE})
     others = found(call_glsl, shapes, origin, direction)

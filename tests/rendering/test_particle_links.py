@@ -7,7 +7,8 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.plan.particles import link_bits
+from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import prepare
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import Schedule, rounds_for_particles
 from glrt.scene.scene import Scene
@@ -159,13 +160,15 @@ def test_the_rounds_of_links_count_towards_the_limit_of_loops(bounces: int) -> N
     """Of a search, of the choice of a sphere, and of what hides the ways to and from it."""
     settings = Settings(bounces=bounces)
     found = {
-        linked: rounds_for_particles(CLOSED, settings_for(settings, caustics="on", linked=linked))
+        linked: rounds_for_particles(
+            prepare(CLOSED, settings_for(settings, caustics="on", linked=linked))
+        )
         for linked in (0.0, 1.0)
     }
     shapes = 3 + 7  # balls, and quads
     assert found[0] == (bounces + 1) * 2 * 4
     assert found[1] - found[0] == (bounces + 1) * (2 + 12 + 4 + 2 * (shapes + 2))
-    assert rounds_for_particles(CLOSED, settings) == 0
+    assert rounds_for_particles(prepare(CLOSED, settings)) == 0
 
 
 # --- which spheres ---------------------------------------------------------------------------
@@ -196,7 +199,7 @@ def links_of(things: list[dict[str, Any]], **material: Any) -> int:
     scene = scene_of([*things, ROUND, FAR_LAMP], {**MATERIALS, "glass": kind})
     spheres = [thing for thing in scene.visible if thing.shape == "sphere"]
     number = next(n for n, it in enumerate(spheres) if it.material == "glass" and it.radius == 1)
-    return link_bits(scene) >> number & 1
+    return SceneFacts(scene).particles.links >> number & 1
 
 
 @pytest.mark.parametrize("name", ALONE)

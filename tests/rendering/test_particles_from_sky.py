@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.particles import ball_around
 from glrt.scene.scene import Scene
@@ -146,7 +147,7 @@ def test_where_a_lamp_shines_the_sky_sends_none(context: Context) -> None:
     for top in ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]):
         sky = {"bottom": [0, 0, 0.5], "top": top}
         scene = scene_of(things, KINDS, CAMERA, background=sky)
-        assert needs_of(scene, settings_for(scene.render, **ON)).has_particles
+        assert needs_of(SceneFacts(scene), settings_for(scene.render, **ON)).has_particles
         with rendering(scene, context, **ON) as renderer:
             image = renderer.render(16).image()
             assert image.particles

@@ -7,7 +7,15 @@ import pytest
 
 from glrt.error.estimate import block_means
 from glrt.gpu.context import Context
-from glrt.plan.plan import MOST_LAYERS, NONE, ONE, Layering, emitters, layer_of_group, plan_for
+from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import (
+    MOST_LAYERS,
+    NONE,
+    ONE,
+    Layering,
+    layer_of_group,
+    prepare,
+)
 from glrt.rendering.renderer import Renderer
 from glrt.scene.lights.background import Background
 from glrt.scene.scene import Scene, with_lights
@@ -201,7 +209,7 @@ def test_more_groups_than_layers_share_the_last(context: Context) -> None:
     balls = [sphere([0.2 * n - 0.8, 0.5, -0.5], 0.05, name) for n, name in enumerate(names)]
     materials = {"white": MATTE, **{name: lamp(3.0) for name in names}}
     scene = scene_of([*room_of_planes("white"), *balls], materials)
-    layers = layer_of_group(scene)
+    layers = layer_of_group(SceneFacts(scene))
     assert [layers[name] for name in names] == [0, 1, 2, 3, 4, 5, 5, 5]
     with layered(scene, context) as renderer:
         assert renderer.plan.layers == MOST_LAYERS
@@ -224,9 +232,9 @@ def test_what_is_no_light_restarts(context: Context) -> None:
 
 
 def test_lamps_and_a_sky_that_shines_are_groups() -> None:
-    assert list(emitters(room(2))) == ["warm", "cold"]
-    assert list(emitters(room(1, 0.5))) == ["warm", "background"]
-    assert list(emitters(tinted(room(2), "cold", NONE))) == ["warm", "cold"]
+    assert list(SceneFacts(room(2)).emissions) == ["warm", "cold"]
+    assert list(SceneFacts(room(1, 0.5)).emissions) == ["warm", "background"]
+    assert list(SceneFacts(tinted(room(2), "cold", NONE)).emissions) == ["warm", "cold"]
 
 
 # --- on the driver ----------------------------------------------------------------------
@@ -248,6 +256,6 @@ def test_the_driver_shows_the_sum_that_files_hold(context: Context) -> None:
 
 def test_a_plan_without_change_weighs_nothing() -> None:
     scene = room(2)
-    plan = plan_for(scene, settings_for(scene.render), "groups")
+    plan = prepare(scene, settings_for(scene.render), "groups")
     assert plan.weights == (ONE,)
     assert plan.relit(scene, plan.settings, "groups") == plan

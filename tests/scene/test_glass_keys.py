@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from glrt.core.errors import SceneError
-from glrt.scene.glasses import around_camera, glasses_of, holds
+from glrt.plan.facts import SceneFacts
+from glrt.scene.glasses import glasses_of, holds
 from glrt.scene.loading.scene_files import mesh_problems
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
@@ -113,10 +114,10 @@ def test_the_glass_around_the_camera_is_the_highest_or_else_the_smallest() -> No
     ranked = {f"{radius}": tinted(np.exp(-radius), priority=radius) for radius in (1, 2, 3)}
     for materials, most, counts in ((plain, 1, 0), (ranked, 3, 1 | 1 << 5 | 1 << 10)):
         scene = scene_of(things, materials, {"position": [0, 0, 0.5]})
-        found = around_camera(scene, scene.finishes)
+        found = SceneFacts(scene).camera_medium
         assert found.absorption == pytest.approx([most] * 3)
         assert found.counts == counts
     outside = scene_of(things, ranked, {"position": [0, 0, 2.5]})
-    assert around_camera(outside, outside.finishes).counts == 1
+    assert SceneFacts(outside).camera_medium.counts == 1
     clear = scene_of([BALL], {"glass": glass(), "floor": MATTE})
     assert glasses_of(clear, clear.finishes) == {}

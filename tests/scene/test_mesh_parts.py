@@ -9,7 +9,7 @@ import glrt
 from glrt.cli.main import main
 from glrt.core.errors import SceneError
 from glrt.image.image import Image, read_recipe
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.model_files.mesh_formats import decode_mesh, libraries
@@ -83,7 +83,7 @@ def test_an_object_becomes_a_mesh_for_each_material(folder: Path) -> None:
         assert np.array_equal(np.sort(mesh.triangles.vertices, axis=0), np.sort(points, axis=0))
         assert (mesh.group, mesh.scale, mesh.triangles.opening) == ("works", (1, 1, -0.5), "")
     assert scene.light_groups == {"works": 1, "background": 1}
-    assert facts_of(scene).triangles == 24
+    assert SceneFacts(scene).triangles == 24
 
 
 def test_python_may_leave_the_material_out(folder: Path) -> None:
@@ -112,7 +112,7 @@ def test_the_picture_is_that_of_two_meshes_to_the_bit(folder: Path) -> None:
         objects += f"[materials.{name}]\n{material}\n{BALL if objects else ''}{given}"
     (folder / "apart.toml").write_text(HEAD + MATTE + objects)
     first, second = (glrt.load(folder / f"{name}.toml") for name in ("scene", "apart"))
-    assert facts_of(first).lamps == facts_of(second).lamps
+    assert SceneFacts(first).lamps == SceneFacts(second).lamps
     for name in ("scene", "apart"):
         assert render(folder / f"{name}.toml", folder / f"{name}.npy") == 0
     picture = np.load(folder / "scene.npy")

@@ -9,9 +9,10 @@ from numpy.testing import assert_allclose
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.packing.scene_arrays import pack_scene
 from glrt.plan.explanation import explain
+from glrt.plan.facts import SceneFacts
 from glrt.plan.omissions import omissions
+from glrt.plan.plan import prepare
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box, rotation
 from glrt.settings import Settings
@@ -19,6 +20,7 @@ from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, box, glass, lamp, scene_of
 from tests.support.images import same_bits
 from tests.support.numerics import ULP, Array, directions, dot, float32, length
+from tests.support.packed import packed
 from tests.support.renders import METHODS, assert_mean, rendered, whole
 
 FREE = "Ray(origin, direction, NO_SHAPE, false)"
@@ -50,7 +52,7 @@ def aimed(n: int, seed: int, far: float = 4.0) -> dict[str, Array]:
 
 def distances64(scene: Scene, origin: Array, direction: Array) -> Array:
     """By the row that the kernel has, in float64."""
-    row = pack_scene(scene)["Box"][0]
+    row = packed(scene)["Box"][0]
     axes = np.array([row[f"axis_{name}"] for name in "xyz"], np.float64)
     half = np.array([row[f"half_{name}"] for name in "xyz"], np.float64)
     numbers = np.concatenate([row["center"].astype(np.float64), half, axes.ravel()])[None]
@@ -253,7 +255,7 @@ def test_a_box_without_volume_is_refused() -> None:
 
 def test_a_box_as_a_lamp_is_reported_to_be_found_by_scattering() -> None:
     scene = one(material=lamp())
-    told = {feature.name: feature.reason for feature in explain(scene, Settings())}
+    told = {feature.name: feature.reason for feature in explain(prepare(scene, Settings()))}
     assert told["light sampling"].endswith("1 box lamp (by scattering alone)")
     assert told["boxes"] == "1 box"
-    assert "box lamps light nothing" in omissions(scene, Settings(method="phong"))
+    assert "box lamps light nothing" in omissions(SceneFacts(scene), Settings(method="phong"))

@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose
 import glrt
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene, scene_to_dict
 from glrt.scene.shapes.cylinder import Cylinder
@@ -18,6 +17,7 @@ from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, cylinder, glass, lamp, scene_of
 from tests.support.images import same_bits
 from tests.support.numerics import ULP, Array, directions, dot, float32, length
+from tests.support.packed import packed
 from tests.support.renders import METHODS, assert_mean, rendered, whole
 
 FREE = "Ray(origin, direction, NO_SHAPE, false)"
@@ -49,7 +49,7 @@ def aimed(n: int, seed: int, far: float = 4.0) -> dict[str, Array]:
 
 def distances64(scene: Scene, origin: Array, direction: Array) -> Array:
     """By the row that the kernel has, in float64."""
-    row = pack_scene(scene)["Cylinder"][0]
+    row = packed(scene)["Cylinder"][0]
     rest = [row["half_height"], row["radius"], row["is_capped"]]
     numbers = np.concatenate([row["center"], row["axis"], rest]).astype(np.float64)[None]
     with np.errstate(all="ignore"):

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of, sphere
 from tests.support.numerics import BELOW_ONE, Array, directions, length, unit_square
+from tests.support.packed import packed
 
 LAMPS = {"matte": MATTE, "lamp": lamp(2.0), "bright": lamp(30.0), "dark": lamp(0.0)}
 SIDES = 0.7, 1.3  # of the quad lamp, the shorter first: points go by it
@@ -167,7 +167,7 @@ def test_a_quad_lamp_shines_from_both_sides_and_not_along_itself(call_glsl: Call
 
 
 def test_every_lamp_and_its_light_know_each_other() -> None:
-    rows = pack_scene(MANY)
+    rows = packed(MANY)
     none = {"light": np.full(len(rows["Plane"]), -1)}  # planes are no lamps to be sampled
     own = np.concatenate([part["light"] for part in (rows["Sphere"], none, rows["Quad"])])
     shapes = rows["Light"]["shape"]
@@ -193,7 +193,7 @@ def exact_density(rows: dict[str, Array], shape: int, direction: Array, distance
 def test_a_density_contains_the_choice_and_is_0_for_the_lamp_just_left(
     call_glsl: CallGlsl,
 ) -> None:
-    rows = pack_scene(MANY)
+    rows = packed(MANY)
     direction = directions(200)[:200]
     for index, row in enumerate(rows["Light"]):
         left, free = (

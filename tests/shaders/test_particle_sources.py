@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.plan.particles import ball_around, caster_bits, targets_of
+from glrt.plan.facts import SceneFacts
+from glrt.plan.particles import ball_around
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import (
@@ -70,7 +71,7 @@ def test_directions_towards_a_ball_around_a_solid_have_a_density(
         p=np.array([PLACE["quad"]]),
     ).astype(np.float64)
     total = 4 * np.pi * found
-    assert len(targets_of(place)) == 1
+    assert len(SceneFacts(place).particles.targets) == 1
     assert abs(total.mean() - 1) < 5 * total.std() / np.sqrt(total.size)
     power = starts(call_glsl, particle_files, place, "particle.power.x + 0.0 * n", "float")
     flux = np.pi * 2.0 * 2 * 0.8
@@ -84,7 +85,7 @@ def test_of_solids_within_each_other_the_outermost_is_aimed_at() -> None:
         box([3, 0, 0], [4, 1, 1], "glass"),
         box([3, 0, 8], [4, 1, 9], "matte"),
     ]
-    found = targets_of(scene_of(glasses, MATERIALS))
+    found = SceneFacts(scene_of(glasses, MATERIALS)).particles.targets
     assert [ball.center.tolist() for ball in found] == [[3.5, 0.5, 0.5], [0, 0.5, 0]]
 
 
@@ -109,8 +110,8 @@ KINDS = [
 def test_aimed_at_are_glass_and_polished_metal(is_one: bool, kind: dict[str, Any]) -> None:
     things = [sphere([0, 0, 0], 1, "it"), box([2, 0, 0], [3, 1, 1], "it")]
     place = scene_of(things, {"it": kind})
-    assert caster_bits(place) == is_one
-    assert len(targets_of(place)) == is_one
+    assert SceneFacts(place).particles.casters == is_one
+    assert len(SceneFacts(place).particles.targets) == is_one
 
 
 # --- the sun ---------------------------------------------------------------------------------

@@ -7,11 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
-from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import lamp, plane, quad, scene_of
 from tests.support.numerics import Array, dot, float32, unit_square
+from tests.support.packed import packed
 from tests.support.renders import assert_mean, rendered, whole
 
 NEE = {"QUADS_BY_AREA": False}
@@ -60,7 +60,7 @@ class Seen:
 
     @staticmethod
     def _row(scene: Scene) -> tuple[Any, Any]:
-        row = pack_scene(scene)["Quad"][0]
+        row = packed(scene)["Quad"][0]
         return row.dtype.names, [row[name] for name in row.dtype.names]
 
     @property
@@ -255,7 +255,7 @@ def test_a_lamp_just_below_its_ceiling_lights_it_up_to_the_rim(
 def test_directions_follow_the_edges() -> None:
     """The longer edge is the one along which strips run; the normal is the scene file's."""
     scene = lit("tube")
-    row = pack_scene(scene)["Quad"][0]
+    row = packed(scene)["Quad"][0]
     assert row["edge_u"].tolist() == pytest.approx([0.01, 0, 0])
     assert row["height"] == 9
     assert row["width"] == pytest.approx(0.01)

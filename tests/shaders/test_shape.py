@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.packing.scene_arrays import pack_scene
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import MATTE, disk, plane, quad, scene_of, sphere
 from tests.support.numerics import ULP, Array, directions, dot, float32, length, roots64
+from tests.support.packed import packed
 
 FREE = "Ray(origin, direction, NO_SHAPE, false)"
 
@@ -114,7 +114,7 @@ def mixed_scene(seed: int) -> Scene:
 
 def distances64(scene: Scene, origin: Array, direction: Array) -> Array:
     """The distance of every shape from every ray, inf for none, (shapes, n)."""
-    rows = pack_scene(scene)
+    rows = packed(scene)
     found = []
     for ball in rows["Sphere"]:
         center = ball["center"].astype(np.float64)
@@ -196,7 +196,7 @@ def test_a_point_that_was_hit_lies_on_its_shape(call_glsl: CallGlsl) -> None:
     position = call_glsl("surface.position", "vec3", setup=setup, scene=scene, **args)
     normal = call_glsl("surface.normal", "vec3", setup=setup, scene=scene, **args)
     shape = hit[:, 0].astype(int)
-    rows = pack_scene(scene)
+    rows = packed(scene)
     balls, flats = rows["Sphere"], [*rows["Plane"], *rows["Quad"]]
     for number in range(len(balls) + len(flats)):
         on = (shape == number) & (hit[:, 1] < 20)
@@ -246,6 +246,6 @@ def test_a_point_that_was_hit_from_afar_lies_on_its_shape_to_the_last_digits(
     if thing["shape"] == "sphere":
         assert np.abs(length(p) - 1).max() < 2 * ULP
     else:
-        row = pack_scene(scene)[thing["shape"].capitalize()][0]
+        row = packed(scene)[thing["shape"].capitalize()][0]
         point = row[row.dtype.names[0]].astype(np.float64)
         assert np.abs(dot(p - point, row["normal"].astype(np.float64))).max() < 40 * ULP

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from glrt.plan.facts import facts_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene import instancing
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.materials.principled import Principled
@@ -259,7 +259,7 @@ def test_tangents_of_corners_go_before_those_of_triangles(
     thing = {"shape": "mesh", "file": file, "material": "m", "smooth": False, "rotate": [0, 0, 90]}
     shapes = [{**thing, "translate": [0, 0, -3.0 - far], "scale": 2} for far in range(count)]
     scene = scene_of(shapes, {"m": BUMPY})
-    assert len(facts_of(scene).instances) == (2 if count == 2 else 0)
+    assert len(SceneFacts(scene).instances) == (2 if count == 2 else 0)
     found = bent(call_glsl, scene, [[0, 0, -3.0]], TILT)
     assert_allclose(found, [[-0.6, 0, 0.8]], atol=1e-3)
 

@@ -4,16 +4,16 @@ import numpy as np
 
 from glrt.gpu.struct_arrays import FILE, MOST_UNIFORM_BYTES
 from glrt.image.sources import load
-from glrt.packing.scene_arrays import pack_scene
 from glrt.rendering.pipelines import Tier, text_of
 from glrt.rendering.shader_functions import no_rows
+from tests.support.packed import packed
 
 
 def written_for(
     scene: str = "cornell", tier: Tier = "generic", uniform_bytes: int = MOST_UNIFORM_BYTES
 ) -> dict[str, str]:
     """By its name, as `Source` takes it."""
-    return {FILE: text_of(pack_scene(load(scene)), tier, uniform_bytes)}
+    return {FILE: text_of(packed(load(scene)), tier, uniform_bytes)}
 
 
 def written_for_everything() -> dict[str, str]:

@@ -18,10 +18,12 @@ import pytest
 from glrt.gpu import struct_arrays
 from glrt.gpu.program import Resource
 from glrt.gpu.struct_arrays import Arrays
+from glrt.plan import plan
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import Needs, needs_of
-from glrt.rendering import aov_tracer, device_scene, pipelines, schedule
+from glrt.rendering import aov_tracer, pipelines, schedule
 from glrt.rendering.schedule import rounds_of_search
-from glrt.scene.scene import Scene
+from glrt.settings import Settings
 
 Constants = dict[str, bool | int]
 
@@ -73,8 +75,8 @@ def with_rows(arrays: Arrays) -> Arrays:
     return {name: rows if len(rows) else np.zeros(1, rows.dtype) for name, rows in arrays.items()}
 
 
-def _needs(*scene: Any) -> Needs:
-    return RoundedNeeds(**vars(needs_of(*scene)))
+def _needs(facts: SceneFacts, settings: Settings) -> Needs:
+    return RoundedNeeds(**vars(needs_of(facts, settings)))
 
 
 def _text(arrays: Arrays, *rest: Any) -> str:
@@ -85,10 +87,10 @@ def _upload(gl: moderngl.Context, arrays: Arrays, *rest: Any) -> dict[str, Resou
     return dict(struct_arrays.upload(gl, with_rows(arrays), *rest))
 
 
-def _rounds_of_search(scene: Scene, *rest: Any, **more: Any) -> int:
+def _rounds_of_search(facts: SceneFacts, *rest: Any) -> int:
     """A loop over the shapes of a kind that is not there takes a round, too."""
-    kinds = {thing.shape for thing in scene.visible} & OF_SHAPES.keys()
-    return rounds_of_search(scene, *rest, **more) + len(OF_SHAPES) - len(kinds)
+    kinds = {kind for kind, count in facts.shapes.items() if count} & OF_SHAPES.keys()
+    return rounds_of_search(facts, *rest) + len(OF_SHAPES) - len(kinds)
 
 
 def _constant(tier: str) -> Collection[str]:
@@ -98,7 +100,7 @@ def _constant(tier: str) -> Collection[str]:
 
 
 SHARED = (
-    (device_scene, "needs_of", _needs),
+    (plan, "needs_of", _needs),
     (pipelines, "scene_arrays", _text),
     (pipelines, "struct_arrays", SimpleNamespace(upload=_upload)),
     (pipelines, "_constant", _constant),

@@ -13,9 +13,10 @@ from numpy.testing import assert_allclose
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.omissions import omissions
-from glrt.plan.plan import plan_for
+from glrt.plan.plan import prepare
 from glrt.scene.lights.clear_sky import ClearSky, sky_pixels
 from glrt.scene.lights.sun import Sun
 from glrt.scene.scene import Scene
@@ -209,7 +210,7 @@ def test_scale_is_a_factor_of_sky_and_sun(context: Context) -> None:
 def test_sky_and_sun_are_two_light_groups() -> None:
     both = day(FLOOR)
     assert list(both.light_groups) == ["sun", "background"]
-    plan = plan_for(both, Settings(), "groups")
+    plan = prepare(both, Settings(), "groups")
     brighter = day(FLOOR, sky={"scale": 1.5})
     assert plan.relit(brighter, Settings(), "groups") is not None
     hazier = day(FLOOR, sky={"turbidity": 4.0})
@@ -218,11 +219,13 @@ def test_sky_and_sun_are_two_light_groups() -> None:
 
 def test_it_is_the_program_of_an_image(context: Context) -> None:
     """No line of the kernel is for it."""
-    needs = needs_of(day(FLOOR), Settings())
+    needs = needs_of(SceneFacts(day(FLOOR)), Settings())
     assert needs.has_environment
     assert needs.sample_sky
     assert needs.sample_sun
-    assert "the image of the sky lights nothing" in omissions(day(FLOOR), Settings(method="cook"))
+    assert "the image of the sky lights nothing" in omissions(
+        SceneFacts(day(FLOOR)), Settings(method="cook")
+    )
 
 
 def test_it_survives_a_file() -> None:

@@ -10,7 +10,7 @@ from glrt.analysis.reference import closed_form
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.plan.methods import CLASSIC
-from glrt.plan.plan import plan_for
+from glrt.plan.plan import prepare
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Settings
 from tests.conftest import CallGlsl
@@ -100,14 +100,14 @@ def test_a_horizon_of_one_colour_is_known_in_closed_form() -> None:
 
 def test_light_of_the_sky_is_a_weighted_sum() -> None:
     scene, settings = lit(sphere([0, 0, -3], 1, "m")), Settings()
-    plan = plan_for(scene, settings, "groups")
+    plan = prepare(scene, settings, "groups")
     dimmed = plan.relit(with_lights(scene, {"background": 0.5}), settings, "groups")
     assert dimmed
     assert dimmed.weights == ((0.5, 0.5, 0.5),)
     plain = scene.background.model_copy(update={"horizon": None})
     other = scene.model_copy(update={"background": plain})
     assert plan.relit(other, settings, "groups") is None
-    assert plan_for(other, settings, "groups").relit(scene, settings, "groups") is None
+    assert prepare(other, settings, "groups").relit(scene, settings, "groups") is None
 
 
 def test_a_horizon_needs_both_poles() -> None:

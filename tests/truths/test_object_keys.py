@@ -1,6 +1,7 @@
 """Light groups of objects, and hidden objects: the bits of a scene that says the same."""
 
 from glrt.gpu.context import Context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost, settings_for
@@ -85,7 +86,7 @@ def test_a_hidden_object_is_not_there(context: Context) -> None:
     scene = scene_of(objects, materials, ABOVE)
     plain = scene_of([FLOOR, QUAD], materials, ABOVE)
     settings = settings_for(scene.render)
-    assert needs_of(scene, settings) == needs_of(plain, settings)
+    assert needs_of(SceneFacts(scene), settings) == needs_of(SceneFacts(plain), settings)
     assert same(rendered(scene, context, 16), rendered(plain, context, 16))
     image = rendered(scene, context, 16, aov=("object",))
     assert set(image.aovs["object"].value.ravel().tolist()) == {1, 3}, (

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.omissions import omissions
 from glrt.scene.scene import Scene
@@ -159,9 +160,11 @@ def test_colours_of_vertices_multiply_that_of_the_material(context: Context) -> 
 
 
 def test_a_scene_asks_for_the_lobes_that_it_uses() -> None:
-    coated, plain = (needs_of(scene, Settings()) for scene in (ball(clearcoat=0.5), ball()))
+    coated, plain = (
+        needs_of(SceneFacts(scene), Settings()) for scene in (ball(clearcoat=0.5), ball())
+    )
     assert (coated.has_coat, plain.has_coat, "principled" in plain.materials) == (True, False, True)
-    told = omissions(room(), Settings(method="whitted"))
+    told = omissions(SceneFacts(room()), Settings(method="whitted"))
     assert "principled surfaces reflect lamps alone" in told
 
 
@@ -272,12 +275,14 @@ def test_holes_let_light_through(context: Context, method: str) -> None:
 
 
 def test_a_scene_asks_for_glass_where_some_is_glass() -> None:
-    needs = needs_of(ball(transmission=0.5, roughness=0.3), Settings())
+    needs = needs_of(SceneFacts(ball(transmission=0.5, roughness=0.3)), Settings())
     assert [needs.has_transmission, needs.has_rough_glass] == [True, True]
     assert "dielectric" in needs.materials
-    assert not needs_of(ball(), Settings()).has_transmission
-    assert needs_of(ball(alpha=0.5), Settings()).has_hole
-    assert "glass is black" in omissions(ball(transmission=0.5), Settings(method="phong"))
+    assert not needs_of(SceneFacts(ball()), Settings()).has_transmission
+    assert needs_of(SceneFacts(ball(alpha=0.5)), Settings()).has_hole
+    assert "glass is black" in omissions(
+        SceneFacts(ball(transmission=0.5)), Settings(method="phong")
+    )
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,10 @@ from glrt.analysis.reference import closed_form
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.plan.explanation import explain
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.omissions import omissions
+from glrt.plan.plan import prepare
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import Settings
 from tests.conftest import CallGlsl
@@ -166,11 +168,13 @@ def test_both_pipelines_and_tiers_show_the_same_bits(context: Context) -> None:
 
 def test_what_is_not_done_is_reported() -> None:
     scene = under(random_sky(4, 2), FLOOR)
-    reasons = {feature.name: feature for feature in explain(scene, Settings())}
+    reasons = {feature.name: feature for feature in explain(prepare(scene, Settings()))}
     assert reasons["image of the sky"].present
     assert reasons["sky sampling"].present
-    assert not needs_of(scene, Settings(method="naive")).sample_sky
-    assert "the image of the sky lights nothing" in omissions(scene, Settings(method="cook"))
+    assert not needs_of(SceneFacts(scene), Settings(method="naive")).sample_sky
+    assert "the image of the sky lights nothing" in omissions(
+        SceneFacts(scene), Settings(method="cook")
+    )
     assert closed_form(under(random_sky(4, 2), FLOOR)) is None
 
 

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.omissions import omissions
 from glrt.scene.lights.sun import Sun
@@ -153,12 +154,12 @@ def test_all_ways_and_sizes_show_the_same_bits(context: Context) -> None:
 
 def test_a_scene_without_a_sun_asks_for_none() -> None:
     scene = scene_of([FLOOR], {"m": MATTE}, background={"color": [1, 1, 1]})
-    needs = needs_of(scene, Settings())
+    needs = needs_of(SceneFacts(scene), Settings())
     assert not needs.has_sun
     assert not needs.sample_sun
     dark = with_lights(sunny(FLOOR), {"sun": 0.0})
-    assert not needs_of(dark, Settings()).has_sun
-    assert "the sun lights nothing" in omissions(sunny(FLOOR), Settings(method="cook"))
+    assert not needs_of(SceneFacts(dark), Settings()).has_sun
+    assert "the sun lights nothing" in omissions(SceneFacts(sunny(FLOOR)), Settings(method="cook"))
 
 
 @pytest.mark.parametrize(

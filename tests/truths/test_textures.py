@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context, open_context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.settings import Aov, settings_for
@@ -103,7 +104,7 @@ def test_an_even_emission_is_found_by_scattering_alone(context: Context) -> None
     scenes = [scene_of(things, {"m": one, "floor": MATTE}, EYE) for one in (plain, textured)]
     naive = rendered(scenes[0], context, 64, method="naive")
     assert same(naive, rendered(scenes[1], context, 64, method="mis"))
-    assert not needs_of(scenes[1], settings_for(scenes[1].render)).sample_lights
+    assert not needs_of(SceneFacts(scenes[1]), settings_for(scenes[1].render)).sample_lights
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -93,5 +94,5 @@ def test_albedo_shows_them(context: Context) -> None:
 def test_glass_has_none(context: Context) -> None:
     scene, plain = room(evenly(2, "glass", COLOR)), room(mesh(icosphere(2), "glass"))
     settings = settings_for(scene.render)
-    assert needs_of(scene, settings) == needs_of(plain, settings)
+    assert needs_of(SceneFacts(scene), settings) == needs_of(SceneFacts(plain), settings)
     assert same(rendered(scene, context, 16), rendered(plain, context, 16))

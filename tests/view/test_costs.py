@@ -2,7 +2,7 @@
 
 import pytest
 
-from glrt.plan.plan import Plan, plan_for
+from glrt.plan.plan import Plan, prepare
 from glrt.settings import Cost
 from glrt.view.edits.scene_edits import with_material
 from glrt.view.state.costs import (
@@ -103,7 +103,7 @@ def test_a_size_that_has_no_room_for_layers_is_another_kernel(session: Session) 
     layers = session.renderer.plan.layers
     assert reach_of_size(session, "width") == (100 // layers, Cost.RECOMPILE)
     assert reach_of_size(session, "height") == (50, Cost.RECOMPILE)
-    plain = plan_for(session.scene, session.settings, "none")
+    plain = prepare(session.scene, session.settings, "none")
     assert session.renderer.plan.cost_of(plain.scene, plain.settings, "none") is Cost.RECOMPILE
     session.edit(width=100 // layers + 1)
     start(session)

@@ -10,10 +10,11 @@ import numpy as np
 
 from glrt.core.errors import SceneError
 from glrt.gpu.structs import read_constants, record
-from glrt.packing.scene_arrays import pack_camera, pack_scene
-from glrt.plan.facts import facts_of
+from glrt.packing.scene_arrays import pack_camera
+from glrt.plan.facts import SceneFacts
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
+from tests.support.packed import packed
 from tests.wgsl.text import read, struct
 
 Array = np.ndarray[Any, Any]
@@ -30,7 +31,7 @@ def camera_buffer(scene: Scene, settings: Settings) -> bytes:
 
 def object_buffer(scene: Scene) -> bytes:
     """Every shape in a row of one kind: spheres, planes, quads, as the kernel numbers them."""
-    arrays = pack_scene(scene)
+    arrays = packed(scene)
     return b"".join(
         _objects(kind, arrays[kind.capitalize()], position) for kind, position in _POSITIONS.items()
     ) or bytes(struct("Object").itemsize)
@@ -39,7 +40,7 @@ def object_buffer(scene: Scene) -> bytes:
 def material_buffer(scene: Scene) -> bytes:
     """The materials that some shape is made of."""
     row = struct("Material")
-    return _taken(pack_scene(scene)["Material"], row).tobytes() or bytes(row.itemsize)
+    return _taken(packed(scene)["Material"], row).tobytes() or bytes(row.itemsize)
 
 
 def settings_buffer(scene: Scene, settings: Settings) -> bytes:
@@ -47,7 +48,7 @@ def settings_buffer(scene: Scene, settings: Settings) -> bytes:
     kinds = [shape.shape for shape in scene.objects]
     if scene.background.horizon or not {"sphere", "plane", "quad"}.issuperset(kinds):
         raise SceneError("a horizon, or a shape: WGSL has spheres, planes and quads alone.")
-    if facts_of(scene).mapped:
+    if SceneFacts(scene).mapped:
         raise SceneError("a texture: WGSL has none.")
     bottom, top = scene.background_colors
     values = {

@@ -12,11 +12,12 @@ from glrt.gpu.evaluate import path_files
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.program import Kernel
 from glrt.gpu.struct_arrays import FILE
-from glrt.packing.scene_arrays import pack_frame, pack_scene
-from glrt.plan.features import needs_of
+from glrt.packing.scene_arrays import Dispatch, pack_frame
+from glrt.plan.plan import prepare
 from glrt.rendering.pipelines import scene_text, upload
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
+from tests.support.packed import packed
 from tests.wgsl.device import Device
 from tests.wgsl.program import OUTPUT, SEEDS, Program
 from tests.wgsl.resources import RandomTexture, SceneBuffers, output_buffer
@@ -62,11 +63,11 @@ _RECORD = "digest = pcg_hash(digest ^ x);\n    draws += 1u;\n    "
 
 def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
     """The stages of the first sample by the kernel's path text: (H, W) of STAGE."""
-    arrays = pack_scene(scene)
+    plan, arrays = prepare(scene, settings), packed(scene)
     counts = {struct: len(rows) for struct, rows in arrays.items()}
     recorder = "uint digest = 0u;\nuint draws = 0u;\n"
     recorded = _recording(read("sampling/unit_float.glsl"), "float")
-    constants = {**needs_of(scene, settings).constants(), **_CONSTANTS}
+    constants = {**plan.needs.constants(), **_CONSTANTS}
     with context.gl as gl:
         texts = {
             "stages": _glsl_entry(),
@@ -75,7 +76,7 @@ def glsl_stages(context: Context, scene: Scene, settings: Settings) -> Array:
         }
         kernel = Kernel(gl, Source("stages", constants, texts=texts))
         resources = upload(gl, arrays, "generic")
-        frame = gl.buffer(pack_frame(scene, settings, counts, 0, 1))
+        frame = gl.buffer(pack_frame(plan, counts, Dispatch(0, 1), None))
         words = gl.buffer(reserve=STAGE.itemsize * settings.width * settings.height)
         kernel.bind({**resources, "FrameBlock": frame, "Words": words}, {})
         kernel.run_tiles(-(-settings.width * settings.height // _GROUP))

@@ -14,6 +14,7 @@ from glrt.analysis.variants import Variant, variants_of
 from glrt.core.version import VERSION
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
+from glrt.plan.plan import prepare
 from glrt.rendering.schedule import iterations_per_sample
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -99,7 +100,7 @@ def frame_of(scene: Scene, height: int) -> Settings:
 def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
     """Whether one sample stays within the loop limit of the driver."""
     usable = usable_rounds(context)
-    return usable is None or iterations_per_sample(scene, settings) <= usable
+    return usable is None or iterations_per_sample(prepare(scene, settings)) <= usable
 
 
 def _missing_rounds(

@@ -16,6 +16,7 @@ from glrt.analysis.method_choice.search import TIE, WITHOUT_PROBES, Verdict, wha
 from glrt.analysis.method_choice.trial import LEADER, OutOfTimeError, Tell
 from glrt.core.errors import UsageError
 from glrt.gpu.context import open_context
+from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import BIASED, METHODS
 from glrt.plan.omissions import omissions
 from glrt.rendering.stopping import Limits
@@ -236,7 +237,7 @@ def _row(scene: Scene, verdict: Verdict, candidate: Candidate, width: int) -> st
     work = number(candidate.work_to(verdict.error) / least) if samples else "never"
     bias = percent(candidate.bias.value)
     if settings.method in BIASED:
-        missing = omissions(scene, settings)
+        missing = omissions(SceneFacts(scene), settings)
         reason = "; ".join(missing) if missing else "leaves out nothing in this scene"
     else:
         seen = "leaves out light" if candidate.bias.value > 0 else "no light detected"

@@ -16,13 +16,9 @@ from glrt.analysis.variants import LINKED
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
-from glrt.plan.particles import (
-    link_bits,
-    makes_caustics,
-    particles_a_sample,
-    refusal,
-    sky_sends_particles,
-)
+from glrt.plan.combinations import refusal
+from glrt.plan.facts import SceneFacts
+from glrt.plan.particles import makes_caustics, particles_a_sample
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Sampler, Settings, settings_for
@@ -82,12 +78,12 @@ def may_gain(scene: Scene, settings: Settings) -> bool:
     And where light comes by glass or by metal that is not too rough, which is what they are for,
     but not from the sky alone, which is seldom small enough to make caustics.
     """
-    names = {thing.material for thing in scene.visible}
+    facts = SceneFacts(scene)
     return (
         _pilot_of(settings, settings.samples) > 0
-        and any(makes_caustics(scene.materials[name]) for name in names)
-        and not sky_sends_particles(scene)
-        and refusal(scene, settings_for(settings, caustics="on")) is None
+        and any(map(makes_caustics, facts.materials.values()))
+        and not facts.particles.sky_sends
+        and refusal(facts, settings_for(settings, caustics="on")) is None
     )
 
 
@@ -113,7 +109,7 @@ def particles_worth(
         if enough < pixels:
             pixels, plain = enough, _picture(scene, without, context, enough)
     found: list[Finding] = []
-    for choice in _choices(given, link_bits(scene) != 0, is_short=pixels == SHORT):
+    for choice in _choices(given, SceneFacts(scene).particles.links != 0, is_short=pixels == SHORT):
         wanted = settings_for(settings, caustics="on", **choice)
         found.append(Finding(wanted, _gain(scene, wanted, plain, context, pixels)))
         if found[-1].gain < HOPELESS:

@@ -13,9 +13,8 @@ from glrt.analysis.chart.rays import SAMPLES, counting_variant
 from glrt.gpu.context import Context
 from glrt.gpu.program import TILE, tile_count
 from glrt.packing.kernel_structs import CONSTANTS
-from glrt.plan.facts import facts_of
-from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS, reuses_points
+from glrt.plan.plan import prepare
 from glrt.rendering.probe_tracer import LOOKS, RAYS, UPDATES
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import rounds_of_search
@@ -39,7 +38,8 @@ Check = Callable[[Renderer], bool]
 @contextmanager
 def counting(scene: Scene, settings: Settings, context: Context) -> Iterator[Renderer]:
     """A renderer that gives the weights of the rays of a sample in place of radiance."""
-    search, needs = rounds_of_search(scene), needs_of(scene, settings)
+    plan = prepare(scene, settings)
+    search, needs = rounds_of_search(plan.facts), plan.needs
     weighed = needs.clusters if needs.clusters > 1 else 0
     choice = CLUSTER * (weighed + PARTS * needs.many_lights)
     is_sampled = METHODS[settings.method].chooses_lights and "quad" in needs.lamps
@@ -62,7 +62,7 @@ def work_per_sample(counter: Renderer, bounces: int, check: Check) -> float:
     weights = float(counter.render(SAMPLES, check).image().radiance.mean(dtype=float))
     traits = METHODS[counter.settings.method]
     loops_over_lamps = bool(traits.model) and not traits.chooses_lights
-    lamps = facts_of(counter.scene).sampled_lamps if loops_over_lamps else 0
+    lamps = counter.plan.facts.sampled_lamps if loops_over_lamps else 0
     points = RESAMPLED * reuses_points(counter.settings)
     return weights - CAMERA + LAMP * lamps + points
 

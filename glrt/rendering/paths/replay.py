@@ -20,7 +20,7 @@ from glrt.plan.combinations import check_render
 from glrt.plan.methods import METHODS
 from glrt.plan.particles import GROUP as PARTICLE_GROUP
 from glrt.plan.particles import particle_groups
-from glrt.plan.plan import Plan, plan_for
+from glrt.plan.plan import Plan, prepare
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.passes import PARTICLE_PATHS, PATHS
 from glrt.rendering.paths.recorder import TOGETHER, PathRecorder, Pixel
@@ -174,14 +174,14 @@ def path_replay(
     beyond the driver.
     """
     check_method(settings)
-    check_render(scene, settings, "none", False, False)
+    plan = prepare(scene, settings, apart=apart)
+    check_render(plan.facts, settings, "none", False, False)
     with ExitStack() as stack:
         if not isinstance(context, Context):
             context = open_context(context)
             stack.callback(context.gl.release)
         check_context(context)
         stack.enter_context(context.gl)
-        plan = plan_for(scene, settings, "none", apart=apart)
         dispatch_limits(context, plan)
         device_scene = DeviceScene(context, plan, KernelOptions("compute", tier))
         stack.callback(device_scene.release)

@@ -136,7 +136,7 @@ def _kernel(app: App) -> None:
 @kept_for_the_same
 def _contents(plan: Plan) -> tuple[str, str]:
     """What a kernel contains; and what it does not, with the reasons."""
-    features = explain(plan.scene, plan.settings)
+    features = explain(plan)
     inside = ", ".join(feature.name for feature in features if feature.present)
     layers = f"; {plan.layers} layers" if plan.layers else ""
     left_out = "; ".join(f"{f.name}: {f.reason}" for f in features if not f.present)

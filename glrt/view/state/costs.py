@@ -3,7 +3,8 @@
 from typing import Literal
 
 from glrt.core.memo import kept_for_the_same
-from glrt.plan.plan import MOST_LAYERS, emitters, layer_of_group
+from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import MOST_LAYERS, layer_of_group
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
@@ -69,21 +70,17 @@ def reach_of_size(session: Session, side: Literal["width", "height"]) -> Reach |
 def _is_one_tint(session: Session, group: str, lamps: dict[str, list[Radiance]]) -> bool:
     """Whether any colour of a lamp is a factor of what was traced: it has the group for itself."""
     plan = session.renderer.plan if session.renderer else None
-    traced = _lamps_traced(plan.scene).get(group, []) if plan else []
+    traced = plan.facts.emissions.get(group, []) if plan else []
     return len(lamps.get(group, [])) <= 1 and all(all(light) for light in traced)
 
 
 @kept_for_the_same
 def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
     """The layer of each light group, and what its lamps emit."""
-    return layer_of_group(scene), emitters(scene)
+    facts = SceneFacts(scene)
+    return layer_of_group(facts), facts.emissions
 
 
 @kept_for_the_same
 def _finishes(scene: Scene) -> list[Finish]:
     return scene.finishes
-
-
-@kept_for_the_same
-def _lamps_traced(scene: Scene) -> dict[str, list[Radiance]]:
-    return emitters(scene)

@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable
 
 from glrt.core.errors import RenderError
-from glrt.plan.facts import facts_of
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.idle_compile import TrialCompile
@@ -56,9 +55,9 @@ class IdleKernel:
         self._rehearsal = None
 
     def _rehearse(self, renderer: Renderer) -> None:
-        scene = renderer.plan.scene
+        plan = renderer.plan
         # The other process has no meshes, and their triangles are never constants.
-        if len(scene.objects) > MOST_BAKED or facts_of(scene).triangles:
+        if len(plan.scene.objects) > MOST_BAKED or plan.facts.triangles:
             self._is_decided = True
         elif self._clock() - self._since >= PAUSE:
             try:

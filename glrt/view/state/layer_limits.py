@@ -1,7 +1,7 @@
 """Whether a driver has room for the layers of a film, which lie side by side in one texture."""
 
 from glrt.plan.methods import METHODS
-from glrt.plan.plan import Layering, Plan
+from glrt.plan.plan import Layering, prepare
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
@@ -37,6 +37,6 @@ class LayerLimits:
         """How many; kept, since a frame asks several times, and a scene may have many objects."""
         known = self._known
         if not (known and known[0] is scene and known[1] is settings and known[2] == layering):
-            count = Plan(scene, settings, layering).layers
+            count = prepare(scene, settings, layering).layers
             known = self._known = (scene, settings, layering, count)
         return known[3]
