@@ -10,8 +10,11 @@ from glrt.gpu.context import Context
 from glrt.packing.instances import check_numbers
 from glrt.packing.scene_tree import tree_of
 from glrt.plan.facts import SceneFacts
+from glrt.plan.plan import prepare
+from glrt.rendering.schedule import TREE_ROUNDS, iterations_per_sample
 from glrt.scene import instancing
 from glrt.scene.scene import Scene
+from glrt.settings import settings_for
 from tests.conftest import CallGlsl
 from tests.rendering.test_mesh_hits import FLOOR, at_edges, exact, found, rays
 from tests.support.builders import MATTE, box, glass, lamp, plane, quad, scene_of, sphere
@@ -56,6 +59,21 @@ def placed(*places: dict[str, Any], faces: Faces = BLOB, more: Any = ()) -> Scen
     scene = scene_of([*more, *(mesh(faces, "white", **at) for at in places)], {"white": MATTE})
     assert len(SceneFacts(scene).instances) == len(places)
     return scene
+
+
+@pytest.mark.usefixtures("exact_kernels")
+def test_loops_are_limited_for_the_division_that_is_traced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three copies of a mesh: one BVH of all triangles, or three instances of one mesh."""
+    monkeypatch.setattr(instancing, "LEAST_LARGE", 1)
+    scene = placed(*PLACES[:3])
+    flat(scene, monkeypatch)
+    triangles = len(BLOB[1])
+    joined, apart = (
+        iterations_per_sample(prepare(scene, settings_for(scene.render, bounces=0), apart=way))
+        for way in ("repeated", "large")
+    )
+    assert joined == 2 + 2 * round(TREE_ROUNDS * np.log2(3 * triangles))
+    assert apart == 2 + 2 * round(TREE_ROUNDS * np.log2(triangles + 3))
 
 
 def in_the_scene(scene: Scene) -> Faces:

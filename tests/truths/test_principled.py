@@ -8,9 +8,8 @@ from numpy.testing import assert_allclose
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from glrt.plan.facts import SceneFacts
-from glrt.plan.features import needs_of
 from glrt.plan.omissions import omissions
+from glrt.plan.plan import prepare
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.support.builders import MATTE, box, lamp, plane, quad, scene_of, sphere
@@ -160,11 +159,9 @@ def test_colours_of_vertices_multiply_that_of_the_material(context: Context) -> 
 
 
 def test_a_scene_asks_for_the_lobes_that_it_uses() -> None:
-    coated, plain = (
-        needs_of(SceneFacts(scene), Settings()) for scene in (ball(clearcoat=0.5), ball())
-    )
+    coated, plain = (prepare(it, Settings()).needs for it in (ball(clearcoat=0.5), ball()))
     assert (coated.has_coat, plain.has_coat, "principled" in plain.materials) == (True, False, True)
-    told = omissions(SceneFacts(room()), Settings(method="whitted"))
+    told = omissions(prepare(room(), Settings()).facts, Settings(method="whitted"))
     assert "principled surfaces reflect lamps alone" in told
 
 
@@ -275,14 +272,12 @@ def test_holes_let_light_through(context: Context, method: str) -> None:
 
 
 def test_a_scene_asks_for_glass_where_some_is_glass() -> None:
-    needs = needs_of(SceneFacts(ball(transmission=0.5, roughness=0.3)), Settings())
-    assert [needs.has_transmission, needs.has_rough_glass] == [True, True]
-    assert "dielectric" in needs.materials
-    assert not needs_of(SceneFacts(ball()), Settings()).has_transmission
-    assert needs_of(SceneFacts(ball(alpha=0.5)), Settings()).has_hole
-    assert "glass is black" in omissions(
-        SceneFacts(ball(transmission=0.5)), Settings(method="phong")
-    )
+    plan = prepare(ball(transmission=0.5, roughness=0.3), Settings())
+    assert [plan.needs.has_transmission, plan.needs.has_rough_glass] == [True, True]
+    assert "dielectric" in plan.needs.materials
+    assert not prepare(ball(), Settings()).needs.has_transmission
+    assert prepare(ball(alpha=0.5), Settings()).needs.has_hole
+    assert "glass is black" in omissions(plan.facts, Settings(method="phong"))
 
 
 @pytest.mark.parametrize(
