@@ -21,6 +21,7 @@ import moderngl
 from glrt.core.errors import ContextError, RenderError
 from glrt.gpu.context_turns import TurnTaker
 from glrt.gpu.osmesa import OSMesa
+from glrt.gpu.programs import Programs
 
 Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]
@@ -67,6 +68,11 @@ class Context:
     def is_software(self) -> bool:
         """Whether the processor draws."""
         return any(word in self.renderer.lower() for word in _SOFTWARE)
+
+    @cached_property
+    def programs(self) -> Programs:
+        """The programs that its users share."""
+        return Programs()
 
     def finish(self) -> None:
         """Wait until the driver has done all work. RenderError if it lost this context over it."""

@@ -8,6 +8,8 @@ those who ask for that.
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import cached_property
+from itertools import count
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,6 +20,8 @@ _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".
 _LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
 _texts: dict[Path, str] = {}  # of files that have been read
+_editions = count(1)
+_edition = [0]  # the one that is read
 
 
 class Line(NamedTuple):
@@ -40,18 +44,23 @@ class Source:
         version: str = "430 core",
         texts: Mapping[str, str] | None = None,
     ) -> None:
-        """Read `entry` and what it includes from `texts`, by name, or from the shader folder.
+        """Of `entry` and what it includes: from `texts`, by name, or from the shader folder.
 
-        RenderError if a file is not there.
+        Files are read when the text is first needed. Sources of one `key` have one text.
         """
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
-        files = _Files(texts or {})
-        lines = [Line(line, "prelude") for line in head]
-        for line in files.expand(entry, "the kernel"):
+        self._head, self._entry, self._texts = head, entry, texts or {}
+        self.key = (entry, version, *(constants or {}).items(), *self._texts.items(), _edition[0])
+
+    @cached_property
+    def lines(self) -> list[Line]:
+        """The lines, each with its origin. RenderError if a file is not there."""
+        lines = [Line(line, "prelude") for line in self._head]
+        for line in _Files(self._texts).expand(self._entry, "the kernel"):
             if _file(line.origin) != _file(lines[-1].origin):
                 lines.append(Line(f"// {line.origin}", line.origin))
             lines.append(line)
-        self.lines = lines
+        return lines
 
     @property
     def text(self) -> str:
@@ -85,13 +94,15 @@ def shader_files() -> list[Path]:
 @contextmanager
 def files_reread() -> Iterator[None]:
     """Inside, files are read as they are now; should an error leave it, the texts before stay."""
-    before = dict(_texts)
+    before, edition = dict(_texts), _edition[0]
     _texts.clear()
+    _edition[0] = next(_editions)
     try:
         yield
     except BaseException:
         _texts.clear()
         _texts.update(before)
+        _edition[0] = edition
         raise
 
 

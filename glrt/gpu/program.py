@@ -1,6 +1,7 @@
 """One compiled program, its blocks and images bound by name; the only dispatcher."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import count
 
 import moderngl
@@ -22,12 +23,28 @@ def tile_count(width: int, height: int) -> int:
     return -(-width // TILE) * -(-height // TILE)
 
 
+@dataclass
+class Pace:
+    """The speed of a program's dispatches so far; work is samples x tiles."""
+
+    tried: float = 0.0  # the most work of a dispatch
+    cost: float = 0.0  # seconds for one tile and sample
+    cost_alone: float = 0.0  # of frames of one sample, whose lanes wait for the longest path
+    rounds: int = 0  # of loops for a sample: with more, the rest is worth nothing
+
+    def learn(self, other: "Pace") -> None:
+        """Begin with what is known of a program that does the same."""
+        if not self.tried:
+            self.tried, self.cost, self.cost_alone = other.tried, other.cost, other.cost_alone
+            self.rounds = other.rounds
+
+
 class Kernel:
     """A compute shader: a tile is a work group, and images are read and written in place."""
 
     def __init__(self, gl: moderngl.Context, source: Source) -> None:
-        """Compile; RenderError tells the driver's message by shader file and line."""
-        self._gl = gl
+        """Compile; RenderError gives the driver's message by shader file and line."""
+        self._gl, self.pace = gl, Pace()
         try:
             with postponed():  # it names a program's parts in Python: Ctrl-C there crashes it
                 self._program = gl.compute_shader(source.text)
@@ -60,6 +77,9 @@ class Kernel:
         self._program.run(tiles, 1, 1)
         self._gl.memory_barrier()
 
+    def rest(self) -> None:
+        """Hold nothing of what was bound."""
+
     def release(self) -> None:
         """Free the program."""
         self._program.release()
@@ -69,8 +89,8 @@ class FragmentKernel:
     """A vertex and a fragment shader: a tile is an instance of a quad, drawn over the targets."""
 
     def __init__(self, gl: moderngl.Context, vertex: Source, fragment: Source) -> None:
-        """Compile; RenderError tells the driver's message by shader file and line."""
-        self._gl = gl
+        """Compile; RenderError gives the driver's message by shader file and line."""
+        self._gl, self.pace = gl, Pace()
         self._targets: moderngl.Framebuffer | None = None
         self._program = drawing(gl, vertex, fragment)
         self._quad = gl.vertex_array(self._program, [])
@@ -79,7 +99,7 @@ class FragmentKernel:
         """As Kernel.bind; images whose names begin with "target" are drawn to, in their order."""
         _bind_blocks(self._program, scene)
         _bind_textures(self._program, {**scene, **images})
-        self._release_targets()
+        self.rest()
         targets = [texture for name, texture in images.items() if name.startswith("target")]
         self._targets = self._gl.framebuffer(color_attachments=targets)
 
@@ -90,11 +110,12 @@ class FragmentKernel:
 
     def release(self) -> None:
         """Free the program."""
-        self._release_targets()
+        self.rest()
         self._quad.release()
         self._program.release()
 
-    def _release_targets(self) -> None:
+    def rest(self) -> None:
+        """Hold nothing of what was bound."""
         if self._targets:
             self._targets.release()
             self._targets = None

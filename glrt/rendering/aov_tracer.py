@@ -15,11 +15,12 @@ from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
+from glrt.gpu.programs import AnyKernel
 from glrt.image.aovs import AovImage, AovImages
 from glrt.packing.shapes import order_of_kernel
 from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.kernel_switch import ready
 from glrt.rendering.pass_film import Array, PassFilm
 from glrt.rendering.passes import SLOTS, aov_pass
 from glrt.rendering.schedule import (
@@ -43,9 +44,8 @@ class _Stage:
         plan: Plan,
         scene: DeviceScene,
         aovs: tuple[Aov, ...],
-        kernel: AnyKernel | None,
     ) -> None:
-        self.aovs = aovs
+        self.aovs, self._context = aovs, context
         render_pass, size = aov_pass(aovs), plan.settings.size
         self._tiles = tile_count(*size)
         self.schedule = Schedule(self._tiles, _most_observations(context, plan, aovs))
@@ -57,8 +57,12 @@ class _Stage:
             def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
                 scene.dispatch(kernel, self.film, plan, part, self._tiles)
 
-            self.kernel = kernel or ready(context, scene.shaders_of(render_pass), dispatch)
+            self.kernel = ready(context, scene.shaders_of(render_pass), dispatch)
             refused.pop_all()
+
+    def release(self) -> None:
+        self.film.release()
+        self._context.programs.give_back(self.kernel)
 
     def work_on(
         self, context: Context, plan: Plan, scene: DeviceScene, missing: int, seconds: float
@@ -79,34 +83,21 @@ class _Stage:
 class AovTracer:
     """Gathers the AOVs that settings ask for."""
 
-    def __init__(
-        self,
-        context: Context,
-        plan: Plan,
-        scene: DeviceScene,
-        before: "AovTracer | None" = None,
-    ) -> None:
-        """Allocate films, and compile the kernels that `before` lacks, of the same scene kernel.
+    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
+        """Allocate films, and compile.
 
-        Raises SceneError if an observation is beyond the driver's loop limit, and RenderError; then
-        `before` is as it was.
+        Raises SceneError if an observation is beyond the driver's loop limit, and RenderError.
         """
         self.aovs = aovs = plan.settings.gathered
         self._context, self._size, self._block = context, plan.settings.size, plan.settings.block
         self._stages: list[_Stage] = []
-        known = before.kernels if before and before._block == self._block else {}
         start = time.perf_counter()
         with ExitStack() as refused:
-            refused.callback(lambda: self.release(before))
+            refused.callback(self.release)
             for pair in _together(aovs):
-                self._stages.append(_Stage(context, plan, scene, pair, known.get(pair)))
+                self._stages.append(_Stage(context, plan, scene, pair))
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start if aovs else 0.0
-
-    @property
-    def kernels(self) -> dict[tuple[Aov, ...], AnyKernel]:
-        """The kernels, by the AOVs that they fill."""
-        return {stage.aovs: stage.kernel for stage in self._stages}
 
     def serve(self, settings: Settings) -> bool:
         """Whether films and kernels do for other settings, if the kernel of the scene does."""
@@ -177,13 +168,10 @@ class AovTracer:
         }
         return {aov: found[aov] for aov in self.aovs}
 
-    def release(self, heir: "AovTracer | None" = None) -> None:
-        """Free what the driver holds, but for the kernels of an heir."""
-        kept = [*heir.kernels.values()] if heir else []
+    def release(self) -> None:
+        """Free what the driver holds."""
         for stage in self._stages:
-            stage.film.release()
-            if stage.kernel not in kept:
-                stage.kernel.release()
+            stage.release()
 
 
 def _together(aovs: tuple[Aov, ...]) -> Iterator[tuple[Aov, ...]]:

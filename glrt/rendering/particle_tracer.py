@@ -16,11 +16,12 @@ from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.program import tile_count
+from glrt.gpu.programs import AnyKernel
 from glrt.image.particle_film import ParticleFilm, observations_of, summed
 from glrt.plan.particles import particle_groups
 from glrt.plan.plan import Plan, Weights, are_trivial
 from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.kernel_switch import ready
 from glrt.rendering.pass_film import Array, PassFilm
 from glrt.rendering.passes import PARTICLES, SPLATS
 from glrt.rendering.schedule import (
@@ -58,14 +59,8 @@ class _Numbered:
 class ParticleTracer:
     """Gathers what particles bring to the picture of a plan: in all, and beside it by layers."""
 
-    def __init__(
-        self,
-        context: Context,
-        plan: Plan,
-        scene: DeviceScene,
-        before: "ParticleTracer | None" = None,
-    ) -> None:
-        """Allocate a film and a sum, and compile, unless `before` has the same kernels.
+    def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
+        """Allocate a film and a sum, and compile.
 
         RenderError if the driver has no room for them.
         """
@@ -73,7 +68,8 @@ class ParticleTracer:
         self._block, size = plan.settings.block, plan.settings.size
         self._groups, self._tiles = particle_groups(plan.settings), tile_count(*size)
         self._rounds, most = _limits(context, plan)
-        self._schedule = Schedule(self._groups, most)
+        rounds = iterations_per_sample(plan) + rounds_for_particles(plan)
+        self._schedule = Schedule(self._groups, most, rounds)
         self._begun = 0  # samples of the observation that is not complete
         self._is_cleared = False  # whether the sums hold this observation alone
         self._lost = Losses(0, 0)
@@ -86,13 +82,11 @@ class ParticleTracer:
             words = PIXEL * size[0] * size[1] * max(plan.layers, 1)
             self._sums = _block_of_sums(context, what, HEAD + words)
             refused.callback(self._sums.release)
-            if before:
-                self._kernel: AnyKernel = before._kernel
-                self._fold: AnyKernel = before._fold
-            else:
-                self._kernel = ready(context, scene.shaders_of(PARTICLES), self._dispatch)
-                refused.callback(self._kernel.release)
-                self._fold = ready(context, scene.shaders_of(SPLATS), self._dispatch_fold)
+            give_back = context.programs.give_back
+            self._kernel: AnyKernel = ready(context, scene.shaders_of(PARTICLES), self._dispatch)
+            refused.callback(give_back, self._kernel)
+            self._fold: AnyKernel = ready(context, scene.shaders_of(SPLATS), self._dispatch_fold)
+            self._schedule.follow(self._kernel.pace)
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start
         self.restart(plan.first_sample)
@@ -162,13 +156,12 @@ class ParticleTracer:
         """Of all that were linked to the camera since the beginning."""
         return self._lost
 
-    def release(self, after: "ParticleTracer | None" = None) -> None:
-        """Free what the driver holds, but for kernels that another one has taken over."""
+    def release(self) -> None:
+        """Free what the driver holds."""
         self.film.release()
         self._sums.release()
-        if not after or after._kernel is not self._kernel:
-            self._kernel.release()
-            self._fold.release()
+        for kernel in (self._kernel, self._fold):
+            self._context.programs.give_back(kernel)
 
     def _begin(self, most_samples: int | None = None) -> None:
         """Begin an observation anew."""
@@ -196,11 +189,9 @@ class ParticleTracer:
         self._scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
 
 
-def particles_for(
-    context: Context, plan: Plan, scene: DeviceScene, known: ParticleTracer | None
-) -> ParticleTracer | None:
-    """What gathers the particles of a plan, if there are any: by known kernels that fit."""
-    return None if plan.settings.caustics == "off" else ParticleTracer(context, plan, scene, known)
+def particles_for(context: Context, plan: Plan, scene: DeviceScene) -> ParticleTracer | None:
+    """What gathers the particles of a plan, if there are any."""
+    return None if plan.settings.caustics == "off" else ParticleTracer(context, plan, scene)
 
 
 def _block_of_sums(context: Context, what: str, size: int) -> moderngl.Buffer:

@@ -1,6 +1,6 @@
 """The two ways to run the path tracer: a compute shader, or a fragment shader for OpenGL 4.1."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Literal, NamedTuple
 
 import moderngl
@@ -116,6 +116,6 @@ def sources(
     return [Source(file, prelude, version, texts) for file in render_pass.shaders[pipeline]]
 
 
-def compiled(gl: moderngl.Context, shaders: list[Source]) -> Kernel | FragmentKernel:
+def compiled(gl: moderngl.Context, shaders: Sequence[Source]) -> Kernel | FragmentKernel:
     """The kernel; RenderError tells the driver's message by shader file and line."""
     return Kernel(gl, *shaders) if len(shaders) == 1 else FragmentKernel(gl, *shaders)

@@ -29,7 +29,7 @@ class ProbeSupply:
         before: "ProbeSupply | None" = None,
         hysteresis: float | None = None,
     ) -> None:
-        """By the kernels of `before` where they fit; RenderError if there is no room."""
+        """With the maps of `before` where probes go on; RenderError if there is no room."""
         self._plan, self._block = plan, plan.settings.block
         self.hysteresis, self._is_due = hysteresis, True
         self.tracer: ProbeTracer | None = None
@@ -82,7 +82,7 @@ class ProbeSupply:
         return min(wanted, self._block - sample % self._block) if self.tracer else wanted
 
     def release(self, after: "ProbeSupply | None" = None) -> None:
-        """Free what the driver holds, but for what another one has taken over."""
+        """Free what the driver holds, except maps that another one has taken over."""
         if self.tracer:
             self.tracer.release(after.tracer if after else None)
 

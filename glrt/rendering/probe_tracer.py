@@ -15,6 +15,7 @@ import numpy as np
 
 from glrt.gpu.context import Context
 from glrt.gpu.program import Images, Resource
+from glrt.gpu.programs import AnyKernel
 from glrt.packing.probes import (
     DISTANCE_MAP,
     DISTANCES,
@@ -32,7 +33,7 @@ from glrt.plan.methods import METHODS
 from glrt.plan.plan import Plan
 from glrt.plan.probe_grid import Grid
 from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.kernel_switch import ready
 from glrt.rendering.passes import PROBE_DISTANCES, PROBE_LIGHT, PROBE_PLACES, PROBE_RAYS, RenderPass
 from glrt.rendering.probe_weights import WEIGHTS
 from glrt.rendering.schedule import DispatchRange
@@ -92,7 +93,7 @@ class ProbeTracer:
         before: "ProbeTracer | None" = None,
         follows: bool = False,
     ) -> None:
-        """Allocate maps, and compile, unless `before` has the same kernels.
+        """Allocate maps, and compile.
 
         With `follows` they go on with the maps of `before`, if these have light for as many probes.
         RenderError if the driver has no room for them.
@@ -116,10 +117,10 @@ class ProbeTracer:
             with context.checked("the probes"):
                 self._block = context.gl.buffer(update_block(even_directions(RAYS), LIGHT))
             refused.callback(self._block.release)
-            self._kernels: dict[str, AnyKernel] = before._kernels if before else {}
-            for name, each in _PASSES.items() if not before else ():
+            self._kernels: dict[str, AnyKernel] = {}
+            for name, each in _PASSES.items():
                 self._kernels[name] = self._compiled(name, each)
-                refused.callback(self._kernels[name].release)
+                refused.callback(context.programs.give_back, self._kernels[name])
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start
 
@@ -187,15 +188,14 @@ class ProbeTracer:
         return float(rays[:, 0].sum(dtype=float))
 
     def release(self, after: "ProbeTracer | None" = None) -> None:
-        """Free what the driver holds, but for what another one has taken over."""
+        """Free what the driver holds, except maps that another one has taken over."""
         self._block.release()
         self._rays.release()
         if not after or after.maps is not self.maps:
             for texture in self.maps.values():
                 texture.release()
-        if not after or after._kernels is not self._kernels:
-            for kernel in self._kernels.values():
-                kernel.release()
+        for kernel in self._kernels.values():
+            self._context.programs.give_back(kernel)
 
     def _go_on(self, before: "ProbeTracer") -> None:
         """With what the probes of another scene hold; nothing is written yet."""

@@ -14,6 +14,7 @@ from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.gpu.glsl import read
+from glrt.gpu.program import Pace
 from glrt.gpu.structs import read_constants
 from glrt.packing.kernel_structs import CONSTANTS
 from glrt.plan.facts import MESH, SceneFacts
@@ -201,14 +202,22 @@ def whole_frame(samples: int, tiles: int) -> list[DispatchRange]:
 class Schedule:
     """Plans frames dispatch by dispatch, from what the dispatches so far took."""
 
-    def __init__(self, tiles: int, most_samples: int) -> None:
-        """`tiles` of the picture; `most_samples` that a dispatch may take."""
-        self._tiles = tiles
+    def __init__(self, tiles: int, most_samples: int, rounds: int = 0) -> None:
+        """`tiles` of the picture; `most_samples` of a dispatch; loop `rounds` of a sample."""
+        self._tiles, self._rounds = tiles, rounds
         self._most = most_samples
-        self._tried = FIRST_TILES / GROWTH  # the most work so far: samples x tiles
-        self._cost = 0.0  # seconds for one tile and sample
-        self._cost_alone = 0.0  # of frames of one sample, whose lanes wait for the longest path
-        self._bounces = 0  # of the longest paths that are known
+        self.follow(Pace())
+
+    def follow(self, pace: Pace) -> None:
+        """Plan for a program, by what its dispatches took so far.
+
+        Unless samples take more rounds than theirs: then it begins carefully.
+        """
+        self._pace = pace
+        if self._rounds > pace.rounds:
+            pace.tried = pace.cost = pace.cost_alone = 0.0
+        pace.rounds = self._rounds
+        pace.tried = max(pace.tried, FIRST_TILES / GROWTH)
         self.drop()
 
     @property
@@ -219,16 +228,6 @@ class Schedule:
     def drop(self) -> None:
         """Forget the frame that has begun: the next part starts another."""
         self._samples = self._done = 0
-
-    def restart(self, tiles: int, most_samples: int, bounces: int) -> None:
-        """Another picture by the same kernel: what dispatches took is worth knowing still.
-
-        Unless paths get longer: then it begins carefully.
-        """
-        if bounces > self._bounces:
-            self._tried, self._cost, self._cost_alone = FIRST_TILES / GROWTH, 0.0, 0.0
-        self._tiles, self._bounces = tiles, bounces
-        self.limit(most_samples)
 
     def limit(self, most_samples: int) -> None:
         """Begin the frame again: no dispatch may take more samples than these."""
@@ -245,14 +244,14 @@ class Schedule:
         if self._samples > remaining:
             self.drop()
         if not self._done:
-            at_once = self._fitting(seconds, self._cost) / self._tiles
+            at_once = self._fitting(seconds, self._pace.cost) / self._tiles
             together = min(held * policy.share, MOST_TOGETHER)
-            if self._cost:
-                together = min(together, policy.patience / (self._cost * self._tiles))
+            if self._pace.cost:
+                together = min(together, policy.patience / (self._pace.cost * self._tiles))
             self._samples = max(1, min(int(max(at_once, together)), self._most, remaining))
         left = self._tiles - self._done
-        is_alone = self._samples == 1 and self._cost_alone
-        fitting = self._fitting(seconds, self._cost_alone if is_alone else self._cost)
+        is_alone = self._samples == 1 and self._pace.cost_alone
+        fitting = self._fitting(seconds, self._pace.cost_alone if is_alone else self._pace.cost)
         most = min(MOST_TILES, max(1, int(fitting / self._samples)))
         dispatches = math.ceil(left / most)
         return DispatchRange(self._samples, self._done, math.ceil(left / dispatches))
@@ -260,10 +259,10 @@ class Schedule:
     def record(self, part: DispatchRange, seconds: float) -> bool:
         """Learn from a dispatch; whether it completed the frame."""
         work = part.samples * part.tiles
-        self._tried = max(self._tried, work)
-        self._cost = max(seconds, 1e-9) / work
+        self._pace.tried = max(self._pace.tried, work)
+        self._pace.cost = max(seconds, 1e-9) / work
         if part.samples == 1:
-            self._cost_alone = self._cost
+            self._pace.cost_alone = self._pace.cost
         self._done += part.tiles
         is_complete = self._done == self._tiles
         if is_complete:
@@ -272,5 +271,5 @@ class Schedule:
 
     def _fitting(self, seconds: float, cost: float) -> float:
         """The work of a dispatch of so many seconds; not much more than has been tried."""
-        most = GROWTH * self._tried
+        most = GROWTH * self._pace.tried
         return min(most, seconds / cost) if cost else most

@@ -9,6 +9,7 @@ import moderngl
 
 from glrt.gpu.context import Context
 from glrt.gpu.program import tile_count
+from glrt.gpu.programs import AnyKernel
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
 from glrt.image.particle_film import ParticleFilm
@@ -16,7 +17,7 @@ from glrt.plan.plan import Plan, Weights
 from glrt.rendering.aov_tracer import AovTracer
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
-from glrt.rendering.kernel_switch import AnyKernel, KernelSwitch
+from glrt.rendering.kernel_switch import KernelSwitch
 from glrt.rendering.particle_tracer import Losses, ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
@@ -27,6 +28,7 @@ from glrt.rendering.schedule import (
     DispatchRange,
     Schedule,
     dispatch_limits,
+    iterations_per_sample,
     whole_frame,
 )
 from glrt.settings import Cost, Settings
@@ -43,7 +45,7 @@ class Tracer:
         before: "Tracer | None" = None,
         hysteresis: float | None = None,
     ) -> None:
-        """Make what the plan needs; film and kernel are those of `before` where they serve it.
+        """Make what the plan needs; the film is that of `before` where it serves.
 
         With a hysteresis probes go on from those of `before`. Raises SceneError for a scene beyond
         the driver, and RenderError. Then nothing is held, and `before` has lost no more than the
@@ -61,7 +63,7 @@ class Tracer:
             refused.callback(scene.release)
             extent = Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)
             known = before if before and scene.has_kernel_of(before.device_scene) else None
-            probes, particles = (known.probes, known.particles) if known else (None, None)
+            probes = known.probes if known else None
             self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes, hysteresis)
             refused.callback(self.probes.release, probes)
             if before and before.film.extent == extent:
@@ -69,16 +71,13 @@ class Tracer:
             else:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
-            if known:
-                self.switch: KernelSwitch = known.switch
-            else:
-                if before:
-                    before.switch.schedule.drop()  # the first dispatch writes to its frame
-                self.switch = self._compiled()
-                refused.callback(self.switch.release)
-            self.particles: ParticleTracer | None = particles_for(context, plan, scene, particles)
+            if before:
+                before.switch.schedule.drop()  # the first dispatch writes to its frame
+            self.switch: KernelSwitch = self._compiled()
+            refused.callback(self.switch.release)
+            self.particles: ParticleTracer | None = particles_for(context, plan, scene)
             if self.particles:
-                refused.callback(self.particles.release, particles)
+                refused.callback(self.particles.release)
             self.aovs: AovTracer = self._aovs_for(settings, before)
             refused.pop_all()
         if not before:
@@ -87,28 +86,23 @@ class Tracer:
     def replaced_for(self, plan: Plan, hysteresis: float | None = None) -> tuple["Tracer", Cost]:
         """A tracer for another plan, without samples yet; and what the change cost.
 
-        It takes over this tracer's film and kernel where they fit, and frees the rest. On an error,
-        which is as the constructor raises it, this tracer is unchanged.
+        It takes over this tracer's film where it fits, and frees the rest. On an error, which is as
+        the constructor raises it, this tracer is unchanged.
         """
         after = Tracer(self._context, plan, self._options, self, hysteresis)
-        self.device_scene.release()
-        self.probes.release(after.probes)
-        if self.particles:
-            self.particles.release(after.particles)
+        is_same = after.device_scene.has_kernel_of(self.device_scene)
+        keeps_shapes = is_same and after.device_scene.has_shapes_of(self.device_scene)
+        if keeps_shapes and self.switch.uses_fast_kernel:
+            after.bake()
         if after.film is not self.film:
             self.film.release()
         if after.aovs is not self.aovs:
-            self.aovs.release(after.aovs)
+            self.aovs.release()
+        self.probes.release(after.probes)
+        self._release_own()
         after.film.restart(plan.first_sample)
         after.aovs.restart(plan)
-        if after.switch is not self.switch:
-            self.switch.release()
-            return after, Cost.RECOMPILE
-        if not after.device_scene.has_shapes_of(self.device_scene):
-            self.switch.use_general()
-        most = after.film.at_once(after.most_samples)
-        self.switch.schedule.restart(after._tiles, most, plan.settings.bounces)
-        return after, Cost.RESTART
+        return after, Cost.RESTART if is_same else Cost.RECOMPILE
 
     @property
     def tier(self) -> str:
@@ -140,7 +134,7 @@ class Tracer:
         if settings.gathered != self.aovs.aovs:
             after = self._aovs_for(settings, self)
             after.restart(self._plan)
-            self.aovs.release(after)
+            self.aovs.release()
             self.aovs = after
 
     @property
@@ -204,7 +198,7 @@ class Tracer:
         """Go on by a kernel that has the shapes written in; False where there is none."""
         shaders = None if self.switch.uses_fast_kernel else self.device_scene.baked()
         if shaders:
-            self.switch.use_fast(shaders, self._dispatch)
+            self.switch.use_fast(shaders)
         return shaders is not None
 
     def step(self, samples: int) -> None:
@@ -240,21 +234,25 @@ class Tracer:
 
     def release(self) -> None:
         """Free what the driver holds."""
+        for part in (self.film, self.probes, self.aovs):
+            part.release()
+        self._release_own()
+
+    def _release_own(self) -> None:
+        """Free what no other tracer takes over."""
         if self.particles:
             self.particles.release()
-        for part in (self.film, self.probes, self.aovs, self.switch, self.device_scene):
-            part.release()
+        self.switch.release()
+        self.device_scene.release()
 
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
         """What gathers the AOVs of settings: that of `before` where it does."""
-        if before and not self.device_scene.has_kernel_of(before.device_scene):
-            before = None
         plan = replace(self._plan, settings=settings)
-        if before and before.aovs.serve(settings):
+        is_same = before and self.device_scene.has_kernel_of(before.device_scene)
+        if before and is_same and before.aovs.serve(settings):
             before.aovs.check(plan)
             return before.aovs
-        known = before.aovs if before else None
-        return AovTracer(self._context, plan, self.device_scene, known)
+        return AovTracer(self._context, plan, self.device_scene)
 
     @property
     def _lacks_particles(self) -> bool:
@@ -267,7 +265,8 @@ class Tracer:
             self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)
 
     def _compiled(self) -> KernelSwitch:
-        schedule = Schedule(self._tiles, self.film.at_once(self.most_samples))
+        rounds = iterations_per_sample(self._plan)
+        schedule = Schedule(self._tiles, self.film.at_once(self.most_samples), rounds)
         return KernelSwitch(self._context, self.device_scene.shaders, schedule, self._dispatch)
 
     def _at_once(self, samples: int) -> None:

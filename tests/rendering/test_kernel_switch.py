@@ -1,7 +1,5 @@
 """A renderer goes on by a kernel with the shapes written into it, and back: no bit tells."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -27,25 +25,23 @@ from tests.support.renders import SAMPLERS, rendering, same
 SMALL: dict[str, Any] = {"width": 40, "height": 24, "bounces": 4}
 
 
-@contextmanager
-def counted(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Any]]:
-    """The kernels that were compiled and are not released."""
-    alive: list[Any] = []
+@pytest.fixture
+def fresh(context: Context) -> Context:
+    """The same context, without any known program."""
+    return Context(context.gl, context.route, context.device)
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """The kernels that are compiled from here on."""
+    kernels: list[Any] = []
 
     def compiling(*arguments: Any) -> Any:
-        kernel = compiled(*arguments)
-        alive.append(kernel)
-        release = kernel.release
-
-        def forget() -> None:
-            alive.remove(kernel)
-            release()
-
-        monkeypatch.setattr(kernel, "release", forget)
-        return kernel
+        kernels.append(compiled(*arguments))
+        return kernels[-1]
 
     monkeypatch.setattr(kernel_switch, "compiled", compiling)
-    yield alive
+    return kernels
 
 
 def moved(scene: Scene) -> Scene:
@@ -124,26 +120,26 @@ def test_a_frame_that_has_begun_is_begun_again(
 
 
 @pytest.mark.parametrize("edit", [moved, lambda scene: seen(scene, position=(0.3, 0.2, 3.0))])
-def test_a_change_of_what_is_written_in_compiles_nothing_and_frees_the_program(
-    context: Context, monkeypatch: pytest.MonkeyPatch, edit: Any
+def test_a_change_of_what_is_written_in_compiles_nothing(
+    fresh: Context, made: list[Any], edit: Any
 ) -> None:
     with (
-        counted(monkeypatch) as alive,
-        rendering(everything(), context, **SMALL) as renderer,
-        rendering(edit(everything()), context, **SMALL) as plain,
+        rendering(everything(), fresh, **SMALL) as renderer,
+        rendering(edit(everything()), fresh, **SMALL) as plain,
     ):
-        stays = alive[0]
+        assert len(made) == 1, "two renderers of one kernel share it"
         renderer.render(2).bake()
-        assert alive[0] is stays
-        assert len(alive) == 3
+        assert len(made) == 2
         assert renderer.update(edit(everything())) is Cost.RESTART
         assert not renderer.is_baked
-        assert len(alive) == 2
-        assert alive[0] is stays
+        assert len(made) == 2
         assert same(renderer.render(6).image(), plain.render(6).image())
         assert renderer.bake()
+        assert len(made) == 3
         assert same(renderer.render(9).image(), plain.render(9).image())
-    assert not alive, "a renderer that is released keeps no program"
+        renderer.update(everything())
+        assert renderer.bake()
+        assert len(made) == 3, "a baked kernel is kept for a while"
 
 
 @pytest.mark.parametrize(
@@ -173,12 +169,14 @@ def test_other_changes_leave_the_faster_kernel_its_turn(
             assert same(renderer.render(5).image(), plain.render(5).image())
 
 
-def test_another_kernel_ends_the_turn(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
-    with counted(monkeypatch) as alive, rendering(everything(), context, **SMALL) as renderer:
+def test_another_kernel_ends_the_turn(fresh: Context, made: list[Any]) -> None:
+    with rendering(everything(), fresh, **SMALL) as renderer:
         renderer.render(2).bake()
         assert renderer.update(method="naive") is Cost.RECOMPILE
         assert not renderer.is_baked
-        assert len(alive) == 1
+        assert len(made) == 3
+        renderer.update(method="mis")
+        assert len(made) == 3, "the kernel from before is known still"
 
 
 def test_many_shapes_are_not_written_in_nor_twice(context: Context) -> None:
@@ -193,18 +191,18 @@ def test_many_shapes_are_not_written_in_nor_twice(context: Context) -> None:
 
 
 def test_a_kernel_that_is_refused_changes_nothing(
-    context: Context, monkeypatch: pytest.MonkeyPatch
+    fresh: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
         raise RenderError("not this one")
 
-    with rendering(everything(), context, **SMALL) as renderer:
+    with rendering(everything(), fresh, **SMALL) as renderer:
         renderer.render(3)
         monkeypatch.setattr(kernel_switch, "compiled", refuse)
         with pytest.raises(RenderError, match="not this one"):
             renderer.bake()
         monkeypatch.undo()
         assert not renderer.is_baked
-        plain = Renderer(everything(), renderer.settings, context).render(5)
+        plain = Renderer(everything(), renderer.settings, fresh).render(5)
         assert same(renderer.render(5).image(), plain.image())
         plain.release()

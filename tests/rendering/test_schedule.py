@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from glrt.gpu.program import Pace
 from glrt.rendering.schedule import (
     FIRST_TILES,
     GROWTH,
@@ -114,13 +115,16 @@ def test_who_looks_at_a_picture_sees_it_change_before_long() -> None:
 
 
 def test_a_picture_that_begins_again_is_planned_by_what_a_single_sample_takes() -> None:
-    schedule = Schedule(4096, 1000)
+    schedule, pace = Schedule(4096, 1000), Pace()
+    schedule.follow(pace)
     assert frames(schedule, lanes, 256)[-1][0][0].samples == MOST_TOGETHER
-    schedule.restart(4096, 1000, bounces=0)
-    first = frames(schedule, lanes, 1)[0]
+    again = Schedule(4096, 1000)
+    again.follow(pace)
+    first = frames(again, lanes, 1)[0]
     assert max(seconds for _, seconds in first) <= 0.2502
-    schedule.restart(4096, 1000, bounces=1)
-    assert schedule.next_dispatch(1, 0.25).tiles <= FIRST_TILES
+    longer = Schedule(4096, 1000, rounds=1)
+    longer.follow(pace)
+    assert longer.next_dispatch(1, 0.25).tiles <= FIRST_TILES
 
 
 def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
@@ -132,16 +136,19 @@ def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
 
 def test_the_next_picture_of_a_kernel_begins_with_what_is_known() -> None:
     """As a camera that moves wants it: each frame is another picture."""
-    schedule = Schedule(1000, 64)
-    schedule.restart(1000, 64, bounces=5)
-    assert schedule.next_dispatch(64, 1.0).tiles <= FIRST_TILES
-    while not schedule.record(part := schedule.next_dispatch(1, 1.0), 1e-4 * FIRST_TILES):
+    pace = Pace()
+
+    def schedule(tiles: int, rounds: int) -> Schedule:
+        found = Schedule(tiles, 64, rounds)
+        found.follow(pace)
+        return found
+
+    first = schedule(1000, 5)
+    assert first.next_dispatch(64, 1.0).tiles <= FIRST_TILES
+    while not first.record(part := first.next_dispatch(1, 1.0), 1e-4 * FIRST_TILES):
         pass
-    tried = part.tiles
-    schedule.restart(250, 64, bounces=5)
-    assert schedule.next_dispatch(1, 1.0).tiles == min(250, GROWTH * tried)
-    schedule.restart(250, 64, bounces=6)
-    assert schedule.next_dispatch(1, 1.0).tiles <= FIRST_TILES, "longer paths: who knows"
+    assert schedule(250, 5).next_dispatch(1, 1.0).tiles == min(250, GROWTH * part.tiles)
+    assert schedule(250, 6).next_dispatch(1, 1.0).tiles <= FIRST_TILES, "longer samples: who knows"
 
 
 def test_a_frame_of_more_samples_than_are_left_is_dropped() -> None:

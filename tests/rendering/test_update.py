@@ -8,6 +8,7 @@ import pytest
 
 from glrt.core.errors import RenderError, SceneError, UsageError
 from glrt.gpu.context import Context
+from glrt.gpu.glsl import Source
 from glrt.rendering import device_scene, kernel_switch
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.scene import Scene
@@ -166,7 +167,8 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
         raise RenderError("not this kernel")
 
     monkeypatch.setattr("glrt.rendering.renderer.INTERACTIVE", INTERACTIVE._replace(limit=1e-12))
-    with rendering(everything(), context, layering="groups") as renderer:
+    fresh = Context(context.gl, context.route, context.device)  # it knows no kernel yet
+    with rendering(everything(), fresh, layering="groups") as renderer:
         renderer.render(2)
         renderer.advance(0.0, 9)
         assert renderer.work > 2
@@ -196,7 +198,8 @@ def test_a_refused_update_keeps_nothing_on_the_driver(
 
         return noted
 
-    with rendering(everything(), context) as renderer:
+    fresh = Context(context.gl, context.route, context.device)
+    with rendering(everything(), fresh) as renderer:
         for name in ("texture", "buffer", "compute_shader"):
             noted = staticmethod(noting(getattr(context.gl, name)))
             monkeypatch.setattr(moderngl.Context, name, noted)
@@ -217,7 +220,7 @@ def test_settings_alone_pack_no_scene_and_moves_assemble_no_kernel(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with rendering(everything(), context) as renderer:
-        monkeypatch.setattr(device_scene, "sources", None)
+        monkeypatch.setattr(Source, "lines", None)
         assert renderer.update(RESTARTING["a millionth of a step"]) is Cost.RESTART
         monkeypatch.setattr(device_scene, "pack_scene", None)
         assert renderer.update(seed=3, width=20) is Cost.RESTART

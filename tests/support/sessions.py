@@ -1,4 +1,4 @@
-"""Sessions without a window: a clock that obeys, frames and rests, and trial compiles as told."""
+"""Sessions without a window: a settable clock, frames, rests, and processes that are played."""
 
 from collections.abc import Callable
 from typing import Any
@@ -6,12 +6,9 @@ from typing import Any
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.view.controls import replaced
-from glrt.view.state.idle_compile import Finding
 from glrt.view.state.idle_kernel import PAUSE
 from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import ANNOUNCED, Session
-
-GOOD = Finding(0.01, is_same=True)
 
 Opening = Callable[..., Session]
 
@@ -28,30 +25,27 @@ class Clock:
 
 
 class Played:
-    """A rehearsal whose end and finding are told."""
+    """A process that compiles ahead, with a given end."""
 
-    def __init__(self, finding: Finding | None) -> None:
+    def __init__(self, succeeded: bool) -> None:
         self.is_over, self.is_ended = True, False
-        self._finding = finding
-
-    def finding(self) -> Finding | None:
-        return self._finding
+        self.succeeded = succeeded
 
     def end(self) -> None:
         self.is_ended = True
 
 
 class Stage:
-    """Where rehearsals are played: each has the next finding, the last for ever."""
+    """Starts played processes: each has the next of the ends, the last end for ever."""
 
-    def __init__(self, *findings: Finding | None) -> None:
-        self.findings = list(findings)
+    def __init__(self, *ends: bool) -> None:
+        self.ends = list(ends) or [True]
         self.played: list[Played] = []
         self.is_over = True
 
     def __call__(self, _: Renderer) -> Any:
-        finding = self.findings.pop(0) if len(self.findings) > 1 else self.findings[0]
-        self.played.append(Played(finding))
+        end = self.ends.pop(0) if len(self.ends) > 1 else self.ends[0]
+        self.played.append(Played(end))
         self.played[-1].is_over = self.is_over
         return self.played[-1]
 

@@ -40,7 +40,7 @@ def session(context: Context, clock: Clock, dispatches_by_clock: None) -> Iterat
 
 @pytest.fixture
 def opened(context: Context, clock: Clock) -> Iterator[Opening]:
-    """Opens a session whose rehearsals are played, and lets it get its first samples."""
+    """Opens a session whose processes are played, and lets it get its first samples."""
     sessions: list[Session] = []
 
     def opening(stage: Callable[[Renderer], Any], **ways: Any) -> Session:

@@ -5,16 +5,16 @@ import pytest
 from glrt.core.errors import RenderError
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
-from glrt.view.state.idle_compile import Finding, TrialCompile
-from glrt.view.state.idle_kernel import LONGEST, MOST, PAUSE
+from glrt.view.state.compile_ahead import CompileAhead
+from glrt.view.state.idle_kernel import MOST, PAUSE
 from tests.support.builders import MATTE, scene_of, sphere
-from tests.support.sessions import GOOD, Clock, Opening, Stage, frames, rested, walked
+from tests.support.sessions import Clock, Opening, Stage, frames, rested, walked
 
 
-def test_nothing_is_rehearsed_before_a_pause_nor_after_the_last_sample(
+def test_nothing_is_compiled_ahead_before_a_pause_nor_after_the_last_sample(
     opened: Opening, clock: Clock
 ) -> None:
-    stage = Stage(GOOD)
+    stage = Stage()
     session = opened(stage, samples=40)
     for _ in range(4):
         session.edit(seed=session.settings.seed + 1)
@@ -31,10 +31,10 @@ def test_nothing_is_rehearsed_before_a_pause_nor_after_the_last_sample(
     assert len(stage.played) == 1
 
 
-def test_an_edit_ends_a_rehearsal_and_a_window_that_closes_too(
+def test_an_edit_ends_the_process_and_a_window_that_closes_too(
     opened: Opening, clock: Clock
 ) -> None:
-    stage = Stage(GOOD)
+    stage = Stage()
     stage.is_over = False
     session = opened(stage)
     assert not rested(session, clock)
@@ -47,8 +47,8 @@ def test_an_edit_ends_a_rehearsal_and_a_window_that_closes_too(
     assert stage.played[1].is_ended
 
 
-def test_many_shapes_are_not_rehearsed(opened: Opening, clock: Clock) -> None:
-    stage = Stage(GOOD)
+def test_many_shapes_are_not_compiled_ahead(opened: Opening, clock: Clock) -> None:
+    stage = Stage()
     balls = [sphere([i, 0, -9], 0.4, "m") for i in range(MOST_BAKED + 1)]
     many = scene_of(balls, {"m": MATTE}, background={"color": [1, 1, 1]})
     session = opened(stage, scene=many)
@@ -56,22 +56,10 @@ def test_many_shapes_are_not_rehearsed(opened: Opening, clock: Clock) -> None:
     assert not stage.played
 
 
-@pytest.mark.parametrize("finding", [Finding(1.01 * LONGEST, True), Finding(0.01, False)])
-def test_a_driver_that_would_stall_or_round_otherwise_is_left_alone_for_good(
-    opened: Opening, clock: Clock, finding: Finding
-) -> None:
-    stage = Stage(finding, GOOD)
-    session = opened(stage)
-    assert not rested(session, clock)
-    session.edit(seed=1)
-    assert not rested(session, clock)
-    assert len(stage.played) == 1
-
-
-def test_a_rehearsal_that_failed_is_tried_again_after_the_next_edit(
+def test_a_process_that_failed_is_tried_again_after_the_next_edit(
     opened: Opening, clock: Clock
 ) -> None:
-    stage = Stage(None, GOOD)
+    stage = Stage(False, True)
     session = opened(stage)
     assert not rested(session, clock)
     assert not rested(session, clock)
@@ -83,7 +71,7 @@ def test_a_rehearsal_that_failed_is_tried_again_after_the_next_edit(
 def test_where_no_process_can_be_started_the_window_goes_on(opened: Opening, clock: Clock) -> None:
     tried: list[Renderer] = []
 
-    def begin(renderer: Renderer) -> TrialCompile:
+    def begin(renderer: Renderer) -> CompileAhead:
         tried.append(renderer)
         raise OSError("no more processes")
 
@@ -99,7 +87,7 @@ def test_a_window_that_stood_still_once_does_not_again(
     opened: Opening, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As where the driver's cache is not shared after all."""
-    session = opened(Stage(GOOD))
+    session = opened(Stage())
     bake = Renderer.bake
 
     def slow(renderer: Renderer) -> bool:
@@ -118,7 +106,7 @@ def test_a_kernel_that_is_refused_here_leaves_the_other(
     def refuse(_: Renderer) -> bool:
         raise RenderError("no")
 
-    session = opened(Stage(GOOD))
+    session = opened(Stage())
     monkeypatch.setattr(Renderer, "bake", refuse)
     assert not rested(session, clock)
     samples = session.samples

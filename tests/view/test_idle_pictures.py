@@ -14,7 +14,7 @@ from glrt.view.state.session import Session
 from tests.support.builders import sphere
 from tests.support.images import same_bits
 from tests.support.mixed_scene import everything
-from tests.support.sessions import GOOD, Clock, Opening, Stage, frames, rested, walked
+from tests.support.sessions import Clock, Opening, Stage, frames, rested, walked
 
 
 def aside(scene: Scene) -> Scene:
@@ -50,7 +50,7 @@ def test_rest_edit_and_rest_again_give_the_bits_of_a_render_without_a_window(
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     layering: Layering = "groups" if pipeline == "compute" else "none"
-    session = opened(Stage(GOOD), pipeline=pipeline, sampler=sampler)
+    session = opened(Stage(), pipeline=pipeline, sampler=sampler)
     assert session.renderer
     assert rested(session, clock)
     frames(session, 33)
@@ -70,7 +70,7 @@ def test_rest_edit_and_rest_again_give_the_bits_of_a_render_without_a_window(
 def test_light_that_is_weighed_and_a_camera_that_turns_leave_the_faster_kernel_its_turn(
     opened: Opening, clock: Clock, context: Context
 ) -> None:
-    session = opened(Stage(GOOD))
+    session = opened(Stage())
     assert session.renderer
     assert rested(session, clock)
     samples = session.samples
@@ -90,7 +90,7 @@ def test_light_that_is_weighed_and_a_camera_that_turns_leave_the_faster_kernel_i
 def test_a_moving_camera_is_planned_by_the_kernel_that_it_will_have(
     opened: Opening, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    session = opened(Stage(GOOD))
+    session = opened(Stage())
     assert rested(session, clock)
     learnt: list[tuple[float, ...]] = []
     monkeypatch.setattr(session._preview, "record", lambda *frame: learnt.append(frame))

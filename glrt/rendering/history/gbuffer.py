@@ -12,9 +12,9 @@ from glrt.core.errors import RenderError
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.context import checked
 from glrt.gpu.program import tile_count
-from glrt.rendering.device_scene import DeviceScene
+from glrt.gpu.programs import AnyKernel
 from glrt.rendering.history.drawn_pass import DrawnPass
-from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.kernel_switch import taken
 from glrt.rendering.pass_film import Size
 from glrt.rendering.passes import SURFACES
 from glrt.rendering.renderer import Renderer
@@ -102,8 +102,6 @@ class SurfacePass:
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled before it is needed."""
         self._edges = DrawnPass(gl, "edges.frag")
-        self._kernel: AnyKernel | None = None
-        self._compiled_for: DeviceScene | None = None
 
     def fill(self, renderer: Renderer, surfaces: Surfaces) -> None:
         """Find the surfaces of the view that a renderer shows.
@@ -117,21 +115,12 @@ class SurfacePass:
 
         with renderer.context.gl:
             surfaces.begin(renderer)
-            if not self._kernel or not scene.has_kernel_of(self._compiled_for or scene):
-                self._release_kernel()
-                self._kernel = ready(renderer.context, scene.shaders_of(SURFACES), dispatch)
-            self._compiled_for = scene
-            for part in whole_frame(1, tiles):
-                dispatch(self._kernel, part)
+            with taken(renderer.context, scene.shaders_of(SURFACES), dispatch) as kernel:
+                for part in whole_frame(1, tiles):
+                    dispatch(kernel, part)
             target = surfaces.marked.sized(surfaces.size)
             self._edges.draw(target, surfaces.unmarked, {})
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self._release_kernel()
         self._edges.release()
-
-    def _release_kernel(self) -> None:
-        if self._kernel:
-            self._kernel.release()
-        self._kernel = self._compiled_for = None

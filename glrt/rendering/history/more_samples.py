@@ -10,8 +10,8 @@ import moderngl
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Images, Kernel
-from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.gpu.programs import AnyKernel
+from glrt.rendering.kernel_switch import taken
 from glrt.rendering.passes import MORE
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import DispatchRange
@@ -32,8 +32,6 @@ class MoreSamples:
         self._gl = gl
         self._canvas = Canvas(gl, "f4")
         self._gather: Kernel | None = None
-        self._kernel: AnyKernel | None = None
-        self._compiled_for: DeviceScene | None = None
 
     def images(self) -> Images:
         """The textures under the names of the kernel's images."""
@@ -60,15 +58,12 @@ class MoreSamples:
             self._gather = self._gather or Kernel(self._gl, Source("gather.comp"))
             self._gather.bind({"List": pixels, "mask": mask}, {})
             self._gather.run(*size)
-            if not self._kernel or not scene.has_kernel_of(self._compiled_for or scene):
-                self._release_kernel()
-                self._kernel = ready(renderer.context, scene.shaders_of(MORE), dispatch)
-            self._compiled_for = scene
             count = int.from_bytes(pixels.read(4), "little")
             groups = -(-count // GROUP)
-            for first in range(0, groups, GROUPS):
-                dispatch(self._kernel, DispatchRange(samples, first, min(GROUPS, groups - first)))
-                renderer.context.finish()
+            with taken(renderer.context, scene.shaders_of(MORE), dispatch) as kernel:
+                for first in range(0, groups, GROUPS):
+                    dispatch(kernel, DispatchRange(samples, first, min(GROUPS, groups - first)))
+                    renderer.context.finish()
             scene.lost_any()  # the film has lost none of these
         finally:
             pixels.release()
@@ -77,13 +72,7 @@ class MoreSamples:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self._release_kernel()
         if self._gather:
             self._gather.release()
         self._gather = None
         self._canvas.release()
-
-    def _release_kernel(self) -> None:
-        if self._kernel:
-            self._kernel.release()
-        self._kernel = self._compiled_for = None

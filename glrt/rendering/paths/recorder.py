@@ -10,9 +10,10 @@ import numpy as np
 from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.program import Images, Resource
+from glrt.gpu.programs import AnyKernel
 from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
-from glrt.rendering.kernel_switch import AnyKernel, ready
+from glrt.rendering.kernel_switch import ready
 from glrt.rendering.passes import RenderPass
 from glrt.rendering.paths.records import RECORDS
 from glrt.rendering.schedule import DispatchRange
@@ -96,7 +97,7 @@ class PathRecorder:
 
     def release(self) -> None:
         """Free what the driver holds."""
-        self._kernel.release()
+        self._context.programs.give_back(self._kernel)
         self._release_buffers()
 
     def _dispatch(self, kernel: AnyKernel, first: int, count: int, groups: int) -> None:

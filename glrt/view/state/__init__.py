@@ -12,7 +12,7 @@ Modules, each importing only what stands above it:
 - preview_noise: whether a preview is too noisy to read
 - frame_budget: render time per frame
 - layer_limits: whether a driver has room for layers
-- idle_compile: a kernel compiled by another process
+- compile_ahead: a kernel compiled by another process
 - idle_kernel: when the faster kernel takes over
 - zoom: visible part of the picture
 - histogram: histogram of brightness

@@ -1,17 +1,15 @@
-"""Compile a kernel ahead in another process, so that the window finds it in the driver's cache.
+"""Compile a kernel in another process, so that the window finds it in the driver's cache.
 
 Drivers compile for 0.3 s and more, in which a window would stand still. `python -m
-glrt.view.state.idle_compile` reads from its input what is to be rendered, and prints what it found.
+glrt.view.state.compile_ahead` reads from its input what is to be compiled.
 """
 
-import json
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from tempfile import TemporaryFile
-from typing import NamedTuple, get_args
+from typing import get_args
 
 from glrt.core.errors import ContextError
 from glrt.core.version import VERSION
@@ -24,30 +22,21 @@ from glrt.scene.loading.scene_files import with_stand_ins
 from glrt.settings import Settings, settings_for
 
 _ROUTES: tuple[Choice, ...] = ("egl", "window")
-TIMES = 3  # that compiling from the cache is timed: the least counts, whatever else runs
 
 
-class Finding(NamedTuple):
-    """What is known of a faster kernel before the window compiles it."""
-
-    seconds: float  # to compile it, when it is in the driver's cache
-    is_same: bool  # whether it gives the bits of the kernel that it is to relieve
-
-
-class TrialCompile:
+class CompileAhead:
     """The process, seen from the window."""
 
     def __init__(self, renderer: Renderer) -> None:
-        """Begin; OSError if no process can be started."""
+        """Begin with the baked kernel of a renderer; OSError if no process can be started."""
         with TemporaryFile("w+", encoding="utf-8") as part:
             part.write(part_of(renderer))
             part.seek(0)
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "glrt.view.state.idle_compile"],
+                [sys.executable, "-m", "glrt.view.state.compile_ahead"],
                 stdin=part,
-                stdout=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
-                text=True,
             )
 
     @property
@@ -55,13 +44,13 @@ class TrialCompile:
         """Whether the process has ended, for better or worse."""
         return self._process.poll() is not None
 
-    def finding(self) -> Finding | None:
-        """What it found; None if it failed. Once, when it is over."""
-        told, _ = self._process.communicate()
-        return None if self._process.returncode else Finding(**json.loads(told))
+    @property
+    def succeeded(self) -> bool:
+        """Whether the driver took the kernel, once the process is over."""
+        return self._process.poll() == 0
 
     def end(self) -> None:
-        """Stop it: what it would find is of no use any more."""
+        """Stop the process: nobody needs its kernel now."""
         self._process.kill()
         self._process.communicate()
 
@@ -80,31 +69,15 @@ def part_of(renderer: Renderer) -> str:
     return f"{plan.layering}\n{recipe.to_json()}\n"
 
 
-def rehearse(part: str) -> Finding:
-    """Compile the kernel, hold it against the other, and compile it again as the window will.
+def compile_part(part: str) -> None:
+    """Compile the baked kernel of a part, as `part_of` writes it.
 
-    ContextError if the driver of the window is not to be had here.
+    ContextError if the driver of the window cannot be opened here.
     """
     first, rest = part.split("\n", 1)
     layering: Layering = next(name for name in get_args(Layering) if name == first)
-    recipe = Recipe.from_json(rest, "The part to rehearse")
-    with _ready(recipe, layering) as renderer:
-        count = 2 * renderer.settings.block + 1
-        expected = renderer.render(count).image()
+    with _ready(Recipe.from_json(rest, "The part to compile"), layering) as renderer:
         renderer.bake()
-        renderer.restart()
-        image = renderer.render(count).image()
-    pairs = (image.radiance, expected.radiance), (image.stderr, expected.stderr)
-    is_same = all(left.tobytes() == right.tobytes() for left, right in pairs)
-    return Finding(min(_compile_seconds(recipe, layering) for _ in range(TIMES)), is_same)
-
-
-def _compile_seconds(recipe: Recipe, layering: Layering) -> float:
-    """In a context that knows no kernel yet."""
-    with _ready(recipe, layering) as renderer:
-        start = time.perf_counter()
-        renderer.bake()
-        return time.perf_counter() - start
 
 
 @contextmanager
@@ -148,4 +121,4 @@ def _small(side: int) -> int:
 
 
 if __name__ == "__main__":
-    print(json.dumps(rehearse(sys.stdin.read())._asdict()))
+    compile_part(sys.stdin.read())

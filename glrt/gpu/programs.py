@@ -1,0 +1,50 @@
+"""The programs of a context, by their source: each is compiled once, and shared by its users."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from glrt.gpu.glsl import Source
+from glrt.gpu.program import FragmentKernel, Kernel
+
+AnyKernel = Kernel | FragmentKernel
+IDLE = 8  # programs that are kept though nobody uses them
+
+
+@dataclass
+class _Held:
+    """A program, and how many users it has."""
+
+    kernel: AnyKernel
+    users: int = 0
+
+
+class Programs:
+    """A cache of compiled programs: unused ones are freed, the least recently used first."""
+
+    def __init__(self) -> None:
+        """Empty."""
+        self._held: dict[tuple[object, ...], _Held] = {}  # most recently used last
+
+    def take(self, shaders: Sequence[Source], compiled: Callable[[], AnyKernel]) -> AnyKernel:
+        """The program of these shaders; `compiled` makes it where it is not there.
+
+        Each call needs a `give_back` when its user is done.
+        """
+        key = tuple(shader.key for shader in shaders)
+        held = self._held.pop(key, None) or _Held(compiled())
+        held.users += 1
+        self._held[key] = held
+        self._free_idle()
+        return held.kernel
+
+    def give_back(self, kernel: AnyKernel) -> None:
+        """One user less. The program stays for a while."""
+        held = next(held for held in self._held.values() if held.kernel is kernel)
+        held.users -= 1
+        held.kernel.rest()
+        self._free_idle()
+
+    def _free_idle(self) -> None:
+        idle = [key for key, held in self._held.items() if not held.users]
+        for key in idle[: max(len(idle) - IDLE, 0)]:
+            self._held.pop(key).kernel.release()
