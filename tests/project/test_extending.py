@@ -76,7 +76,10 @@ def run(tree: Path, program: str) -> "subprocess.CompletedProcess[str]":
 ANNULUS = """
 import math
 import glrt
+import numpy as np
 from glrt.scene.scenefile.toml import parse_scene
+from glrt.view.edits.new_objects import with_new
+from glrt.view.viewport.outline import outline
 from glrt.view.viewport.pick import pick
 from glrt.view.viewport.transform import scaled, shifted
 
@@ -112,6 +115,11 @@ assert abs(float(aovs["depth"].value[16, 24].mean()) - 4.0) < 0.01
 seen = pick(scene, 1.0, 0.5, 0.5 + 0.75 / edge)
 assert seen and seen.number == 0
 assert pick(scene, 1.0, 0.5, 0.5) is None
+drawn = outline(scene.objects[0], scene.camera, 1.0)
+assert len(drawn) == 128, "an outer and an inner rim, and no edge between them"
+assert abs(float(np.abs(drawn[..., 0] - 0.5).max()) - 1.0 / edge) < 1e-6
+added = with_new(scene, "annulus", (0.0, 0.0, 0.0), 0.5)
+assert added.objects[-1].outer == 0.5
 big = scaled(shifted(scene.objects[0], [1.0, 0.0, 0.0]), 2.0)
 assert (big.center, big.inner, big.outer) == ((1.0, 0.0, 0.0), 1.0, 2.0)
 """

@@ -8,16 +8,17 @@ import pytest
 
 import glrt
 from glrt.scene.camera import Camera
+from glrt.scene.shapes import mesh as mesh_module
 from glrt.scene.shapes.box import Box
 from glrt.scene.shapes.cylinder import Cylinder
 from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.faces import STEPS, faces_of_triangles
 from glrt.scene.shapes.kinds import KINDS, Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.quad import Quad
 from glrt.scene.shapes.sphere import Sphere
-from glrt.view.viewport import outline as outlines
-from glrt.view.viewport.outline import STEPS, faces_of_triangles, outline
+from glrt.view.viewport.outline import outline
 from glrt.view.viewport.pick import ray_through
 from tests.support.meshes import icosphere
 
@@ -103,12 +104,12 @@ def test_a_hole_has_its_rim() -> None:
     assert len(outline(holed, CAMERA, ASPECT)) in range(
         len(outline(ball_mesh(), CAMERA, ASPECT)), len(outline(ball_mesh(), CAMERA, ASPECT)) + 4
     )
-    rims = faces_of_triangles(vertices, faces[1:]).beside < 0
+    rims = faces_of_triangles(vertices, faces[1:]).neighbours < 0
     assert rims.any(axis=1).sum() == 3
 
 
 def test_the_outline_of_a_large_mesh_is_that_of_its_box(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(outlines, "MOST_TRIANGLES", 10)
+    monkeypatch.setattr(mesh_module, "MOST_OUTLINED", 10)
     vertices, faces = BALL
     turned = glrt.Mesh(vertices, faces, material="a", rotate=(0, 45, 0))
     low, high = vertices.min(axis=0), vertices.max(axis=0)

@@ -2,6 +2,7 @@
 
 Modules, each importing only what stands above it:
 
+- faces: flat faces and their edges, for outlines
 - base: base classes of shapes
 - box: boxes
 - mesh: placed triangle meshes

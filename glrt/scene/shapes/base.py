@@ -1,21 +1,23 @@
-"""What every shape has, and arithmetic that several share."""
+"""Base classes of shapes, and arithmetic that several share."""
 
 import math
 from abc import abstractmethod
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from glrt.scene.shapes.faces import Faces
 from glrt.scene.values import Name, Tagged, Vector
 from glrt.settings import Cost, Editable
 
 Array = NDArray[np.float64]
+UP = np.array([0.0, 1.0, 0.0])
 
 
 class Object(Tagged):
-    """What every shape has: a name, a material, and answers about its geometry."""
+    """A shape: a name, a material, and answers about its geometry."""
 
     name: Name | None = Field(None, description="name of the object in messages and the window")
     material: Name = Field(description="name of one of the materials")
@@ -72,6 +74,22 @@ class Object(Tagged):
         end. The corners go round; a triangle among quads repeats its last one.
         """
 
+    @property
+    @abstractmethod
+    def faces(self) -> Faces | None:
+        """Its flat faces, or strips in place of round ones; None for a ball.
+
+        A window draws its outline by them.
+        """
+
+    @classmethod
+    @abstractmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """Fields of a new one about a place, (3,), that reaches about `size` from there.
+
+        Empty for a kind that needs a file.
+        """
+
     @staticmethod
     @abstractmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
@@ -99,7 +117,7 @@ class Cornerless(Object):
 
 
 class Sided(Object):
-    """What every shape has whose front can emit alone."""
+    """A shape whose front can emit alone."""
 
     emission_side: Annotated[Literal["both", "front"], Editable(Cost.RECOMPILE)] = Field(
         "both",
@@ -139,7 +157,7 @@ def dots(vectors: Array, direction: Array) -> Array:
 def along_and_rest(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array]:
     """(n,): how far a ray goes to the middle of its chord through n balls, and half the chord.
 
-    `rows` are centre and radius; the half chord is NaN beside a ball.
+    `rows` are centre and radius; the half chord is NaN for a ray that misses.
     """
     to_center = rows[:, :3] - origin
     along = dots(to_center, direction)

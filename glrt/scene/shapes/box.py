@@ -1,12 +1,13 @@
 """Shapes with flat faces and edges that enclose a volume: boxes."""
 
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from glrt.scene.shapes.base import Array, Object
+from glrt.scene.shapes.faces import Faces, box_faces
 from glrt.scene.values import SMALLEST, Triple, Vector
 
 
@@ -95,9 +96,19 @@ class Box(Object):
         corners: Array = np.array(self.middle) + np.array(faces)
         return corners
 
+    @property
+    def faces(self) -> Faces:
+        """Six."""
+        return box_faces(np.array(self.middle), self.axes * self.halves[:, None])
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """A cube."""
+        return {"min": place - size, "max": place + size}
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Of its corners."""
+        """Boxes around the corners."""
         half = (np.abs(rows[:, 6:].reshape(-1, 3, 3)) * rows[:, 3:6, None]).sum(axis=1)
         return rows[:, :3] - half, rows[:, :3] + half
 

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 from pydantic import Field, create_model, model_validator
 
-from glrt.scene.shapes.base import NO_POLYGONS, Array, Object, dots, ring
+from glrt.scene.shapes.base import NO_POLYGONS, UP, Array, Object, dots, ring
 from glrt.scene.shapes.box import nearest_of_two
+from glrt.scene.shapes.faces import STEPS, Faces, circle, faces_of_triangles
 from glrt.scene.values import SMALLEST, Length, Number, Triple, Vector
 
 if TYPE_CHECKING:
@@ -121,9 +122,36 @@ class Cylinder(_Ended):
             [ring(np.array(end), self.axis, self.radius) for end in (self.from_, self.to)]
         )
 
+    @property
+    def faces(self) -> Faces:
+        """Its wall in strips, and its caps."""
+        low, high = np.array(self.from_), np.array(self.to)
+        axis = (high - low) / np.linalg.norm(high - low)
+        below = circle(low, axis, self.radius)[:, 0]
+        vertices = np.concatenate([below, below + (high - low), [low, high]])
+        k = np.arange(STEPS)
+        n = (k + 1) % STEPS
+        wall = np.concatenate(
+            [np.stack([k, n, n + STEPS], 1), np.stack([k, n + STEPS, k + STEPS], 1)]
+        )
+        caps = np.concatenate(
+            [
+                np.stack([n, k, np.full(STEPS, 2 * STEPS)], 1),
+                np.stack([k + STEPS, n + STEPS, np.full(STEPS, 2 * STEPS + 1)], 1),
+            ]
+        )
+        triangles = np.concatenate([wall, caps]) if self.capped else wall
+        flat = np.concatenate([np.tile(k, 2), np.repeat([STEPS, STEPS + 1], STEPS)])
+        return faces_of_triangles(vertices, triangles, flat[: len(triangles)])
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """An upright one, twice as high as wide."""
+        return {"from": place - size * UP, "to": place + size * UP, "radius": size / 2}
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Of its rims."""
+        """Boxes around both rims."""
         axis, half, radius = rows[:, 3:6], rows[:, 6:7], rows[:, 7:8]
         reach = half * np.abs(axis) + radius * np.sqrt(np.maximum(1 - axis**2, 0))
         return rows[:, :3] - reach, rows[:, :3] + reach

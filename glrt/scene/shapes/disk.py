@@ -1,18 +1,20 @@
 """Flat disks."""
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
 from glrt.scene.shapes.base import (
+    UP,
     Array,
     Sided,
     ring,
     to_planes,
     unsigned,
 )
+from glrt.scene.shapes.faces import Faces, circle, flat_face
 from glrt.scene.values import Direction, Length, Number, Triple, Vector
 
 
@@ -69,9 +71,20 @@ class Disk(Sided):
         normal = np.array(self.normal) / np.linalg.norm(self.normal)
         return ring(np.array(self.center), normal, self.radius)[None]
 
+    @property
+    def faces(self) -> Faces:
+        """One, with many corners."""
+        axis = np.array(self.normal) / np.linalg.norm(self.normal)
+        return flat_face(circle(np.array(self.center), axis, self.radius)[:, 0])
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """A disk that faces up."""
+        return {"center": place, "normal": UP, "radius": size}
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Of its rim."""
+        """Boxes around the rim."""
         normal = rows[:, 3:6] / np.linalg.norm(rows[:, 3:6], axis=1)[:, None]
         reach = rows[:, 6:] * np.sqrt(np.maximum(1 - normal**2, 0))
         return rows[:, :3] - reach, rows[:, :3] + reach

@@ -5,6 +5,7 @@ shape is in shaders_glsl/shapes/ and glrt/packing/shapes.py. docs/extending.md s
 added.
 """
 
+from inspect import isabstract
 from typing import Annotated, Any, get_args
 
 from pydantic import Field
@@ -24,3 +25,7 @@ Shape = Annotated[
 KINDS: dict[str, Any] = {  # the model of each kind, in the order of the kernel's numbering
     kind.model_fields["shape"].default: kind for kind in get_args(get_args(Shape)[0])
 }
+
+for _kind in KINDS.values():
+    if isabstract(_kind):
+        raise TypeError(f"{_kind.__name__} lacks {', '.join(sorted(_kind.__abstractmethods__))}")

@@ -11,8 +11,11 @@ from glrt.scene.files.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.shapes.base import Array, Sided, along_and_rest
 from glrt.scene.shapes.box import rotation
+from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
 from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
+
+MOST_OUTLINED = 200_000  # triangles whose edges are looked at for an outline
 
 
 def _three(value: Any) -> Any:
@@ -59,7 +62,7 @@ class Mesh(Sided):
     uv=None, material=...)`: places of vertices, (v, 3); the numbers of those of each triangle,
     (n, 3), counter-clockwise seen from outside; normals at the vertices, (v, 3); linear colours
     there, (v, 3) of 0 to 1, by which that of the material is multiplied; and texture coordinates
-    there, (v, 2), (0, 0) in the upper left of an image. Such a mesh is saved beside its scene.
+    there, (v, 2), (0, 0) in the upper left of an image. Such a mesh is saved next to its scene.
     """
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
@@ -145,7 +148,7 @@ class Mesh(Sided):
 
     @property
     def triangles_of_file(self) -> TriangleMesh:
-        """Those of all parts; ValueError before the file is read."""
+        """The triangles of all parts; ValueError before the file is read."""
         if self.file.triangles is None:
             raise ValueError(f"the file {self.file.file} was not read")
         return self.file.triangles
@@ -224,9 +227,25 @@ class Mesh(Sided):
         corners: Array = self.world_vertices[self.triangles.faces]
         return corners
 
+    @property
+    def faces(self) -> Faces:
+        """Its triangles, or the box around them if they are very many."""
+        triangles = self.triangles
+        if len(triangles.faces) > MOST_OUTLINED:
+            low, high = triangles.box
+            middle = self.linear @ ((low + high) / 2) + self.origin
+            return box_faces(middle, (self.linear * ((high - low) / 2)).T)
+        corners = welded(triangles.vertices)[triangles.faces]
+        return faces_of_triangles(self.world_vertices, corners)
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """Nothing: a mesh comes from a file."""
+        return {}
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Of the ball."""
+        """Boxes around the ball."""
         return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
 
     @staticmethod

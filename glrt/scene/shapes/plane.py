@@ -1,17 +1,19 @@
 """Infinite planes."""
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
 from glrt.scene.shapes.base import (
+    UP,
     Array,
     Cornerless,
     to_planes,
     unsigned,
 )
+from glrt.scene.shapes.faces import STEPS, Faces, circle, flat_face
 from glrt.scene.values import Direction, Triple, Vector
 
 
@@ -58,6 +60,18 @@ class Plane(Cornerless):
         """Normal and height."""
         normal = unsigned(self.normal)
         return np.array([[*normal, normal @ (np.array(self.point) - about)]])
+
+    @property
+    def faces(self) -> Faces:
+        """A square about its point, of edges of length 1: a plane has no end."""
+        axis = np.array(self.normal) / np.linalg.norm(self.normal)
+        ring = circle(np.array(self.point), axis, math.sqrt(0.5))
+        return flat_face(ring[:: STEPS // 4, 0])
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """A floor below the place."""
+        return {"point": place - size * UP, "normal": UP}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:

@@ -1,7 +1,7 @@
 """Parallelograms."""
 
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -11,6 +11,7 @@ from glrt.scene.shapes.base import (
     Sided,
     to_planes,
 )
+from glrt.scene.shapes.faces import Faces, flat_face
 from glrt.scene.values import Direction, Triple, Vector, are_parallel
 
 
@@ -80,9 +81,21 @@ class Quad(Sided):
         corners: Array = np.array(self.corner) + np.array([[0 * u, u, u + v, v]])
         return corners
 
+    @property
+    def faces(self) -> Faces:
+        """One."""
+        corner, u, v = np.array(self.corner), np.array(self.edge_u), np.array(self.edge_v)
+        return flat_face(np.array([corner, corner + u, corner + u + v, corner + v]))
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """A square that faces up."""
+        along, across = np.array([0.0, 0.0, size]), np.array([size, 0.0, 0.0])
+        return {"corner": place - along - across, "edge_u": 2 * along, "edge_v": 2 * across}
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Of its corners."""
+        """Boxes around the corners."""
         u, v = rows[:, 3:6], rows[:, 6:]
         corners = rows[:, :3] + np.stack([0 * u, u, v, u + v])
         return corners.min(axis=0), corners.max(axis=0)

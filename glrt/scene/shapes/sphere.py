@@ -1,7 +1,7 @@
 """Spheres."""
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from pydantic import Field
@@ -57,9 +57,19 @@ class Sphere(Cornerless):
         """Centre and radius."""
         return np.array([[*(np.array(self.center) - about), self.radius]])
 
+    @property
+    def faces(self) -> None:
+        """It is a ball."""
+        return None
+
+    @classmethod
+    def example(cls, place: Array, size: float) -> dict[str, Any]:
+        """A ball of that radius."""
+        return {"center": place, "radius": size}
+
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Of its ends along the axes."""
+        """Boxes around the ball."""
         return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
 
     @staticmethod

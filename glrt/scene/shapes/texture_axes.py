@@ -21,7 +21,7 @@ class TextureAxes(NamedTuple):
 
 
 def texture_axes(shape: Shape) -> TextureAxes | None:
-    """Those of a quad, a disk or a plane; None of what is not flat.
+    """Axes of a quad, a disk or a plane; None for other shapes.
 
     Of a quad along its edges from its corner; of a disk over the square around it; of a plane in
     scene units from its point.

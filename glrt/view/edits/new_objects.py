@@ -1,7 +1,6 @@
 """Objects that a user adds: one of each kind, at a place and of a size, and models from files."""
 
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.model_scene import model_scene
 from glrt.scene.scene import Scene
-from glrt.scene.shapes.base import Array
 from glrt.scene.shapes.kinds import KINDS, Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Vector
@@ -24,30 +22,7 @@ from glrt.view.edits.scene_edits import free_name, with_added
 LAMP = "lamp"  # what is added as one
 MATTE = Lambertian(color=(0.7, 0.7, 0.7))
 BRIGHT = Light(emission=(10.0, 10.0, 10.0))
-_UP = np.array([0.0, 1.0, 0.0])
-_ALONG, _ACROSS = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
-
-
-def _flat(place: Array, size: float, up: float = 1.0) -> dict[str, Any]:
-    """A square about a place, whose normal is along y, up or down."""
-    edges = {"edge_u": 2 * size * _ALONG * up, "edge_v": 2 * size * _ACROSS}
-    return {"corner": place - size * (up * _ALONG + _ACROSS), **edges}
-
-
-# The fields of each kind, for a place (3,) in its middle and half of its size.
-_FORMS: dict[str, Callable[[Array, float], dict[str, Any]]] = {
-    "sphere": lambda place, size: {"center": place, "radius": size},
-    "plane": lambda place, size: {"point": place - size * _UP, "normal": _UP},
-    "quad": _flat,
-    "disk": lambda place, size: {"center": place, "normal": _UP, "radius": size},
-    "box": lambda place, size: {"min": place - size, "max": place + size},
-    "cylinder": lambda place, size: {
-        "from": place - size * _UP,
-        "to": place + size * _UP,
-        "radius": size / 2,
-    },
-}
-ADDED = (*_FORMS, LAMP)
+ADDED = (*(kind for kind, model in KINDS.items() if model.example(np.zeros(3), 1.0)), LAMP)
 
 
 def with_new(scene: Scene, kind: str, place: Vector, size: float) -> Scene:
@@ -58,11 +33,14 @@ def with_new(scene: Scene, kind: str, place: Vector, size: float) -> Scene:
     size = two_digits(size)
     middle = np.array([near(part, size) for part in place])
     is_lamp = kind == LAMP
-    fields = _flat(middle, size, -1.0) if is_lamp else _FORMS[kind](middle, size)
+    model = KINDS["quad" if is_lamp else kind]
+    fields = model.example(middle, size)
+    if is_lamp:  # edges in the other order: it looks down
+        fields["edge_u"], fields["edge_v"] = fields["edge_v"], fields["edge_u"]
     names = {thing.name for thing in scene.objects if thing.name}
     groups = [*scene.materials, *scene.light_groups]  # so that a lamp has one of its own
     parts = {"material": free_name(kind, groups), "name": free_name(kind, names)}
-    shape: Shape = made(KINDS["quad" if is_lamp else kind], {**_fields(fields), **parts})
+    shape: Shape = made(model, {**_fields(fields), **parts})
     return with_added(scene, shape, BRIGHT if is_lamp else MATTE)
 
 
