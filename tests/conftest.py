@@ -69,6 +69,12 @@ def context() -> Iterator[Context]:
 
 
 @pytest.fixture
+def fresh(context: Context) -> Context:
+    """The same context without any known program: it compiles, and measures, from the start."""
+    return Context(context.gl, context.route, context.device)
+
+
+@pytest.fixture
 def loop_limit(context: Context, monkeypatch: pytest.MonkeyPatch) -> int:
     """The driver is taken to end loops after as many rounds as llvmpipe in Mesa 22 does."""
     driver = context.renderer, context.version

@@ -79,7 +79,7 @@ def test_a_signal_that_is_ignored_stays_ignored(tmp_path: Path) -> None:
     """As by nohup, or in the background of a script."""
     command = (
         "import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
-        "from glrt import signals; s = signals.handled(signals.interrupt); s.__enter__(); "
+        "from glrt.process import signals; s = signals.handled(signals.interrupt); s.__enter__(); "
         "os.kill(os.getpid(), signal.SIGINT); print('goes on')"
     )
     done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)

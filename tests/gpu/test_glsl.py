@@ -80,7 +80,7 @@ def test_no_include_is_left_for_the_driver() -> None:
 def test_a_missing_include_names_the_file_and_the_line_that_asks(shaders: Path) -> None:
     (shaders / "a.glsl").write_text('// one\n#include "lost.glsl"\n')
     with pytest.raises(RenderError, match=r"a\.glsl:2: .*'lost\.glsl': No such file"):
-        Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'})
+        _ = Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).text
 
 
 def test_a_file_is_read_once_until_it_is_asked_for_again(shaders: Path) -> None:

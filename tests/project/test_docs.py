@@ -12,6 +12,7 @@ PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglo
 OF_READERS = {  # files that a page tells readers to make, and the one that is written for a scene
     *("test_pictures.py", "test_pictures", "scene_arrays.glsl"),
     *("shaders_glsl/shapes/annulus.glsl", "shaders_glsl/bsdfs/velvet.glsl"),
+    *("glrt/scene/shapes/annulus.py", "glrt/scene/materials/velvet.py"),
 }
 SOURCE = r"`((?:[\w.-]+/)*[\w-]+\.(?:py|glsl|comp|vert|frag|wgsl))\b"
 FENCED = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)

@@ -39,7 +39,7 @@ def one_paragraph(text: str) -> str:
 KILLED_IN_SAVE = """
 import os, signal, sys
 from tests.support.images import picture
-from glrt import files
+from glrt.core import files
 def die(*_):
     os.kill(os.getpid(), signal.SIGKILL)
 setattr(files if sys.argv[2] == "_rename" else os, sys.argv[2], die)
@@ -211,10 +211,10 @@ def test_a_driver_that_does_not_know_the_question_is_not_asked() -> None:
 
 
 def test_dispatches_that_take_too_long_become_smaller(
-    context: Context, monkeypatch: pytest.MonkeyPatch
+    fresh: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A driver that has become a thousand times slower is given a thousandth of the work."""
-    renderer = Renderer(load("sky"), context=context, width=64, height=64)
+    renderer = Renderer(load("sky"), context=fresh, width=64, height=64)
     planned: list[int] = []
     record = renderer._tracer.switch.schedule.record
 

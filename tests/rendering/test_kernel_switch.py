@@ -22,13 +22,9 @@ from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.mixed_scene import everything
 from tests.support.renders import SAMPLERS, rendering, same
 
+pytestmark = pytest.mark.usefixtures("exact_kernels")  # shared ones have no shapes written in
+
 SMALL: dict[str, Any] = {"width": 40, "height": 24, "bounces": 4}
-
-
-@pytest.fixture
-def fresh(context: Context) -> Context:
-    """The same context, without any known program."""
-    return Context(context.gl, context.route, context.device)
 
 
 @pytest.fixture

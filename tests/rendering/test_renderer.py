@@ -231,7 +231,7 @@ def test_a_context_that_was_given_stays_open_when_a_renderer_is_refused(context:
 
 @pytest.mark.parametrize("place", ["kernel", "scene"])
 def test_an_error_of_the_driver_ends_a_render_before_it_begins(
-    context: Context, monkeypatch: pytest.MonkeyPatch, place: str
+    context: Context, fresh: Context, monkeypatch: pytest.MonkeyPatch, place: str
 ) -> None:
     """It may show a wrong picture. What others left in the context is no fault of a render."""
 
@@ -248,7 +248,7 @@ def test_an_error_of_the_driver_ends_a_render_before_it_begins(
         uploading = getattr(*whole)
         monkeypatch.setattr(*whole, fails)
         with pytest.raises(RenderError, match=r"the driver refuses .* GL_INVALID_ENUM"):
-            rendered(everything(), context)
+            rendered(everything(), fresh)
         monkeypatch.undo()
         assert plain.render(3).samples == 3
 

@@ -159,7 +159,7 @@ def test_refused_update_changes_nothing(
 
 
 def test_an_update_that_the_driver_refuses_changes_nothing(
-    context: Context, monkeypatch: pytest.MonkeyPatch
+    context: Context, fresh: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A film whose layers are wider than any texture, and a kernel; in a frame that has begun."""
 
@@ -167,7 +167,6 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
         raise RenderError("not this kernel")
 
     monkeypatch.setattr("glrt.rendering.renderer.INTERACTIVE", INTERACTIVE._replace(limit=1e-12))
-    fresh = Context(context.gl, context.route, context.device)  # it knows no kernel yet
     with rendering(everything(), fresh, layering="groups") as renderer:
         renderer.render(2)
         renderer.advance(0.0, 9)
@@ -187,7 +186,7 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
 
 
 def test_a_refused_update_keeps_nothing_on_the_driver(
-    context: Context, monkeypatch: pytest.MonkeyPatch
+    context: Context, fresh: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made: list[Any] = []
 
@@ -198,7 +197,6 @@ def test_a_refused_update_keeps_nothing_on_the_driver(
 
         return noted
 
-    fresh = Context(context.gl, context.route, context.device)
     with rendering(everything(), fresh) as renderer:
         for name in ("texture", "buffer", "compute_shader"):
             noted = staticmethod(noting(getattr(context.gl, name)))

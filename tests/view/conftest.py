@@ -29,17 +29,17 @@ def dispatches_by_clock(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def session(context: Context, clock: Clock, dispatches_by_clock: None) -> Iterator[Session]:
+def session(fresh: Context, clock: Clock, dispatches_by_clock: None) -> Iterator[Session]:
     scene = everything()
     settings = settings_for(scene.render, width=16, height=16, bounces=3, samples=1000)
-    opened = Session(scene, settings, context, clock)
-    with context.gl:
+    opened = Session(scene, settings, fresh, clock)
+    with fresh.gl:
         yield opened
         opened.release()
 
 
 @pytest.fixture
-def opened(context: Context, clock: Clock) -> Iterator[Opening]:
+def opened(fresh: Context, clock: Clock) -> Iterator[Opening]:
     """Opens a session whose processes are played, and lets it get its first samples."""
     sessions: list[Session] = []
 
@@ -49,12 +49,12 @@ def opened(context: Context, clock: Clock) -> Iterator[Opening]:
         sizes = {"width": 24, "height": 16, "bounces": 3, "samples": 1000}
         settings = settings_for(scene.render, **{**sizes, **ways})
         rest = IdleKernel(clock, stage)
-        session = Session(scene, settings, context, clock, pipeline, rest)
+        session = Session(scene, settings, fresh, clock, pipeline, rest)
         sessions.append(session)
         frames(session, ANNOUNCED + 1)
         return session
 
-    with context.gl:
+    with fresh.gl:
         yield opening
         for session in sessions:
             session.release()

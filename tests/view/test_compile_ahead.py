@@ -60,7 +60,7 @@ def test_it_compiles_the_baked_kernel_of_the_window(
     renderer.bake()
     wanted = renderer._tracer.device_scene.baked()
     baked: list[Renderer] = []
-    monkeypatch.setattr(Renderer, "bake", baked.append)
+    monkeypatch.setattr(Renderer, "bake", lambda renderer: baked.append(renderer))
     compile_part(part)
     assert wanted
     other = baked[0]._tracer.device_scene.baked()
