@@ -96,8 +96,9 @@ def findings(name: str) -> Iterator[Finding]:
 def prose_of(name: str, text: str) -> Iterator[tuple[int, str]]:
     """Pieces of prose with the line on which each begins."""
     if name.endswith(".md"):
-        for block in re.finditer(r"(?:^(?!```|\||#)[^\n]+\n)+", without_code(text), re.MULTILINE):
-            yield text.count("\n", 0, block.start()) + 1, block[0]
+        bare = without_code(text)
+        for block in re.finditer(r"(?:^(?!```|\||#)[^\n]+\n)+", bare, re.MULTILINE):
+            yield bare.count("\n", 0, block.start()) + 1, block[0]
     elif not name.endswith(".py"):
         for comment in re.finditer(r"(?:^[ \t]*//[^\n]*\n)+|//[^\n]*", text, re.MULTILINE):
             bare = re.sub(r"^[ \t]*// ?", "", comment[0], flags=re.MULTILINE)

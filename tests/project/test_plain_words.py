@@ -33,6 +33,7 @@ def test_docstrings_comments_and_messages_are_read_and_names_are_not() -> None:
 def test_pages_are_read_without_their_code() -> None:
     page = "# Told\n\nIt is built anew.\nOf three. What is it?\n\n```\ntell\n```\n\n`told`\n"
     assert found("a.md", page) == ["Of", "anew"]
+    assert [line for line, _ in plain_words.prose_of("a.md", page)] == [3, 10]
 
 
 def test_comments_of_shaders_are_read() -> None:

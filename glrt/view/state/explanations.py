@@ -43,7 +43,7 @@ EXPLANATIONS: dict[str, str] = {
         "the picture is too dark where points are hidden from some."
     ),
     "caustics": (
-        "on: paths from the lamps, too, linked to the camera at matte surfaces. Each way to find "
+        "on: paths from the lamps, too, linked to the camera at surfaces that are not smooth. Each way to find "
         "light is weighed by p^2 / (p^2 + q^2 + r^2), so the mean stays; light that glass or "
         "mirrors focus has far less noise."
     ),
