@@ -75,7 +75,11 @@ def walk(session: Session) -> None:
 @pytest.mark.slow_cases("ataa")
 @pytest.mark.parametrize("mode", ["reproject", "taa", "ataa", "wrls"])
 def test_the_first_edit_waits_for_no_shader(
-    context: Context, mode: Mode, monkeypatch: pytest.MonkeyPatch
+    context: Context,
+    mode: Mode,
+    clock: Clock,
+    dispatches_by_clock: None,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """They are compiled with the first sample; and the picture is as it would be otherwise."""
     scene, compiled, pictures = load("lamps"), list[str](), []
@@ -91,7 +95,8 @@ def test_the_first_edit_waits_for_no_shader(
         with monkeypatch.context() as patch, context.gl:
             if not prepares:
                 patch.setattr(Temporal, "prepare", lambda *_: None)
-            session = Session(scene, settings, context, Clock())
+            fresh = Context(context.gl, context.route, context.device)  # no pace is known
+            session = Session(scene, settings, fresh, clock)
             session.moving.use(Way(mode))
             start(session)
             while not session.is_done:
